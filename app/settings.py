@@ -41,7 +41,7 @@ TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
 MOST_NUMBER = 1e15
 DATA_VARIABLE = "CARPUS_DATA"
-GONE = {"report.retest_days"}
+GONE = {"report.agreement_limit_deg", "report.retest_days"}
 """Settings of earlier versions: accepted and ignored."""
 
 logger = logging.getLogger(__name__)
@@ -257,7 +257,7 @@ def _without_gone(values: Values, path: Path, where: str = "") -> Values:
 _PREFERENCES = {
     "screen": ("theme", "text_scale", "language", "research", "keys"),
     "recording": ("folder",),
-    "report": ("therapist", "angle_order", "agreement_limit_deg"),
+    "report": ("therapist", "angle_order"),
     "backup": ("folder", "hour"),
     "records": ("retention_years",),
     "lock": ("after_min",),

@@ -175,20 +175,6 @@ class Calibrator(Protocol):
         ...
 
 
-# --- agreement with another measurement ---------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class ReferenceChoice:
-    """Another measurement: a file, or another session. ``columns`` angle (or ``time``) to column, a minus before it
-    turns its sign; ``markers`` disc to marker; ``radians`` None as the file says."""
-
-    name: str
-    path: str = ""
-    session_id: str = ""
-    columns: Mapping[str, str] = field(default_factory=dict)
-    markers: Mapping[str, str] = field(default_factory=dict)
-    radians: bool | None = None
-
-
 # --- what a person chooses for the program ----------------------------------------------------------------
 ThemeChoice = Literal["light", "dark", "system"]
 
@@ -196,8 +182,7 @@ ThemeChoice = Literal["light", "dark", "system"]
 @dataclass(frozen=True, slots=True)
 class Preferences:
     """Choices of the settings screen. ``therapist`` initials are printed on reports; ``angle_order`` of the wrist's
-    angles, zyx or isb; ``stream``: live values go out to other programs; ``agreement_limit_deg`` what two measurements
-    may differ by and still stand for each other, 0 for none set."""
+    angles, zyx or isb; ``stream``: live values go out to other programs."""
 
     theme: ThemeChoice = "system"
     text_scale: float = 1.0
@@ -206,7 +191,6 @@ class Preferences:
     keys: Mapping[str, str] = field(default_factory=dict)
     angle_order: AngleOrder = "zyx"
     stream: bool = False
-    agreement_limit_deg: float = 0.0
     patient_sound: bool = False
     """Whether the patient's view beeps where a goal is reached."""
     language: str = "system"

@@ -14,6 +14,7 @@ from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCEN
 from carpus.core.hand.protocols import SITES
 from carpus.core.names import known_names
 
+MAX_LIMIT_DEG = 90.0
 EXAMPLE = "carpus compare session.h5 reference.c3d --output out/agreement"
 
 
@@ -84,6 +85,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PERCENT",
         help="by how much the reference's clock runs fast, to be taken out",
     )
+    parser.add_argument(
+        "--limit",
+        type=number(0.0, MAX_LIMIT_DEG, "degrees"),
+        default=0.0,
+        metavar="DEGREES",
+        help="what the two may differ by, set before comparing: each angle is judged by it, and the plots show it",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -92,7 +100,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.reference is None:
         return misused("compare", "a session and its reference are needed, or --study TABLE.csv.")
     from carpus.app.of_file import read_choices
-    from carpus.core.agreement.compared_files import compare_files, lines, write_files
+    from carpus.core.agreement.compared_files import compare_files, limit_lines, lines, write_files
 
     radians: bool | None = None if arguments.unit is None else arguments.unit == "rad"
     columns: Mapping[str, str] = arguments.columns
@@ -108,14 +116,14 @@ def run(arguments: argparse.Namespace) -> int:
         drift=0.01 * arguments.drift,
         choices=read_choices(arguments.session),
     )
-    for line in lines(result.compared):
+    for line in [*lines(result.compared), *limit_lines(result.compared.pairs, arguments.limit)]:
         print(line)
     if arguments.output is not None:
         for path in write_files(result, arguments.output, __version__):
             print(f"Written: {path}")
         from carpus.ui.report.agreement_plot import write_plots
 
-        for path in write_plots(result.compared, arguments.output, result.stem):
+        for path in write_plots(result.compared, arguments.output, result.stem, arguments.limit):
             print(f"Written: {path}")
     return 0
 
@@ -123,6 +131,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _study(arguments: argparse.Namespace) -> int:
     from carpus.app.command_line import bar
     from carpus.app.of_file import read_choices
+    from carpus.core.agreement.compared_files import limit_lines
     from carpus.core.agreement.study import read_table, study_lines, study_of, write_study
 
     of_one: dict[str, object] = {"columns": {}, "markers": {}, "unit": None, "session": None}
@@ -135,14 +144,16 @@ def _study(arguments: argparse.Namespace) -> int:
             arguments.study, lines, smoothed=arguments.smoothed, most_shift_s=arguments.max_shift,
             choices_of=read_choices, progress=progress,
         )  # fmt: skip
-    for line in study_lines(study):
+    known = [one.pairs for one in study.angles if math.isfinite(one.pairs.figures_deg.bias)]
+    for line in [*study_lines(study), *limit_lines(known, arguments.limit)]:
         print(line)
     if arguments.output is not None:
         from carpus.ui.report.agreement_plot import write_plots
 
         files = write_study(study, arguments.output, __version__)
-        known = [one.pairs for one in study.angles if math.isfinite(one.pairs.figures_deg.bias)]
         picture = replace(study.as_compared(), pairs=tuple(known))
-        for path in [*files, *(write_plots(picture, arguments.output, arguments.study.stem) if known else ())]:
+        if known:
+            files += write_plots(picture, arguments.output, arguments.study.stem, arguments.limit)
+        for path in files:
             print(f"Written: {path}")
     return 1 if study.left_out else 0

@@ -11,7 +11,6 @@ from PySide6.QtCore import QObject
 from carpus.ui.flow import Flow, Navigator, ScreenContext
 
 if TYPE_CHECKING:
-    from carpus.ui.agreement.flow import AgreementFlow
     from carpus.ui.beside.flow import BesideFlow
     from carpus.ui.by_hand.flow import ByHandFlow
     from carpus.ui.camera_calibration.flow import BoardFlow
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
 
 CORE = (
     "carpus.core.pipeline.correction",
-    "carpus.core.agreement.compared_files",
     "carpus.core.agreement.retest",
     "carpus.core.calibration.camera.calibrate",
     "carpus.core.calibration.card.measure",
@@ -39,7 +37,7 @@ CORE = (
 """What takes longest to load of what screens use, and has nothing of Qt in it: for whatever thread."""
 PLACES = (
     "patients", "exercise", "camera", "markers", "live", "sessions", "review", "progress", "report", "by_hand",
-    "agreement", "beside", "retest", "board", "card", "help", "correct",
+    "beside", "retest", "board", "card", "help", "correct",
 )  # fmt: skip
 
 
@@ -57,7 +55,6 @@ class Screens(QObject):
     progress: ProgressFlow
     report: ReportFlow
     by_hand: ByHandFlow
-    agreement: AgreementFlow
     beside: BesideFlow
     retest: RetestFlow
     board: BoardFlow
@@ -117,10 +114,6 @@ def flow_class(place: str) -> Callable[[ScreenContext], Flow]:
             from carpus.ui.by_hand.flow import ByHandFlow
 
             return ByHandFlow
-        case "agreement":
-            from carpus.ui.agreement.flow import AgreementFlow
-
-            return AgreementFlow
         case "beside":
             from carpus.ui.beside.flow import BesideFlow
 

@@ -4,7 +4,6 @@ work that tells how far it is and can be stopped."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,28 +11,6 @@ import scipy
 from numpy.typing import NDArray
 
 from carpus.core.types import FloatArray
-
-
-class Stopped(Exception):
-    """Somebody stopped the work before it was done; nothing was written."""
-
-
-@dataclass(frozen=True, slots=True)
-class WorkWatch:
-    """``progress`` hears (percent, 100); ``cancelled`` is asked each time, and ends the work by :class:`Stopped`."""
-
-    progress: Callable[[int, int], None] = lambda _done, _total: None
-    cancelled: Callable[[], bool] = lambda: False
-
-    def at(self, share: float) -> None:
-        """So much of all is done."""
-        if self.cancelled():
-            raise Stopped
-        self.progress(round(100.0 * share), 100)
-
-
-UNWATCHED = WorkWatch()
-
 
 STEP_S = 1.0 / 100.0
 """Of the times on which a shift is looked for."""
@@ -134,9 +111,7 @@ class ClockCurves:
         return _match(self.mine, there, self.weight, 8, self.either_sign)
 
 
-def best_shift(
-    curves: ClockCurves, most_s: float, same_clock_alike: float = 0.0, watch: WorkWatch = UNWATCHED
-) -> Shift:
+def best_shift(curves: ClockCurves, most_s: float, same_clock_alike: float = 0.0) -> Shift:
     """The shift at which the curves go together best, by cross-correlation over what they share: of several that do as
     well, as repetitions do, the smallest. None where without it the correlation is less by no more than
     ``same_clock_alike``."""
@@ -154,7 +129,6 @@ def best_shift(
     shifts = np.arange(-furthest, furthest + 1)
     alike = np.full((len(shifts), a.shape[1]), np.nan)
     for k in range(a.shape[1]):
-        watch.at(k / a.shape[1])
         alike[:, k] = _correlations(a[:, k], b[:, k], shifts - first, least)
     match = _joined(alike, weight, either_sign=curves.either_sign)
     if not np.isfinite(match).any():

@@ -12,10 +12,8 @@ from carpus.core import so3
 from carpus.core.agreement.clocks import (
     LEAST_OVERLAP_S,
     STEP_S,
-    UNWATCHED,
     ClockCurves,
     Shift,
-    WorkWatch,
     at_times,
     best_shift,
     with_drift,
@@ -107,13 +105,12 @@ def compare(
     lag_s: float = math.nan,
     drift: float = 0.0,
     figures: SessionFigures | None = None,
-    watch: WorkWatch = UNWATCHED,
 ) -> Compared:
     """Agreement of a session with a reference: of the filter's result, or the smoother's.
 
     ``lag_s`` is taken for the shift where it is known, and not looked for; ``drift`` is the share by which the
     reference's clock runs fast. ``figures`` of the session serve readings that name no time. Raises
-    :class:`ReferenceUnsuited`, and :class:`Stopped` where ``watch`` says so.
+    :class:`ReferenceUnsuited`.
     """
     if not len(session):
         raise ReferenceUnsuited(reference.path, phrase("the session holds no picture"))
@@ -133,7 +130,7 @@ def compare(
         curves = _curves_of_angles(session, reference, time_s, own)
         not_used += [f"{name}: not in the session" for name in reference.angles_rad if name not in own]
         not_used += [f"{name}: not in the reference" for name in own if name not in reference.angles_rad]
-    shift = _shift(curves, session, reference, most_shift_s, lag_s, drift, watch)
+    shift = _shift(curves, session, reference, most_shift_s, lag_s, drift)
     theirs: Mapping[str, FloatArray] = reference.angles_rad
     alignment = None
     if reference.points_m:
@@ -186,7 +183,6 @@ def _shift(
     most_shift_s: float,
     lag_s: float,
     drift: float,
-    watch: WorkWatch,
 ) -> Shift:
     """As given, or the best there is, with the drift that is left."""
     if math.isfinite(lag_s):
@@ -197,7 +193,7 @@ def _shift(
         alike = SAME_CLOCK_ALIKE if reference.angles_rad else 0.0
         most_shift_s = min(most_shift_s, SAME_CLOCK_S) if reference.same_clock else most_shift_s
     faster = replace(curves, time_s=curves.time_s * (1.0 + drift))
-    shift = replace(best_shift(faster, most_shift_s, alike, watch), drift=drift)
+    shift = replace(best_shift(faster, most_shift_s, alike), drift=drift)
     shift = with_drift(curves, shift)
     _check_match(reference, curves, shift)
     return shift

@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from carpus.core.agreement.clocks import UNWATCHED, WorkWatch
 from carpus.core.agreement.compare import MOST_SHIFT_S, Compared, Pairs, compare
 from carpus.core.agreement.reference import read_reference
-from carpus.core.agreement.statistics import FEWEST, FEWEST_TO_JUDGE, Agreement
+from carpus.core.agreement.statistics import FEWEST, FEWEST_TO_JUDGE, Agreement, furthest, judged
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.provenance import provenance
 from carpus.core.formats.take import number
@@ -51,22 +50,17 @@ def compare_files(
     lag_s: float = math.nan,
     drift: float = 0.0,
     choices: RepetitionChoices | None = None,
-    watch: WorkWatch = UNWATCHED,
 ) -> Result:
     """Read both and compare. ``choices`` are what a person left out, for readings of the whole range.
 
-    Raises the faults of reading, :class:`ReferenceUnsuited`, and :class:`Stopped` where ``watch`` says so.
+    Raises the faults of reading, and :class:`ReferenceUnsuited`.
     """
-    watch.at(0.0)
     session = read_session(session_path)
-    watch.at(0.0)
     reference = read_reference(reference_path, columns, markers, radians, smoothed, session.header.hand)
     figures = session_figures(session, choices) if reference.readings else None
     compared = compare(
-        session, reference, smoothed=smoothed, most_shift_s=most_shift_s, lag_s=lag_s, drift=drift, figures=figures,
-        watch=watch,
+        session, reference, smoothed=smoothed, most_shift_s=most_shift_s, lag_s=lag_s, drift=drift, figures=figures
     )  # fmt: skip
-    watch.at(1.0)
     return Result(compared, session, reference_path)
 
 
@@ -216,6 +210,16 @@ def figure_lines(figures: Sequence[tuple[str, Agreement]]) -> list[str]:
             f"  {iccs[0]:25}  {iccs[1]:25}  {_short(f.cmc)}{few}"
         )
     return out
+
+
+def limit_lines(all_pairs: Sequence[Pairs], limit_deg: float) -> list[str]:
+    """Say of each angle whether both limits of agreement lie within a limit that was set before."""
+    said = {"agree": "agrees within {limit:g}°", "apart": "up to {apart:.1f}° apart", "few": "too few pairs to say"}
+    return [
+        f"Limit        {pairs.name} {said[verdict].format(limit=limit_deg, apart=furthest(pairs.figures_deg))}"
+        for pairs in all_pairs
+        if (verdict := judged(pairs.figures_deg, limit_deg)) in said
+    ]
 
 
 def _with_interval(value: float, interval: tuple[float, float]) -> str:

@@ -8,7 +8,6 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
@@ -80,42 +79,6 @@ class Reference:
     """What was taken for granted in reading it."""
     same_clock: bool = False
     """Whether its times are those of the session's own pictures."""
-
-
-@dataclass(frozen=True, slots=True)
-class ReferenceOutline:
-    """What a reference is made of: ``names`` of its markers or columns, and ``found`` ours to theirs by their names
-    (``time`` among them), before anybody says which is which."""
-
-    path: Path
-    kind: Literal["points", "angles", "readings", "session"]
-    names: tuple[str, ...] = ()
-    found: Mapping[str, str] = field(default_factory=dict)
-
-
-def outline_of(path: Path) -> ReferenceOutline:
-    """The outline of a reference. Raises :class:`ReferenceUnreadable`."""
-    suffix = path.suffix.lower()
-    if suffix in POINT_FILES:
-        track = read_c3d(path) if suffix == ".c3d" else read_trc(path)
-        there = {_plain(name): name for name in track.names}
-        return ReferenceOutline(path, "points", track.names, {name: there[name] for name in SITES if name in there})
-    if suffix in TABLE_FILES:
-        table = read_table(path, KNOWN_NAMES)
-        if _is_list(table):
-            return ReferenceOutline(path, "readings")
-        time = {"time": _time_name(table)} if _time_name(table) else {}
-        return ReferenceOutline(path, "angles", table.names, time | _found(table.names))
-    if suffix in ANGLE_FILES:
-        values = read_mot(path).values
-        return ReferenceOutline(path, "angles", tuple(values), {"time": "time"} | _found(values))
-    if suffix in SESSION_FILES:
-        return ReferenceOutline(path, "session")
-    raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
-
-
-def _found(columns: Iterable[str]) -> dict[str, str]:
-    return {name: found[0] for name in ANGLE_NAMES if (found := _candidates(name, columns))}
 
 
 def read_reference(

@@ -25,11 +25,10 @@ MOST_NAME, MOST_ADDRESS_LINES, MOST_ADDRESS = 60, 4, 80
 @dataclass(frozen=True, slots=True)
 class ReportSettings:
     """``therapist`` initials that are printed on reports; ``angle_order`` of the wrist's angles in the window and on
-    reports: the papers' ``zyx`` or ``isb``; ``agreement_limit_deg`` what two measurements may differ by, 0 for none."""
+    reports: the papers' ``zyx`` or ``isb``."""
 
     therapist: str = ""
     angle_order: AngleOrder = "zyx"
-    agreement_limit_deg: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,22 +40,6 @@
         <translation>Ordner der Patienten und Sitzungen</translation>
     </message>
     <message>
-        <source>{name}, other sign</source>
-        <translation>{name}, anderes Vorzeichen</translation>
-    </message>
-    <message>
-        <source>Three discs of the palm are needed.</source>
-        <translation>Drei Punkte der Handfläche werden gebraucht.</translation>
-    </message>
-    <message>
-        <source>The column of the times is needed.</source>
-        <translation>Die Spalte der Zeiten wird gebraucht.</translation>
-    </message>
-    <message>
-        <source>At least one angle is needed.</source>
-        <translation>Mindestens ein Winkel wird gebraucht.</translation>
-    </message>
-    <message>
         <source>Flexion–extension</source>
         <translation>Flexion–Extension</translation>
     </message>
@@ -108,160 +92,12 @@
         <translation>{low} bis {high}</translation>
     </message>
     <message>
-        <source>not judged: no limit was set</source>
-        <translation>nicht beurteilt: keine Grenze festgelegt</translation>
-    </message>
-    <message>
-        <source>too few to say, {count} readings</source>
-        <translation>zu wenig für eine Aussage, {count} Ablesungen</translation>
-    </message>
-    <message>
-        <source>agree within {limit}</source>
-        <translation>stimmen auf {limit} überein</translation>
-    </message>
-    <message>
-        <source>agree within {apart}, {count} readings</source>
-        <translation>stimmen auf {apart} überein, {count} Ablesungen</translation>
-    </message>
-    <message>
-        <source>up to {apart} apart: do not mix</source>
-        <translation>bis zu {apart} auseinander: nicht mischen</translation>
-    </message>
-    <message>
-        <source>{angle}: Carpus lies between {low} and {high} of the reference. Not judged.</source>
-        <translation>{angle}: Carpus liegt zwischen {low} und {high} der Referenz. Nicht beurteilt.</translation>
-    </message>
-    <message>
-        <source>{angles} agree within {limit}.</source>
-        <translation>{angles} stimmen auf {limit} überein.</translation>
-    </message>
-    <message>
-        <source>{angles} agrees within {limit}.</source>
-        <translation>{angles} stimmt auf {limit} überein.</translation>
-    </message>
-    <message>
-        <source>{angles} do not.</source>
-        <translation>{angles} nicht.</translation>
-    </message>
-    <message>
-        <source>{angles} does not.</source>
-        <translation>{angles} nicht.</translation>
-    </message>
-    <message>
-        <source>Too few readings of {angles}.</source>
-        <translation>Zu wenige Ablesungen: {angles}.</translation>
-    </message>
-    <message>
-        <source>{angles} do not agree within {limit}.</source>
-        <translation>{angles} stimmen nicht auf {limit} überein.</translation>
-    </message>
-    <message>
-        <source>{angles} does not agree within {limit}.</source>
-        <translation>{angles} stimmt nicht auf {limit} überein.</translation>
-    </message>
-    <message>
-        <source>Too few readings to say whether they agree within {limit}.</source>
-        <translation>Zu wenige Ablesungen, um eine Übereinstimmung auf {limit} zu beurteilen.</translation>
-    </message>
-    <message>
-        <source>Judged against the {limit} that you set before.</source>
-        <translation>Beurteilt gegen die {limit}, die Sie vorher festgelegt haben.</translation>
-    </message>
-    <message>
-        <source>No limit is set: Settings, “Agreement”. Set it before you compare.</source>
-        <translation>Keine Grenze festgelegt: Einstellungen, „Übereinstimmung“. Legen Sie sie vor dem Vergleich fest.</translation>
-    </message>
-    <message>
-        <source>A goniometer itself repeats within 4 to 5° by one rater.</source>
-        <translation>Ein Winkelmesser selbst wiederholt bei derselben Person auf 4 bis 5°.</translation>
-    </message>
-    <message>
-        <source>One session of one person says nothing of others.</source>
-        <translation>Eine Sitzung einer Person sagt nichts über andere.</translation>
-    </message>
-    <message>
-        <source>{count} angles</source>
-        <translation>{count} Winkel</translation>
-    </message>
-    <message>
         <source>{first} and {last}</source>
         <translation>{first} und {last}</translation>
     </message>
     <message>
-        <source>Time shift</source>
-        <translation>Zeitverschiebung</translation>
-    </message>
-    <message>
-        <source>none needed</source>
-        <translation>keine nötig</translation>
-    </message>
-    <message>
-        <source>hand held still at each reading</source>
-        <translation>Hand bei jeder Ablesung ruhig</translation>
-    </message>
-    <message>
-        <source>reference later</source>
-        <translation>Referenz später</translation>
-    </message>
-    <message>
-        <source>Carpus later</source>
-        <translation>Carpus später</translation>
-    </message>
-    <message>
-        <source>{later}; curves match {match}</source>
-        <translation>{later}; Übereinstimmung der Kurven {match}</translation>
-    </message>
-    <message>
-        <source>curves match {match}</source>
-        <translation>Übereinstimmung der Kurven {match}</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>keine</translation>
-    </message>
-    <message>
-        <source>Alignment</source>
-        <translation>Ausrichtung</translation>
-    </message>
-    <message>
-        <source>angles compared as they are</source>
-        <translation>Winkel ohne Umrechnung verglichen</translation>
-    </message>
-    <message>
-        <source>turned as one rigid body; {off} mm apart</source>
-        <translation>als starrer Körper gedreht; {off} mm auseinander</translation>
-    </message>
-    <message>
-        <source>of the reference; joined at Carpus’s pictures</source>
-        <translation>der Referenz; an den Bildern von Carpus zusammengeführt</translation>
-    </message>
-    <message>
-        <source>Sampling</source>
-        <translation>Abtastung</translation>
-    </message>
-    <message>
-        <source>{rate} a second</source>
-        <translation>{rate} je Sekunde</translation>
-    </message>
-    <message>
-        <source>readings: hand not still or not seen</source>
-        <translation>Ablesungen: Hand nicht ruhig oder nicht gesehen</translation>
-    </message>
-    <message>
-        <source>pictures predicted, doubtful or lost</source>
-        <translation>Bilder vorhergesagt, zweifelhaft oder verloren</translation>
-    </message>
-    <message>
-        <source>{left} of {all}</source>
-        <translation>{left} von {all}</translation>
-    </message>
-    <message>
-        <source>Left out</source>
-        <translation>Ausgelassen</translation>
-    </message>
-    <message>
-        <source>and {count} more, in the table that is saved</source>
-        <translation>und {count} weitere, in der gespeicherten Tabelle</translation>
     </message>
     <message>
         <source>Grip</source>
@@ -6460,18 +6296,6 @@
         <translation>wie sich Handgelenk und Finger bewegen, live, jeder Winkel mit seiner Unsicherheit</translation>
     </message>
     <message>
-        <source>runs the other way: opposite sign?</source>
-        <translation>läuft entgegengesetzt: Vorzeichen vertauscht?</translation>
-    </message>
-    <message>
-        <source>{angles}: the reference runs the other way.</source>
-        <translation>{angles}: die Referenz läuft entgegengesetzt.</translation>
-    </message>
-    <message>
-        <source>One of the two has the opposite sign, or they are not of one movement. Turn it and compare again.</source>
-        <translation>Eines von beiden hat das entgegengesetzte Vorzeichen, oder es ist nicht dieselbe Bewegung. Vorzeichen umkehren und erneut vergleichen.</translation>
-    </message>
-    <message>
         <source>{count} pairs, {kind}</source>
         <translation>{count} Paare, {kind}</translation>
     </message>
@@ -7058,158 +6882,6 @@
     <message>
         <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
         <translation>Nicht vergleichbar: {why}. Die Werte werden gezeigt, beurteilt wird nichts.</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementChart</name>
-    <message>
-        <source>Difference of the two measurements</source>
-        <translation>Unterschied der beiden Messungen</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementFlow</name>
-    <message>
-        <source>result of {when}</source>
-        <translation>Ergebnis vom {when}</translation>
-    </message>
-    <message>
-        <source>the session of {when}</source>
-        <translation>die Sitzung vom {when}</translation>
-    </message>
-    <message>
-        <source>Other measurements ({endings})</source>
-        <translation>Andere Messungen ({endings})</translation>
-    </message>
-    <message>
-        <source>Another measurement</source>
-        <translation>Andere Messung</translation>
-    </message>
-    <message>
-        <source>Save tables and plots into a folder</source>
-        <translation>Tabellen und Bilder in einen Ordner speichern</translation>
-    </message>
-    <message>
-        <source>same recording</source>
-        <translation>dieselbe Aufnahme</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementScreen</name>
-    <message>
-        <source>Other &amp;reference…</source>
-        <translation>Andere &amp;Referenz…</translation>
-    </message>
-    <message>
-        <source>&amp;Columns…</source>
-        <translation>&amp;Spalten…</translation>
-    </message>
-    <message>
-        <source>Save tables and plots…</source>
-        <translation>Tabellen und Bilder speichern…</translation>
-    </message>
-    <message>
-        <source>How far the comparison is</source>
-        <translation>Wie weit der Vergleich ist</translation>
-    </message>
-    <message>
-        <source>Stop</source>
-        <translation>Stopp</translation>
-    </message>
-    <message>
-        <source>Angle</source>
-        <translation>Winkel</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Unterschiede</translation>
-    </message>
-    <message>
-        <source>Curves</source>
-        <translation>Kurven</translation>
-    </message>
-    <message>
-        <source>Per angle</source>
-        <translation>Je Winkel</translation>
-    </message>
-    <message>
-        <source>Carpus less the reference; in brackets 95 % intervals, repeated values allowed for</source>
-        <translation>Carpus minus Referenz; in Klammern 95-%-Intervalle, wiederholte Werte berücksichtigt</translation>
-    </message>
-    <message>
-        <source>The limit is a choice, not a proof: change it in Settings, before comparing.</source>
-        <translation>Die Grenze ist eine Wahl, kein Beweis: Ändern Sie sie in den Einstellungen, vor dem Vergleich.</translation>
-    </message>
-    <message>
-        <source>Bringing the two together…</source>
-        <translation>Beides wird zusammengeführt…</translation>
-    </message>
-    <message>
-        <source>Compare this session with another measurement.</source>
-        <translation>Vergleichen Sie diese Sitzung mit einer anderen Messung.</translation>
-    </message>
-    <message>
-        <source>Of the same movement: markers, angles, goniometer readings, or another session.</source>
-        <translation>Derselben Bewegung: Marker, Winkel, Ablesungen am Winkelmesser oder eine andere Sitzung.</translation>
-    </message>
-    <message>
-        <source>Choose a &amp;reference…</source>
-        <translation>&amp;Referenz wählen…</translation>
-    </message>
-    <message>
-        <source>Comparing with {name}…</source>
-        <translation>Vergleich mit {name}…</translation>
-    </message>
-    <message>
-        <source>The session itself is never changed.</source>
-        <translation>Die Sitzung selbst wird nie geändert.</translation>
-    </message>
-    <message>
-        <source>How they were brought together</source>
-        <translation>Wie beides zusammengeführt wurde</translation>
-    </message>
-    <message>
-        <source>Not used</source>
-        <translation>Nicht verwendet</translation>
-    </message>
-    <message>
-        <source>Look at this first</source>
-        <translation>Zuerst ansehen</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementTable</name>
-    <message>
-        <source>Angle</source>
-        <translation>Winkel</translation>
-    </message>
-    <message>
-        <source>Mean difference</source>
-        <translation>Mittlere Differenz</translation>
-    </message>
-    <message>
-        <source>Limits of agreement</source>
-        <translation>Übereinstimmungsgrenzen</translation>
-    </message>
-    <message>
-        <source>RMSE</source>
-        <translation>RMSE</translation>
-    </message>
-    <message>
-        <source>ICC(2,1)</source>
-        <translation>ICC(2,1)</translation>
-    </message>
-    <message>
-        <source>Curve match</source>
-        <translation>Kurven gleich</translation>
-    </message>
-    <message>
-        <source>In words</source>
-        <translation>In Worten</translation>
-    </message>
-    <message>
-        <source>{low} to {high}</source>
-        <translation>{low} bis {high}</translation>
     </message>
 </context>
 <context>
@@ -8127,49 +7799,6 @@
     </message>
 </context>
 <context>
-    <name>ColumnsSheet</name>
-    <message>
-        <source>As the file says</source>
-        <translation>Wie in der Datei</translation>
-    </message>
-    <message>
-        <source>Degrees</source>
-        <translation>Grad</translation>
-    </message>
-    <message>
-        <source>Radians</source>
-        <translation>Radiant</translation>
-    </message>
-    <message>
-        <source>Compare</source>
-        <translation>Vergleichen</translation>
-    </message>
-    <message>
-        <source>Which marker is which?</source>
-        <translation>Welcher Marker ist welcher?</translation>
-    </message>
-    <message>
-        <source>Which column is which?</source>
-        <translation>Welche Spalte ist welche?</translation>
-    </message>
-    <message>
-        <source>Of {file}: at least three discs of the palm. Leave the others open.</source>
-        <translation>Aus {file}: mindestens drei Punkte der Handfläche. Lassen Sie die anderen offen.</translation>
-    </message>
-    <message>
-        <source>Of {file}: the time, and at least one angle. Leave the others open.</source>
-        <translation>Aus {file}: die Zeit und mindestens ein Winkel. Lassen Sie die anderen offen.</translation>
-    </message>
-    <message>
-        <source>Time</source>
-        <translation>Zeit</translation>
-    </message>
-    <message>
-        <source>other sign</source>
-        <translation>anderes Vorzeichen</translation>
-    </message>
-</context>
-<context>
     <name>Controls</name>
     <message>
         <source>Note</source>
@@ -8736,10 +8365,6 @@
     <message>
         <source>Choose the folder…</source>
         <translation>Ordner wählen…</translation>
-    </message>
-    <message>
-        <source>Compare with a &amp;reference…</source>
-        <translation>Mit &amp;Referenz vergleichen…</translation>
     </message>
     <message>
         <source>&amp;Other formats: settings…</source>
@@ -10747,37 +10372,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ReferenceSheet</name>
-    <message>
-        <source>Compare this session with what?</source>
-        <translation>Womit diese Sitzung vergleichen?</translation>
-    </message>
-    <message>
-        <source>The same movement, measured by something else at the same time: markers (C3D, TRC), angles (MOT, STO, or a CSV table), a list of goniometer readings (CSV), or another result.</source>
-        <translation>Dieselbe Bewegung, zur selben Zeit anders gemessen: Marker (C3D, TRC), Winkel (MOT, STO oder eine CSV-Tabelle), eine Liste von Ablesungen am Winkelmesser (CSV), oder ein anderes Ergebnis.</translation>
-    </message>
-    <message>
-        <source>Choose a &amp;file…</source>
-        <translation>&amp;Datei wählen…</translation>
-    </message>
-    <message>
-        <source>Or another session of this &amp;patient</source>
-        <translation>Oder andere Sitzung dieses &amp;Patienten</translation>
-    </message>
-    <message>
-        <source>Compare with this &amp;session</source>
-        <translation>Mit dieser &amp;Sitzung vergleichen</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-</context>
-<context>
     <name>ReportCard</name>
     <message>
         <source>Report</source>
@@ -11384,10 +10978,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Im &amp;Verlauf vergleichen</translation>
     </message>
     <message>
-        <source>Compare with a &amp;reference…</source>
-        <translation>Mit &amp;Referenz vergleichen…</translation>
-    </message>
-    <message>
         <source>&amp;Move to another patient…</source>
         <translation>Zu anderem &amp;Patienten…</translation>
     </message>
@@ -11625,14 +11215,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Wenn die Hand ruhig liegt</translation>
     </message>
     <message>
-        <source>none</source>
-        <translation>keine</translation>
-    </message>
-    <message>
-        <source>Agree within</source>
-        <translation>Übereinstimmung auf</translation>
-    </message>
-    <message>
         <source>For research</source>
         <translation>Für Forschung</translation>
     </message>
@@ -11673,10 +11255,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Forschung</translation>
     </message>
     <message>
-        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming, agreement. No value changes by it.</source>
-        <translation>Zeigt, was der Alltag einer Klinik nicht braucht: Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Formate eines Exports, die Reihenfolge der Winkel, Streaming, Übereinstimmung. Kein Wert ändert sich dadurch.</translation>
-    </message>
-    <message>
         <source>Order of the angles</source>
         <translation>Reihenfolge der Winkel</translation>
     </message>
@@ -11707,14 +11285,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one measures on; whether it speaks to a child or an adult is chosen with the exercise.</source>
         <translation>Ein zweiter Bildschirm oder ein eigenes Fenster, das der Person zeigt, was zu tun ist. Sie öffnet sich vom Messbildschirm aus; ob sie für ein Kind oder für Erwachsene spricht, wird mit der Übung gewählt.</translation>
-    </message>
-    <message>
-        <source>Agreement</source>
-        <translation>Übereinstimmung</translation>
-    </message>
-    <message>
-        <source>The most that Carpus and another measurement may differ by and still stand for each other: what would not change your treatment. Set it before you compare; with none, nothing is judged.</source>
-        <translation>Wie weit Carpus und eine andere Messung höchstens auseinanderliegen dürfen, um füreinander zu stehen: was Ihre Behandlung nicht ändern würde. Legen Sie es vor dem Vergleich fest; ohne Grenze wird nichts beurteilt.</translation>
     </message>
     <message>
         <source>Keys</source>
@@ -11779,6 +11349,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Data folder</source>
         <translation>Datenordner</translation>
+    </message>
+    <message>
+        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming. No value changes by it.</source>
+        <translation>Zeigt, was der Alltag einer Klinik nicht braucht: Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Formate eines Exports, die Reihenfolge der Winkel, Streaming. Kein Wert ändert sich dadurch.</translation>
     </message>
 </context>
 <context>

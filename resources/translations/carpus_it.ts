@@ -40,22 +40,6 @@
         <translation>Cartella di pazienti e sedute</translation>
     </message>
     <message>
-        <source>{name}, other sign</source>
-        <translation>{name}, segno opposto</translation>
-    </message>
-    <message>
-        <source>Three discs of the palm are needed.</source>
-        <translation>Servono tre dischetti del palmo.</translation>
-    </message>
-    <message>
-        <source>The column of the times is needed.</source>
-        <translation>Serve la colonna dei tempi.</translation>
-    </message>
-    <message>
-        <source>At least one angle is needed.</source>
-        <translation>Serve almeno un angolo.</translation>
-    </message>
-    <message>
         <source>Flexion–extension</source>
         <translation>Flesso-estensione</translation>
     </message>
@@ -108,160 +92,12 @@
         <translation>{low} a {high}</translation>
     </message>
     <message>
-        <source>not judged: no limit was set</source>
-        <translation>non valutato: nessun limite fissato</translation>
-    </message>
-    <message>
-        <source>too few to say, {count} readings</source>
-        <translation>troppo poche per dirlo, {count} letture</translation>
-    </message>
-    <message>
-        <source>agree within {limit}</source>
-        <translation>concordano entro {limit}</translation>
-    </message>
-    <message>
-        <source>agree within {apart}, {count} readings</source>
-        <translation>concordano entro {apart}, {count} letture</translation>
-    </message>
-    <message>
-        <source>up to {apart} apart: do not mix</source>
-        <translation>fino a {apart} di differenza: non mescolare</translation>
-    </message>
-    <message>
-        <source>{angle}: Carpus lies between {low} and {high} of the reference. Not judged.</source>
-        <translation>{angle}: Carpus sta fra {low} e {high} rispetto al riferimento. Non valutato.</translation>
-    </message>
-    <message>
-        <source>{angles} agree within {limit}.</source>
-        <translation>{angles} concordano entro {limit}.</translation>
-    </message>
-    <message>
-        <source>{angles} agrees within {limit}.</source>
-        <translation>{angles} concorda entro {limit}.</translation>
-    </message>
-    <message>
-        <source>{angles} do not.</source>
-        <translation>{angles} non concordano.</translation>
-    </message>
-    <message>
-        <source>{angles} does not.</source>
-        <translation>{angles} non concorda.</translation>
-    </message>
-    <message>
-        <source>Too few readings of {angles}.</source>
-        <translation>Troppo poche letture: {angles}.</translation>
-    </message>
-    <message>
-        <source>{angles} do not agree within {limit}.</source>
-        <translation>{angles} non concordano entro {limit}.</translation>
-    </message>
-    <message>
-        <source>{angles} does not agree within {limit}.</source>
-        <translation>{angles} non concorda entro {limit}.</translation>
-    </message>
-    <message>
-        <source>Too few readings to say whether they agree within {limit}.</source>
-        <translation>Troppo poche letture per dire se concordano entro {limit}.</translation>
-    </message>
-    <message>
-        <source>Judged against the {limit} that you set before.</source>
-        <translation>Valutato con il limite di {limit}, fissato prima.</translation>
-    </message>
-    <message>
-        <source>No limit is set: Settings, “Agreement”. Set it before you compare.</source>
-        <translation>Nessun limite fissato: Impostazioni, “Concordanza”. Fissarlo prima di confrontare.</translation>
-    </message>
-    <message>
-        <source>A goniometer itself repeats within 4 to 5° by one rater.</source>
-        <translation>Un goniometro stesso ripete entro 4–5° con un solo esaminatore.</translation>
-    </message>
-    <message>
-        <source>One session of one person says nothing of others.</source>
-        <translation>Una seduta di una persona non dice nulla di altre.</translation>
-    </message>
-    <message>
-        <source>{count} angles</source>
-        <translation>{count} angoli</translation>
-    </message>
-    <message>
         <source>{first} and {last}</source>
         <translation>{first} e {last}</translation>
     </message>
     <message>
-        <source>Time shift</source>
-        <translation>Sfasamento</translation>
-    </message>
-    <message>
-        <source>none needed</source>
-        <translation>non necessario</translation>
-    </message>
-    <message>
-        <source>hand held still at each reading</source>
-        <translation>mano ferma a ogni lettura</translation>
-    </message>
-    <message>
-        <source>reference later</source>
-        <translation>riferimento in ritardo</translation>
-    </message>
-    <message>
-        <source>Carpus later</source>
-        <translation>Carpus in ritardo</translation>
-    </message>
-    <message>
-        <source>{later}; curves match {match}</source>
-        <translation>{later}; curve concordi {match}</translation>
-    </message>
-    <message>
-        <source>curves match {match}</source>
-        <translation>curve concordi {match}</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>nessuno</translation>
-    </message>
-    <message>
-        <source>Alignment</source>
-        <translation>Allineamento</translation>
-    </message>
-    <message>
-        <source>angles compared as they are</source>
-        <translation>angoli confrontati così come sono</translation>
-    </message>
-    <message>
-        <source>turned as one rigid body; {off} mm apart</source>
-        <translation>ruotato come un corpo rigido; distanza {off} mm</translation>
-    </message>
-    <message>
-        <source>of the reference; joined at Carpus’s pictures</source>
-        <translation>del riferimento; uniti alle immagini di Carpus</translation>
-    </message>
-    <message>
-        <source>Sampling</source>
-        <translation>Campionamento</translation>
-    </message>
-    <message>
-        <source>{rate} a second</source>
-        <translation>{rate} al secondo</translation>
-    </message>
-    <message>
-        <source>readings: hand not still or not seen</source>
-        <translation>letture: mano non ferma o non vista</translation>
-    </message>
-    <message>
-        <source>pictures predicted, doubtful or lost</source>
-        <translation>immagini stimate, dubbie o perse</translation>
-    </message>
-    <message>
-        <source>{left} of {all}</source>
-        <translation>{left} su {all}</translation>
-    </message>
-    <message>
-        <source>Left out</source>
-        <translation>Esclusi</translation>
-    </message>
-    <message>
-        <source>and {count} more, in the table that is saved</source>
-        <translation>e altri {count}, nella tabella che viene salvata</translation>
     </message>
     <message>
         <source>Grip</source>
@@ -6452,18 +6288,6 @@
         <translation>come si muovono polso e dita, dal vivo, ogni angolo con la sua incertezza</translation>
     </message>
     <message>
-        <source>runs the other way: opposite sign?</source>
-        <translation>va al contrario: segno opposto?</translation>
-    </message>
-    <message>
-        <source>{angles}: the reference runs the other way.</source>
-        <translation>{angles}: il riferimento va al contrario.</translation>
-    </message>
-    <message>
-        <source>One of the two has the opposite sign, or they are not of one movement. Turn it and compare again.</source>
-        <translation>Uno dei due ha il segno opposto, o non è lo stesso movimento. Invertire il segno e confrontare di nuovo.</translation>
-    </message>
-    <message>
         <source>{count} pairs, {kind}</source>
         <translation>{count} coppie, {kind}</translation>
     </message>
@@ -7058,158 +6882,6 @@
     <message>
         <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
         <translation>Coppia non confrontabile: {why}. I valori sono mostrati, nulla è valutato.</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementChart</name>
-    <message>
-        <source>Difference of the two measurements</source>
-        <translation>Differenza delle due misure</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementFlow</name>
-    <message>
-        <source>result of {when}</source>
-        <translation>risultato del {when}</translation>
-    </message>
-    <message>
-        <source>the session of {when}</source>
-        <translation>la seduta: {when}</translation>
-    </message>
-    <message>
-        <source>Other measurements ({endings})</source>
-        <translation>Altre misure ({endings})</translation>
-    </message>
-    <message>
-        <source>Another measurement</source>
-        <translation>Un’altra misura</translation>
-    </message>
-    <message>
-        <source>Save tables and plots into a folder</source>
-        <translation>Salva tabelle e grafici in una cartella</translation>
-    </message>
-    <message>
-        <source>same recording</source>
-        <translation>stessa registrazione</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementScreen</name>
-    <message>
-        <source>Other &amp;reference…</source>
-        <translation>Altro &amp;riferimento…</translation>
-    </message>
-    <message>
-        <source>&amp;Columns…</source>
-        <translation>&amp;Colonne…</translation>
-    </message>
-    <message>
-        <source>Save tables and plots…</source>
-        <translation>Salva tabelle e grafici…</translation>
-    </message>
-    <message>
-        <source>How far the comparison is</source>
-        <translation>Stato del confronto</translation>
-    </message>
-    <message>
-        <source>Stop</source>
-        <translation>Ferma</translation>
-    </message>
-    <message>
-        <source>Angle</source>
-        <translation>Angolo</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Differenze</translation>
-    </message>
-    <message>
-        <source>Curves</source>
-        <translation>Curve</translation>
-    </message>
-    <message>
-        <source>Per angle</source>
-        <translation>Per angolo</translation>
-    </message>
-    <message>
-        <source>Carpus less the reference; in brackets 95 % intervals, repeated values allowed for</source>
-        <translation>Carpus meno il riferimento; fra parentesi gli intervalli al 95 %, che tengono conto dei valori ripetuti</translation>
-    </message>
-    <message>
-        <source>The limit is a choice, not a proof: change it in Settings, before comparing.</source>
-        <translation>Il limite è una scelta, non una prova: si cambia nelle Impostazioni, prima di confrontare.</translation>
-    </message>
-    <message>
-        <source>Bringing the two together…</source>
-        <translation>Allineamento delle due misure…</translation>
-    </message>
-    <message>
-        <source>Compare this session with another measurement.</source>
-        <translation>Confrontare questa seduta con un’altra misura.</translation>
-    </message>
-    <message>
-        <source>Of the same movement: markers, angles, goniometer readings, or another session.</source>
-        <translation>Dello stesso movimento: marcatori, angoli, letture del goniometro o un’altra seduta.</translation>
-    </message>
-    <message>
-        <source>Choose a &amp;reference…</source>
-        <translation>Scegli un &amp;riferimento…</translation>
-    </message>
-    <message>
-        <source>Comparing with {name}…</source>
-        <translation>Confronto con {name}…</translation>
-    </message>
-    <message>
-        <source>The session itself is never changed.</source>
-        <translation>La seduta stessa non cambia mai.</translation>
-    </message>
-    <message>
-        <source>How they were brought together</source>
-        <translation>Come sono state unite</translation>
-    </message>
-    <message>
-        <source>Not used</source>
-        <translation>Non usate</translation>
-    </message>
-    <message>
-        <source>Look at this first</source>
-        <translation>Da guardare per primo</translation>
-    </message>
-</context>
-<context>
-    <name>AgreementTable</name>
-    <message>
-        <source>Angle</source>
-        <translation>Angolo</translation>
-    </message>
-    <message>
-        <source>Mean difference</source>
-        <translation>Differenza media</translation>
-    </message>
-    <message>
-        <source>Limits of agreement</source>
-        <translation>Limiti di concordanza</translation>
-    </message>
-    <message>
-        <source>RMSE</source>
-        <translation>RMSE</translation>
-    </message>
-    <message>
-        <source>ICC(2,1)</source>
-        <translation>ICC(2,1)</translation>
-    </message>
-    <message>
-        <source>Curve match</source>
-        <translation>Concordanza curve</translation>
-    </message>
-    <message>
-        <source>In words</source>
-        <translation>In parole</translation>
-    </message>
-    <message>
-        <source>{low} to {high}</source>
-        <translation>{low} a {high}</translation>
     </message>
 </context>
 <context>
@@ -8127,49 +7799,6 @@
     </message>
 </context>
 <context>
-    <name>ColumnsSheet</name>
-    <message>
-        <source>As the file says</source>
-        <translation>Come dice il file</translation>
-    </message>
-    <message>
-        <source>Degrees</source>
-        <translation>Gradi</translation>
-    </message>
-    <message>
-        <source>Radians</source>
-        <translation>Radianti</translation>
-    </message>
-    <message>
-        <source>Compare</source>
-        <translation>Confronta</translation>
-    </message>
-    <message>
-        <source>Which marker is which?</source>
-        <translation>Quale marcatore è quale?</translation>
-    </message>
-    <message>
-        <source>Which column is which?</source>
-        <translation>Quale colonna è quale?</translation>
-    </message>
-    <message>
-        <source>Of {file}: at least three discs of the palm. Leave the others open.</source>
-        <translation>Da {file}: almeno tre dischetti del palmo. Lasciare vuoti gli altri.</translation>
-    </message>
-    <message>
-        <source>Of {file}: the time, and at least one angle. Leave the others open.</source>
-        <translation>Da {file}: il tempo e almeno un angolo. Lasciare vuoti gli altri.</translation>
-    </message>
-    <message>
-        <source>Time</source>
-        <translation>Tempo</translation>
-    </message>
-    <message>
-        <source>other sign</source>
-        <translation>segno opposto</translation>
-    </message>
-</context>
-<context>
     <name>Controls</name>
     <message>
         <source>Note</source>
@@ -8736,10 +8365,6 @@
     <message>
         <source>Choose the folder…</source>
         <translation>Scegli la cartella…</translation>
-    </message>
-    <message>
-        <source>Compare with a &amp;reference…</source>
-        <translation>Confronta con un &amp;riferimento…</translation>
     </message>
     <message>
         <source>&amp;Other formats: settings…</source>
@@ -10747,37 +10372,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ReferenceSheet</name>
-    <message>
-        <source>Compare this session with what?</source>
-        <translation>Con che cosa confrontare questa seduta?</translation>
-    </message>
-    <message>
-        <source>The same movement, measured by something else at the same time: markers (C3D, TRC), angles (MOT, STO, or a CSV table), a list of goniometer readings (CSV), or another result.</source>
-        <translation>Lo stesso movimento, misurato da altro nello stesso momento: marcatori (C3D, TRC), angoli (MOT, STO o una tabella CSV), un elenco di letture del goniometro (CSV), o un altro risultato.</translation>
-    </message>
-    <message>
-        <source>Choose a &amp;file…</source>
-        <translation>Scegli un &amp;file…</translation>
-    </message>
-    <message>
-        <source>Or another session of this &amp;patient</source>
-        <translation>O un’altra seduta di questo &amp;paziente</translation>
-    </message>
-    <message>
-        <source>Compare with this &amp;session</source>
-        <translation>Confronta con questa &amp;seduta</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-</context>
-<context>
     <name>ReportCard</name>
     <message>
         <source>Report</source>
@@ -11384,10 +10978,6 @@ Maiusc+F8 di lato</translation>
         <translation>Confronta nell’&amp;andamento</translation>
     </message>
     <message>
-        <source>Compare with a &amp;reference…</source>
-        <translation>Confronta con un &amp;riferimento…</translation>
-    </message>
-    <message>
         <source>&amp;Move to another patient…</source>
         <translation>Sposta a un altro &amp;paziente…</translation>
     </message>
@@ -11625,14 +11215,6 @@ Maiusc+F8 di lato</translation>
         <translation>Con la mano ferma</translation>
     </message>
     <message>
-        <source>none</source>
-        <translation>nessuno</translation>
-    </message>
-    <message>
-        <source>Agree within</source>
-        <translation>Concordano entro</translation>
-    </message>
-    <message>
         <source>For research</source>
         <translation>Per la ricerca</translation>
     </message>
@@ -11673,10 +11255,6 @@ Maiusc+F8 di lato</translation>
         <translation>Ricerca</translation>
     </message>
     <message>
-        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming, agreement. No value changes by it.</source>
-        <translation>Mostra ciò che la giornata di uno studio non richiede: percorso e assi, velocità, la pagina del movimento nei referti, tutti i formati di esportazione, l’ordine degli angoli, lo streaming, la concordanza. Nessun valore cambia per questo.</translation>
-    </message>
-    <message>
         <source>Order of the angles</source>
         <translation>Ordine degli angoli</translation>
     </message>
@@ -11707,14 +11285,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one measures on; whether it speaks to a child or an adult is chosen with the exercise.</source>
         <translation>Un secondo schermo, o una finestra propria, che mostra al paziente che cosa fare. Si apre dallo schermo di misura; se parla a un bambino o a un adulto si sceglie con l’esercizio.</translation>
-    </message>
-    <message>
-        <source>Agreement</source>
-        <translation>Concordanza</translation>
-    </message>
-    <message>
-        <source>The most that Carpus and another measurement may differ by and still stand for each other: what would not change your treatment. Set it before you compare; with none, nothing is judged.</source>
-        <translation>La massima differenza fra Carpus e un’altra misura con cui l’una può ancora valere per l’altra: quella che non cambierebbe il trattamento. Fissarla prima di confrontare; senza, nulla viene valutato.</translation>
     </message>
     <message>
         <source>Keys</source>
@@ -11779,6 +11349,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Data folder</source>
         <translation>Cartella dei dati</translation>
+    </message>
+    <message>
+        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming. No value changes by it.</source>
+        <translation>Mostra ciò che la giornata di uno studio non richiede: percorso e assi, velocità, la pagina del movimento nei referti, tutti i formati di esportazione, l’ordine degli angoli, lo streaming. Nessun valore cambia per questo.</translation>
     </message>
 </context>
 <context>

@@ -9,6 +9,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -26,6 +27,7 @@ from carpus.core.session.values import Session
 from tests.commands import Command
 from tests.formats.takes import stored, take_of
 from tests.ui.fakes import session as flexing
+from tests.ui.printed import pages_of, words_of
 
 PLACES = [place / "shared" / "data" for place in Path(__file__).resolve().parents]
 DATA = next((place for place in PLACES if place.is_dir()), PLACES[0])
@@ -207,6 +209,24 @@ def test_the_command_writes_tables_and_plots(tmp_path: Path, command: Command) -
     content = json.loads((out / "one-against-one.agreement.json").read_text(encoding="utf-8"))
     assert {row["angle"] for row in content["angles"]} == set(WRIST_ANGLES)
     assert len(content["provenance"]["reference"]["sha256"]) == 64
+    assert "Limit" not in done.out
+
+
+def test_the_commands_plots_read_back_as_png_and_pdf_with_the_limit_set_before(
+    tmp_path: Path, command: Command
+) -> None:
+    path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
+    done = command("compare", path, path, "--limit", "5", "--output", out)
+    assert "Limit        flexion agrees within 5°" in done.out.splitlines()
+    for name in WRIST_ANGLES:
+        picture = cv2.imread(str(out / f"one-against-one.{name}.png"))
+        assert picture.shape == (960, 2240, 3)
+        halves = picture[:, :1120], picture[:, 1120:]
+        assert all(np.unique(half.reshape(-1, 3), axis=0).shape[0] > 20 for half in halves), "two plots are drawn"
+    words = words_of(out / "one-against-one.pdf")
+    for piece in ("Flexion–extension", "RMSE", "Reference", "Limit", "hatched: within the limit you set"):
+        assert piece in words
+    assert pages_of(out / "one-against-one.pdf") == len(WRIST_ANGLES)
 
 
 @needs_data

@@ -158,4 +158,3 @@ def test_what_is_chosen_reaches_the_screens_that_are_made_later(open_desktop: Ca
     assert [place for place in after if not same(after[place], made_later[place])] == []
     for desktop in (early, late):
         assert desktop.journey.live.screen.recording.start_mode == "still"
-        assert not desktop.journey.sessions.screen.reference_button.isHidden()

@@ -12,14 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from carpus.core.agreement.clocks import Shift
-from carpus.core.agreement.compare import Alignment, Compared, Pairs
 from carpus.core.agreement.retest import Mounting, Person, Restated, Retest, RetestPlan, StudyFigures
-from carpus.core.agreement.statistics import agreement
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.exercises import Movement, exercise_named
-from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
@@ -668,35 +664,6 @@ class FakeCorrections(Corrections):
         places = self._sessions.session(session_id).markers.measured_px[row]
         spots = np.concatenate((places[np.isfinite(places[:, 0])], [[420.0, 120.0]]))
         return self._sessions.picture(session_id, row) if self._pictures else None, spots
-
-
-def compared(*, readings: bool = False, hand: bool = False) -> Compared:
-    """Two measurements of a movement whose difference is known: 0.6° more flexion, and turning that does not agree."""
-    draw = np.random.default_rng(4)
-    names = [*WRIST_ANGLES, *(joint_angle_names(True) if hand else ())]
-    count = 14 if readings else 1860
-    time_s = np.linspace(0.0, 62.0, count)
-    pairs = []
-    for name in names:
-        size, bias, sd = {
-            "flexion": (50.0, 0.6, 1.9), "deviation": (18.0, -0.3, 1.0), "pronosupination": (30.0, 1.8, 3.2),
-        }.get(name, (40.0, -0.5, 1.6))  # fmt: skip
-        if readings and name == "pronosupination":
-            continue
-        reference = size * np.sin(time_s * (0.9 if not readings else 2.3))
-        measured = reference + bias + sd * draw.standard_normal(count)
-        pairs.append(
-            Pairs(name, time_s, np.radians(measured), np.radians(reference),
-                  agreement(measured, reference, waveform=not readings))
-        )  # fmt: skip
-    if readings:
-        why = ("flexion at 12 s: the hand was not still, or not seen", "pronosupination: not in the session")
-        return Compared("goniometer list", tuple(pairs), None, None, 16, 2, np.nan, np.nan, why)
-    alignment = Alignment(np.radians(3.1), 0.0011, ("WRIST", "MCP2", "MCP5"), "its neutral pose")
-    return Compared(
-        "points by C3D", tuple(pairs), Shift(-0.034, 0.99), alignment, 1860, 214, 62.0, 100.0,
-        ("markers ELBOW, C7: none of the discs by their names",),
-    )  # fmt: skip
 
 
 def restated_statements() -> list[Restated]:

@@ -18,11 +18,9 @@ import numpy as np
 from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QWidget
 
-from carpus.core.agreement.reference import ReferenceOutline
 from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
-from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.records.corrections import Difference
 from carpus.core.records.set_up import USUAL_SETS
@@ -33,8 +31,6 @@ from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, Side
 from carpus.core.words import Words
-from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
-from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
@@ -54,7 +50,7 @@ from carpus.ui.messages.messages import Answer, NoticeStrip, StopCard
 from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.ports import Preferences, ReferenceChoice
+from carpus.ui.ports import Preferences
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
 from carpus.ui.records.erasing import EraseSheet, ErasureFacts
@@ -92,7 +88,6 @@ from tests.ui.fakes import (
     FakeSessions,
     FakeStore,
     LateFeed,
-    compared,
     hand_values,
     hand_values_today,
     home_report,
@@ -603,36 +598,6 @@ class Gallery(GalleryWindow):
         sheet = self.sheet(ResultsSheet)
         sheet.show_running(CORRECTED, 63)
         sheet.begin()
-
-    def agreement(self, *, readings: bool = False, hand: bool = False, limit_deg: float = 5.0) -> AgreementScreen:
-        screen = self._agreement()
-        name = "goniometer.csv" if readings else "Linden42_20Nov.c3d"
-        screen.show_compared(compared(readings=readings, hand=hand), name, limit_deg, may_map=not readings)
-        self.settle()
-        return screen
-
-    def _agreement(self) -> AgreementScreen:
-        return self.show(AgreementScreen(self.theme, self.keys), tab=1, camera="")
-
-    def agreement_curves(self) -> None:
-        self.agreement(limit_deg=0.0).next_view()
-
-    agreement_goniometer = partialmethod(agreement, readings=True)
-    agreement_hand = partialmethod(agreement, hand=True)
-
-    def agreement_running(self) -> None:
-        screen = self._agreement()
-        screen.running("Linden42_20Nov.c3d")
-        screen.bar.show_progress(40, 100)
-
-    agreement_reference = _under(
-        "_agreement", ReferenceSheet, [("s2", "20 Nov 2026, 11:36 · Wrist flexion–extension · same recording")]
-    )
-    agreement_columns = _under(
-        "_agreement", ColumnsSheet,
-        ReferenceOutline(Path("optical.csv"), "angles", ("Zeit", "FlexExt", "RadUln"), {}), ("time", *WRIST_ANGLES),
-        ReferenceChoice("optical.csv", "optical.csv"),
-    )  # fmt: skip
 
     def _beside(self, store: FakeSessions, one: str, other: str) -> BesideScreen:
         screen = self.show(BesideScreen(self.theme, self.keys, self.background, store), tab=1, camera="")

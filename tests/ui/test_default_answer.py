@@ -11,7 +11,6 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Iterator
 from datetime import date
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,10 +29,8 @@ from pytestqt.qtbot import QtBot
 
 import carpus.app
 import carpus.ui
-from carpus.core.agreement.reference import ReferenceOutline
 from carpus.core.records.set_up import USUAL_SETS
 from carpus.core.words import Words
-from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.controls.button import ENTER, Button, takes_enter
 from carpus.ui.controls.field import SearchField
@@ -45,7 +42,6 @@ from carpus.ui.live.notes import NoteSheet, PainSheet
 from carpus.ui.markers.guidance import StartAngleSheet
 from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.patients.entry import PatientForm
-from carpus.ui.ports import ReferenceChoice
 from carpus.ui.records.erasing import EraseSheet
 from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
@@ -95,18 +91,9 @@ def _card(host: QWidget, theme: Theme) -> Opened:
     return card, "Back to the form"
 
 
-def _columns(host: QWidget, theme: Theme) -> Opened:
-    sheet = ColumnsSheet(host, theme)
-    outline = ReferenceOutline(Path("gonio.csv"), "angles", ("time", "flexion"), {"time": "time", "flexion": "flexion"})
-    sheet.begin(outline, ("time", "flexion"), ReferenceChoice("gonio.csv"))
-    return sheet, "Compare"
-
-
 SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     StopCard: _card,
     PatientForm: _patient,
-    ColumnsSheet: _columns,
-    ReferenceSheet: _opened(ReferenceSheet, "Choose a &file…", [("s1", "Mon 1 Nov")]),
     CameraNameSheet: _opened(CameraNameSheet, "Go on", "Window"),
     ResultsSheet: _opened(ResultsSheet, ""),
     ExportSheet: _opened(ExportSheet, "Choose the folder…"),

@@ -204,7 +204,7 @@ def test_settings_act_at_once_and_tell_what_was_chosen(settings: Settings) -> No
 def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(settings: Settings) -> None:
     screen, told = settings(stream=True, angle_order="isb")
     screen.choose("research")
-    folded = (screen.angle_order, screen.stream, screen.agreement)
+    folded = (screen.angle_order, screen.stream)
     assert not any(widget.isVisible() for widget in folded)
     screen.research.click()
     assert all(widget.isVisible() for widget in folded)

@@ -26,7 +26,6 @@ class Exporting(QObject):
         self.formats = ExportSheet(context.shell, context.theme)
         self.formats.wanted.connect(self._export)
         self.formats.stop.connect(self._stop.set)
-        self.formats.compare.connect(lambda: context.way.show("agreement", context.now.session_id))
         self.formats.more.connect(lambda: context.way.show("settings", "research"))
         self._stepped.connect(self.formats.progress, Qt.ConnectionType.QueuedConnection)
 

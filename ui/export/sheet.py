@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, Signal, SignalInstance
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.formats.formats import FORMATS
@@ -30,12 +30,10 @@ NAMES = {
 
 class ExportSheet(Sheet):
     """``wanted`` carries the formats and whether nobody shall be found by it; ``stop`` ends an export on the way;
-    ``compare`` asks for the comparison with another measurement instead, ``more`` for the settings that offer all
-    formats."""
+    ``more`` asks for the settings that offer all formats instead."""
 
     wanted = Signal(object, bool)
     stop = Signal()
-    compare = Signal()
     more = Signal()
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
@@ -61,13 +59,10 @@ class ExportSheet(Sheet):
         self.close_button.clicked.connect(self.leave)
         self.take.clicked.connect(self._take)
         self.set_default(self.take)
-        self.compare_button = Button(theme, self.tr("Compare with a &reference…"), "quiet", height_px=44)
-        self.compare_button.clicked.connect(lambda: self._instead(self.compare))
         self.more_button = Button(theme, self.tr("&Other formats: settings…"), "quiet", height_px=44)
         self.more_button.setToolTip(self.tr("JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on."))
-        self.more_button.clicked.connect(lambda: self._instead(self.more))
-        beside = (self.compare_button, self.more_button)
-        body.addLayout(in_line(*beside, STRETCH, self.close_button, self.take, gap=10))
+        self.more_button.clicked.connect(self._ask_for_more)
+        body.addLayout(in_line(self.more_button, STRETCH, self.close_button, self.take, gap=10))
         self._runs, self._research = False, True
         for box in self.boxes.values():
             box.toggled.connect(self._check)
@@ -122,13 +117,12 @@ class ExportSheet(Sheet):
         if self.formats and not self._runs:
             self.wanted.emit(self.formats, self.nobody.isChecked())
 
-    def _instead(self, asked: SignalInstance) -> None:
+    def _ask_for_more(self) -> None:
         self.close_sheet()
-        asked.emit()
+        self.more.emit()
 
     def _show_state(self) -> None:
         runs = self._runs
-        self.compare_button.setVisible(self._research and not runs)
         self.more_button.setVisible(not self._research and not runs)
         self.bar.setVisible(runs)
         self.take.setVisible(not runs)

@@ -1,6 +1,6 @@
 """Plots of an agreement: the differences against their mean (Bland and Altman), and both curves over time.
 
-Painted by any painter, so that window, picture and page show the same. Along the panel runs the mean of both in
+Along the panel runs the mean of both in
 degrees, or time in seconds.
 """
 
@@ -100,7 +100,7 @@ class AgreementPlot:
                 labels[place] = (labels[place][0], f"{word} {labels[place][1]}")
         return Scale(low - pad, high + pad, ticks, tuple(labels), False)
 
-    def panel(self, style: PlotStyle, box: QRectF, shown: tuple[float, float] | None = None) -> Panel:
+    def panel(self, style: PlotStyle, box: QRectF) -> Panel:
         """Where the values are within a box; the words of the lines stand right of it."""
         metrics, unit = QFontMetricsF(style.end_label), style.unit
         right = max(metrics.horizontalAdvance(text) for texts in _line_words(self) for text in texts) + 20 * unit
@@ -108,7 +108,7 @@ class AgreementPlot:
         left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 16 * unit
         foot = 2 * metrics.height() + 14 * unit
         area = box.adjusted(left, metrics.height() * 0.5, -right, -foot)
-        return Panel(area, scale, *(shown or self.extent()))
+        return Panel(area, scale, *self.extent())
 
     # --- what is drawn ------------------------------------------------------------------------------------
     def ground(self) -> list[Mark]:

@@ -35,7 +35,6 @@ class SessionsFlow(Flow):
         screen.told.connect(context.messages.fault)
         screen.opened.connect(lambda session_id: way.show("review", session_id))
         screen.progress.connect(self._show_progress)
-        screen.reference_wanted.connect(self._compare)
         screen.pair_wanted.connect(lambda one, other: way.show("beside", one, other))
         screen.changed.connect(self._look_for_open)
 
@@ -49,18 +48,11 @@ class SessionsFlow(Flow):
         if not put_off_last(self.screen):
             self.to_patient()
 
-    def show_research(self, *, on: bool) -> None:
-        self.screen.reference_button.setVisible(on)
-
     def _show_progress(self, session_id: str) -> None:
         now = self.context.now
         assert now.patient is not None
         now.session_id = session_id
         self.context.way.show("progress", now.patient.patient_id)
-
-    def _compare(self, session_id: str) -> None:
-        self.context.now.session_id = session_id
-        self.context.way.show("agreement", session_id)
 
     def _look_for_open(self) -> None:
         """A session was moved, renamed or deleted: the one that was open may be gone."""

@@ -33,7 +33,6 @@ class SessionsScreen(QWidget):
 
     opened = Signal(str)
     progress = Signal(str)
-    reference_wanted = Signal(str)
     erase_wanted = Signal(str)
     pair_wanted = Signal(str, str)
     archive_wanted = Signal(str)
@@ -59,7 +58,6 @@ class SessionsScreen(QWidget):
         self.open_button = Button(theme, self.tr("Open in review"), "primary", hint=ENTER)
         self.pair_button = Button(theme, "", height_px=40)
         self.compare_button = Button(theme, self.tr("Compare in &progress"), height_px=40)
-        self.reference_button = Button(theme, self.tr("Compare with a &reference…"), height_px=40)
         self.aside_button = Button(theme, "", height_px=40)
         self.move_button = Button(theme, self.tr("&Move to another patient…"), height_px=40)
         self.rename_button = Button(theme, self.tr("Change the &exercise…"), height_px=40)
@@ -88,7 +86,7 @@ class SessionsScreen(QWidget):
             body.addWidget(widget)
         body.addStretch(1)
         for button in (
-            self.open_button, self.pair_button, self.compare_button, self.reference_button, self.aside_button,
+            self.open_button, self.pair_button, self.compare_button, self.aside_button,
             self.move_button, self.rename_button, self.erase_button,
         ):  # fmt: skip
             body.addWidget(button)
@@ -115,7 +113,6 @@ class SessionsScreen(QWidget):
         self.list.doubleClicked.connect(lambda _: self.open_chosen())
         self.open_button.clicked.connect(self.open_chosen)
         self.compare_button.clicked.connect(lambda: self._emit_chosen(self.progress))
-        self.reference_button.clicked.connect(lambda: self._emit_chosen(self.reference_wanted))
         self.aside_button.clicked.connect(self._set_aside_or_back)
         self.move_button.clicked.connect(self._ask_move)
         self.rename_button.clicked.connect(self._ask_rename)
@@ -186,7 +183,7 @@ class SessionsScreen(QWidget):
         practice = self._patient_id == PRACTICE_PATIENT
         self.move_button.setVisible(not practice)
         for button in (
-            self.open_button, self.compare_button, self.reference_button, self.aside_button, self.rename_button,
+            self.open_button, self.compare_button, self.aside_button, self.rename_button,
         ):  # fmt: skip
             button.setEnabled(not line.damaged)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Literal, get_args
@@ -26,7 +25,7 @@ from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.ui import terms
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.field import Choices, DegreesField
+from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import Part, ScrollArea, ScrolledColumn, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import DEFAULT_KEYS, action_words
@@ -35,7 +34,6 @@ from carpus.ui.ports import Preferences
 from carpus.ui.settings.limits import limits_card
 from carpus.ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
 
-MOST_AGREEMENT_DEG = 45
 PartName = Literal["camera", "measuring", "report", "safety", "looks", "keys", "research", "about"]
 
 
@@ -84,9 +82,6 @@ class SettingsScreen(QWidget):
             ],
             preferences.start,
         )  # fmt: skip
-        self.agreement = DegreesField(theme, MOST_AGREEMENT_DEG, self.tr("none"))
-        self.agreement.set_value(preferences.agreement_limit_deg or math.nan)
-        self.agreement.setAccessibleName(self.tr("Agree within"))
         self.keys_card = KeysCard(theme, preferences.keys)
         self.keys, self.fault, self.reset = self.keys_card.fields, self.keys_card.fault, self.keys_card.reset
         self.research = Tick(theme, self.tr("For research"))
@@ -120,8 +115,8 @@ class SettingsScreen(QWidget):
                     self.tr("Research"),
                     self.tr(
                         "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in "
-                        "reports, all formats of an export, the order of the angles, streaming, agreement. No value "
-                        "changes by it."
+                        "reports, all formats of an export, the order of the angles, streaming. No value changes by "
+                        "it."
                     ),
                     (self.research, 0, narrow),
                 ),
@@ -145,14 +140,6 @@ class SettingsScreen(QWidget):
                     "order; sessions in different orders are never compared."
                 ),
                 self.angle_order,
-            ),
-            self._card(
-                self.tr("Agreement"),
-                self.tr(
-                    "The most that Carpus and another measurement may differ by and still stand for each other: what "
-                    "would not change your treatment. Set it before you compare; with none, nothing is judged."
-                ),
-                (self.agreement, 0, Qt.AlignmentFlag.AlignLeft),
             ),
             self._card(
                 self.tr("Other programs"),
@@ -300,7 +287,6 @@ class SettingsScreen(QWidget):
             choices.chosen.connect(lambda value, name=name: self._change(replace(self.preferences, **{name: value})))
         self.research.toggled.connect(self._take_research)
         self.therapist.editingFinished.connect(self._take_therapist)
-        self.agreement.editingFinished.connect(self._take_agreement)
         self.folder_button.clicked.connect(self.ask_folder)
         self.keys_card.changed.connect(lambda keys: self._change(replace(self.preferences, keys=keys)))
 
@@ -325,11 +311,6 @@ class SettingsScreen(QWidget):
 
     def _take_therapist(self) -> None:
         self._change(replace(self.preferences, therapist=self.therapist.text().strip()))
-
-    def _take_agreement(self) -> None:
-        if not self.agreement.problem:
-            value = self.agreement.value()
-            self._change(replace(self.preferences, agreement_limit_deg=value if math.isfinite(value) else 0.0))
 
     def ask_folder(self) -> None:
         over = self if self.isVisible() else QApplication.activeWindow()  # the first start asks from another screen
