@@ -45,12 +45,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="C3D, TRC, MOT, CSV table, CSV list of readings (angle or movement, reading_deg, time_s), or session",
     )
     parser.add_argument(
-        "--study",
-        type=Path,
-        metavar="TABLE.csv",
+        "--study", type=Path, metavar="TABLE.csv",
         help="many people and sessions at once: a table with the columns person, session, reference, and where they "
         "are needed columns, markers, unit, lag_s, drift_percent",
-    )
+    )  # fmt: skip
     parser.add_argument("--output", type=Path, metavar="FOLDER", help="tables and plots; nothing in it is overwritten")
     parser.add_argument(
         "--columns",
@@ -86,12 +84,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="by how much the reference's clock runs fast, to be taken out",
     )
     parser.add_argument(
-        "--limit",
-        type=number(0.0, MAX_LIMIT_DEG, "degrees"),
-        default=0.0,
-        metavar="DEGREES",
+        "--limit", type=number(0.0, MAX_LIMIT_DEG, "degrees"), default=0.0, metavar="DEGREES",
         help="what the two may differ by, set before comparing: each angle is judged by it, and the plots show it",
-    )
+    )  # fmt: skip
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -247,8 +247,8 @@ class _Limit:
         metrics = QFontMetricsF(style.label)
         words = _hatched()
         left = panel.box.right() - metrics.horizontalAdvance(words) - 6 * style.unit
-        at = QPointF(left, float(panel.y(min(panel.scale.ticks))) - 6 * style.unit)
-        write(painter, at, words, style.label, style.color("accent"))
+        place = QPointF(left, bottom + metrics.ascent() + 2 * style.unit)
+        write(painter, place, words, style.label, style.color("accent"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,9 +26,9 @@ if TYPE_CHECKING:  # it reads and writes files
 
 
 class SessionsScreen(QWidget):
-    """``opened`` carries a session to be reviewed, ``progress`` one to be compared with, ``reference_wanted`` one to be
-    compared with another measurement, ``pair_wanted`` two to be shown side by side, ``erase_wanted`` one to be archived
-    or erased, ``archive_wanted`` the patient whose archived ones are asked for; ``told`` a fault; ``changed`` that
+    """``opened`` carries a session to be reviewed, ``progress`` one to be compared with, ``pair_wanted`` two to be
+    shown side by side, ``erase_wanted`` one to be archived or erased, ``archive_wanted`` the patient whose archived
+    ones are asked for; ``told`` a fault; ``changed`` that
     something of the patient's sessions is different now."""
 
     opened = Signal(str)
