@@ -63,12 +63,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--unit", choices=("deg", "rad"), help="of the reference's angles, where it does not say")
     parser.add_argument("--smoothed", action="store_true", help="compare the smoother's results, not the filter's")
     parser.add_argument(
-        "--max-shift",
-        type=number(0.0, FURTHEST_SHIFT_S, "seconds"),
-        default=MOST_SHIFT_S,
-        metavar="SECONDS",
+        "--max-shift", type=number(0.0, FURTHEST_SHIFT_S, "seconds"), default=MOST_SHIFT_S, metavar="SECONDS",
         help="furthest that the clocks are apart",
-    )
+    )  # fmt: skip
     parser.add_argument(
         "--lag",
         type=number(-FURTHEST_SHIFT_S, FURTHEST_SHIFT_S, "seconds"),
@@ -77,12 +74,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="how much later things happen on the reference's clock, where it is known: no shift is looked for",
     )
     parser.add_argument(
-        "--drift",
-        type=number(-LARGEST_DRIFT_PERCENT, LARGEST_DRIFT_PERCENT, "percent"),
-        default=0.0,
-        metavar="PERCENT",
-        help="by how much the reference's clock runs fast, to be taken out",
-    )
+        "--drift", type=number(-LARGEST_DRIFT_PERCENT, LARGEST_DRIFT_PERCENT, "percent"), default=0.0,
+        metavar="PERCENT", help="by how much the reference's clock runs fast, to be taken out",
+    )  # fmt: skip
     parser.add_argument(
         "--limit", type=number(0.0, MAX_LIMIT_DEG, "degrees"), default=0.0, metavar="DEGREES",
         help="what the two may differ by, set before comparing: each angle is judged by it, and the plots show it",
