@@ -7,21 +7,18 @@ import logging
 import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.durable import replace_file
 from carpus.core.errors import CameraLost, CarpusFault
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.types import Frame
 from carpus.ui.background import Background
+from carpus.ui.camera_name_sheet import CameraNameSheet
 from carpus.ui.fault_words import fault_words
 from carpus.ui.flow import Flow, ScreenContext
-
-if TYPE_CHECKING:
-    from carpus.ui.camera_calibration.screen import BoardScreen
-    from carpus.ui.check_card.screen import CardScreen
 
 log = logging.getLogger(__name__)
 
@@ -149,19 +146,18 @@ class AtCameraFlow(Flow):
     one it is, and nobody looks at its pictures before ``_known`` is set."""
 
     guide, while_aside = "cameracheck", True
-    screen: BoardScreen | CardScreen
 
-    def __init__(self, context: ScreenContext, screen: BoardScreen | CardScreen) -> None:
+    def __init__(self, context: ScreenContext, screen: QWidget, name_sheet: CameraNameSheet) -> None:
         super().__init__(context, screen)
+        self._name_sheet = name_sheet
         self.practice = context.is_demo
         """Whether the simulated camera is meant."""
         self._kind, self._now, self._said = "", "", ""
         self._known = threading.Event()
         self.hand = CameraAtHand(self)
         self.hand.failed.connect(self._failed)
-        screen.name_sheet.named.connect(self._take_name)
-        screen.name_sheet.refused.connect(self.back)
-        screen.turned.connect(context.way.changed)
+        name_sheet.named.connect(self._take_name)
+        name_sheet.refused.connect(self.back)
 
     @property
     def is_at_work(self) -> bool:
@@ -175,16 +171,12 @@ class AtCameraFlow(Flow):
 
     def leave(self) -> None:
         """Let the camera go; what was taken and not kept is forgotten."""
-        self.screen.name_sheet.dismiss()
+        self._name_sheet.dismiss()
         self._known = threading.Event()  # a name that is still being kept opens it no more
         self.hand.close()
 
     def close(self) -> None:
         self.hand.wait()
-
-    def sign_lines(self) -> list[str]:
-        simulated = self.screen.shows_simulated
-        return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
 
     def _failed(self, fault: Exception) -> None:
         self.back()
@@ -197,7 +189,7 @@ class AtCameraFlow(Flow):
             self._said = ""
             self._known.set()
         else:
-            self.screen.name_sheet.begin(self._now)
+            self._name_sheet.begin(self._now)
 
     def _take_name(self, name: str) -> None:
         kind, known, practice, cameras = self._kind, self._known, self.practice, self.context.cameras

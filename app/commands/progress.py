@@ -64,7 +64,8 @@ def run(arguments: argparse.Namespace) -> int:
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
             from carpus.core.records.of_clinic import form_in
-            from carpus.ui.report.pdf import ensure_application, write_progress_report
+            from carpus.ui.report.gather import write_progress_report
+            from carpus.ui.report.pdf import ensure_application
 
             application = ensure_application()
             write_progress_report(

@@ -53,7 +53,8 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.core.agreement.limits_file import read_limits
     from carpus.core.results.figures import session_figures
     from carpus.core.results.progress import newest_results
-    from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
+    from carpus.ui.report.gather import write_progress_report, write_session_report
+    from carpus.ui.report.pdf import ensure_application
 
     choices = [read_choices(one.path) for one in sessions]
     application = ensure_application()

@@ -6885,13 +6885,6 @@
     </message>
 </context>
 <context>
-    <name>AtCameraFlow</name>
-    <message>
-        <source>Simulated camera: nothing here is of a real one.</source>
-        <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
-    </message>
-</context>
-<context>
     <name>BackingUp</name>
     <message>
         <source>Plug the disk for back-ups in, and back up.</source>
@@ -7261,6 +7254,10 @@
     <message>
         <source>Show it some more, tilted more and nearer: {why}.</source>
         <translation>Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
+    </message>
+    <message>
+        <source>Simulated camera: nothing here is of a real one.</source>
+        <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
     </message>
 </context>
 <context>

@@ -6885,13 +6885,6 @@
     </message>
 </context>
 <context>
-    <name>AtCameraFlow</name>
-    <message>
-        <source>Simulated camera: nothing here is of a real one.</source>
-        <translation>Telecamera simulata: qui non c’è nulla di una vera.</translation>
-    </message>
-</context>
-<context>
     <name>BackingUp</name>
     <message>
         <source>Plug the disk for back-ups in, and back up.</source>
@@ -7261,6 +7254,10 @@
     <message>
         <source>Show it some more, tilted more and nearer: {why}.</source>
         <translation>Mostrarla ancora, più inclinata e più vicina: {why}.</translation>
+    </message>
+    <message>
+        <source>Simulated camera: nothing here is of a real one.</source>
+        <translation>Telecamera simulata: qui non c’è nulla di una vera.</translation>
     </message>
 </context>
 <context>

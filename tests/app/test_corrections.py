@@ -49,7 +49,7 @@ from carpus.ui.correct.flow import CorrectFlow
 from carpus.ui.flow import ScreenContext
 from carpus.ui.now_open import NowOpen
 from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.sessions.flow import StoredSessions
+from carpus.ui.sessions.stored import StoredSessions
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, wrongly_tracked

@@ -14,7 +14,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
-from carpus.ui.patients.flow import StoredPatients, _results
+from carpus.ui.patients.stored import StoredPatients, _results
 from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 

@@ -29,8 +29,8 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.patients.flow import StoredPatients
-from carpus.ui.sessions.flow import StoredSessions
+from carpus.ui.patients.stored import StoredPatients
+from carpus.ui.sessions.stored import StoredSessions
 from tests.app.test_library import set_up, store
 from tests.commands import Command
 from tests.formats.takes import stored

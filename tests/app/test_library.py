@@ -27,9 +27,9 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.patients.flow import StoredPatients
-from carpus.ui.sessions.flow import StoredSessions
+from carpus.ui.patients.stored import StoredPatients
 from carpus.ui.sessions.listing import remark
+from carpus.ui.sessions.stored import StoredSessions
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.devices.capture_process import Opened, Outlet
+from carpus.core.capture.devices.capture_child import Opened, Outlet
 from carpus.core.capture.files.realsense_recording import FilePlayer
 from carpus.core.capture.frame_assembly import WAITING_IN_FILE, Assembler, Layout
 from carpus.core.capture.source import SourceInfo

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.capture.devices import process_camera
+from carpus.core.capture.devices import capture_process
 from carpus.core.capture.files import realsense_recording
 from carpus.core.capture.files.realsense_recording import FilePlayer
 from carpus.core.errors import DriverFailed
@@ -102,7 +102,7 @@ def memories(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         names.append(memory.name)
         return memory
 
-    monkeypatch.setattr(process_camera, "SharedMemory", noted)
+    monkeypatch.setattr(capture_process, "SharedMemory", noted)
     return names
 
 

@@ -13,7 +13,7 @@ from itertools import islice, pairwise
 import pytest
 
 from carpus.core.camera import Camera
-from carpus.core.capture.devices.capture_process import CameraPlan
+from carpus.core.capture.devices.capture_child import CameraPlan
 from carpus.core.capture.devices.openni2_camera import open_openni2
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.capture.devices.xtion import MODELS

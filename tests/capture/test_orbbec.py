@@ -17,7 +17,7 @@ import pytest
 
 from carpus.core.capture.devices import orbbec
 from carpus.core.capture.devices.cameras import open_camera
-from carpus.core.capture.devices.capture_process import CameraPlan, GaveUp
+from carpus.core.capture.devices.capture_child import CameraPlan, GaveUp
 from carpus.core.capture.devices.color_lock import ColorLock
 from carpus.core.capture.devices.orbbec import (
     _OrbbecControls,

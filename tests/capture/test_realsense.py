@@ -19,7 +19,7 @@ import carpus
 from carpus.app.sources import open_recording
 from carpus.core.capture.devices import realsense
 from carpus.core.capture.devices.cameras import further_findings, open_camera
-from carpus.core.capture.devices.capture_process import why_not_opened, why_unlisted
+from carpus.core.capture.devices.capture_child import why_not_opened, why_unlisted
 from carpus.core.capture.devices.color_lock import MOST_ROUNDS, ColorHold, SeenColors
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.capture.devices.realsense import driver_finding, open_realsense

@@ -45,7 +45,7 @@ def _bundled_fonts(qapp: QApplication) -> None:
 def _figures_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every screen and page of a session works out its figures anew, as each is shown once; here the same few are shown
     hundreds of times."""
-    for place in ("report.pdf", "review.reviewed", "correct.screen", "correct.flow"):
+    for place in ("report.gather", "review.reviewed", "correct.screen", "correct.flow"):
         monkeypatch.setattr(f"carpus.ui.{place}.session_figures", figures_once)
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from datetime import datetime, timedelta
 
-from carpus.ui.sessions.flow import StoredSessions
 from carpus.ui.sessions.listing import SessionLine
+from carpus.ui.sessions.stored import StoredSessions
 
 
 class FakeStoredSessions(StoredSessions):

@@ -49,8 +49,8 @@ from carpus.ui.ports import (
     ResultLine,
     VerdictLimits,
 )
+from carpus.ui.report.gather import session_report
 from carpus.ui.report.home_page import HomeReport, HomeTask, OwnWay
-from carpus.ui.report.pdf import session_report
 from tests.moments import with_moment
 
 FPS = 30.0

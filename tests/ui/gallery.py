@@ -56,9 +56,9 @@ from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCa
 from carpus.ui.records.erasing import EraseSheet, ErasureFacts
 from carpus.ui.records.lists import DeedLine, ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
+from carpus.ui.report.gather import progress_report, session_report
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pages import Report
-from carpus.ui.report.pdf import progress_report, session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.report.sheets import HomeSheet, LetterSheet

@@ -25,7 +25,7 @@ from carpus.ui.by_hand.flow import ByHandFlow
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.ports import PatientRow
 from carpus.ui.progress.flow import write_tables
-from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
+from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show

@@ -31,7 +31,7 @@ import carpus.app
 import carpus.ui
 from carpus.core.records.set_up import USUAL_SETS
 from carpus.core.words import Words
-from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
+from carpus.ui.camera_name_sheet import CameraNameSheet
 from carpus.ui.controls.button import ENTER, Button, takes_enter
 from carpus.ui.controls.field import SearchField
 from carpus.ui.controls.sheet import Sheet

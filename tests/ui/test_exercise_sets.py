@@ -124,7 +124,9 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
 def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
     live = LiveScreen(theme, Keys(), Background())
     qtbot.addWidget(live)
-    patient = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live)
+    patient = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view)
+    live.patient_wanted.connect(patient.toggle)
+    live.glanced.connect(patient.follow)
     measuring = FakeMeasuring(FakeFeed(seconds=2.0))
     now = SimpleNamespace(set_up=begun(OWN, set_up(), {}), source=SimpleNamespace(measuring=measuring))
     run = CourseRun(live, live, patient, now)  # type: ignore[arg-type]

@@ -39,8 +39,8 @@ from carpus.ui.plot.session import HandPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import PatientCard, Preferences, ResultLine
 from carpus.ui.progress.screen import ProgressScreen
+from carpus.ui.report.gather import session_report
 from carpus.ui.report.hand_rows import column_heads, compared_figures, limits_words, main_figure
-from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import suggested_name
 from carpus.ui.report.tables import repetition_words, table_rows
 from carpus.ui.report.words import method, other_lines

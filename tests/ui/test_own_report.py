@@ -22,10 +22,11 @@ from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.patient.words import task_words
+from carpus.ui.report.gather import session_report, write_session_report
 from carpus.ui.report.home_page import own_way
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.panel import filled
-from carpus.ui.report.pdf import session_report, write_report, write_session_report
+from carpus.ui.report.pdf import write_report
 from carpus.ui.report.screen import SIZES, ReportScreen, print_on, printer_for, suggested_name
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.report.sheets import HomeSheet

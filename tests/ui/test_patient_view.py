@@ -133,7 +133,7 @@ def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirr
 def test_esc_closes_a_view_that_lies_over_the_window(qtbot: QtBot, theme: Theme) -> None:
     live = LiveScreen(theme, Keys(), Background())
     qtbot.addWidget(live)
-    viewing = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live)
+    viewing = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view)
     assert not viewing.uncover()
     viewing.toggle()
     assert viewing.window is not None

@@ -20,6 +20,7 @@ from carpus.ui.figures import Figure, with_side
 from carpus.ui.language import speaking
 from carpus.ui.plot.course import axis_top_deg, panels_of
 from carpus.ui.progress.flow import write_table
+from carpus.ui.report.gather import progress_report, write_progress_report, write_session_report
 from carpus.ui.report.hand_part import CHANGE_COLUMN, GAP_PT, LEAST_SIZE_PT, column_edges, lines_of
 from carpus.ui.report.hand_rows import (
     cell_of,
@@ -31,7 +32,6 @@ from carpus.ui.report.hand_rows import (
     limits_words,
 )
 from carpus.ui.report.page import Page, painted_on_nothing
-from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
 from carpus.ui.report.words import quality_lines
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.words.progress import headline

@@ -25,8 +25,8 @@ from carpus.core.provenance import revision
 from carpus.core.results.figures import StrokeSpread
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui.language import speaking
+from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.report.page import Page
-from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.report.progress_page import made_of
 from carpus.ui.report.session_page import paint_boxes
 from carpus.ui.report.words import other_lines
@@ -229,7 +229,7 @@ def test_a_kill_leaves_no_half_report_and_the_next_one_is_whole(
 def test_a_report_is_written_without_any_window_or_display(tmp_path: Path) -> None:
     program = (
         "import pickle, sys; from pathlib import Path\n"
-        "from carpus.ui.report.pdf import write_session_report\n"
+        "from carpus.ui.report.gather import write_session_report\n"
         "write_session_report(pickle.loads(Path(sys.argv[1]).read_bytes()), Path(sys.argv[2]))\n"
         "print('PySide6.QtWidgets' in sys.modules)"
     )

@@ -24,7 +24,7 @@ from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
 from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.ports import Preferences
-from carpus.ui.report.pdf import session_report
+from carpus.ui.report.gather import session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.shell import FocusRing, Shell

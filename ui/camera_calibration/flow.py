@@ -31,7 +31,8 @@ class BoardFlow(AtCameraFlow):
 
     def __init__(self, context: ScreenContext) -> None:
         screen = BoardScreen(context.theme, context.keys)
-        super().__init__(context, screen)
+        super().__init__(context, screen, screen.name_sheet)
+        screen.turned.connect(context.way.changed)
         self._choice = BoardChoice()
         self._session: LiveSession | None = None
         self._gathering: Gathering | None = None
@@ -57,6 +58,10 @@ class BoardFlow(AtCameraFlow):
     # --- the way ------------------------------------------------------------------------------------------
     def title(self) -> str:
         return self.tr("Camera calibration")
+
+    def sign_lines(self) -> list[str]:
+        simulated = self.screen.shows_simulated
+        return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
 
     def show(self) -> None:
         self.close_patient()

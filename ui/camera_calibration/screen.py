@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QBoxLayout, QDoubleSpinBox, QStackedWidget, QWidge
 from carpus.core.calibration.camera.board import Pattern
 from carpus.core.calibration.camera.sheet import RULER_MM, Paper
 from carpus.ui.camera_calibration.maps import LandingMap
-from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.showing import BoardShowing
+from carpus.ui.camera_name_sheet import CameraNameSheet
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.field import Choices, leave_wheel

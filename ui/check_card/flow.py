@@ -27,7 +27,8 @@ class CardFlow(AtCameraFlow):
 
     def __init__(self, context: ScreenContext) -> None:
         screen, camera = CardScreen(context.theme), context.camera
-        super().__init__(context, screen)
+        super().__init__(context, screen, screen.name_sheet)
+        screen.turned.connect(context.way.changed)
         self._newest: Newest[CardProgress] = Newest()
         self._measured: tuple[LiveSession, CardWatch] | None = None
         self.hand.opened.connect(self._opened)

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.core.calibration.card.card import CHECK_S
 from carpus.core.types import ByteImage
-from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.overlay import paint_discs
+from carpus.ui.camera_name_sheet import CameraNameSheet
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line, scrolled
@@ -32,7 +32,6 @@ class CardScreen(Fitted):
     """What its buttons do is the flow's affair; ``turned`` when a check begins or ends."""
 
     turned = Signal()
-    shows_simulated = False
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()

@@ -26,7 +26,9 @@ class LiveFlow(Flow):
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, LiveScreen(context.theme, context.keys, context.background))
         live, recording, self._to_stop = self.screen, self.screen.recording, False
-        self.patient_view = PatientViewing(context, live)
+        self.patient_view = PatientViewing(context, live.set_patient_view)
+        live.patient_wanted.connect(self.patient_view.toggle)
+        live.glanced.connect(self.patient_view.follow)
         self.course = CourseRun(self, live, self.patient_view, context.now)
         self.course.wanted.connect(self.show)
         live.told.connect(self.take)

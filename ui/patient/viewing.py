@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
@@ -17,15 +18,15 @@ from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
     from carpus.ui.flow import ScreenContext
-    from carpus.ui.live.screen import LiveScreen
 
 
 class PatientViewing(QObject):
-    """One window at most, made when it is first wanted; it draws what the live screen's own beat tells it."""
+    """One window at most, made when it is first wanted; it draws what the live screen's own beat tells it (``follow``).
+    ``show_open`` hears whether it is open."""
 
-    def __init__(self, context: ScreenContext, live: LiveScreen) -> None:
+    def __init__(self, context: ScreenContext, show_open: Callable[[bool], None]) -> None:
         super().__init__(context.shell)
-        self._context, self._live = context, live
+        self._context, self._show_open = context, show_open
         self._set_up: SetUp | None = None
         self._guide: Guide | None = None
         self._sounded = 0
@@ -34,8 +35,6 @@ class PatientViewing(QObject):
         application = QGuiApplication.instance()
         if isinstance(application, QGuiApplication):
             application.screenRemoved.connect(self._screen_gone)
-        live.patient_wanted.connect(self.toggle)
-        live.glanced.connect(self._follow)
 
     @property
     def is_open(self) -> bool:
@@ -47,11 +46,11 @@ class PatientViewing(QObject):
             return
         if self.window is None:
             self.window = PatientWindow(self._context.theme)
-            self.window.closed.connect(lambda: self._live.set_patient_view(False))
+            self.window.closed.connect(lambda: self._show_open(False))
         self.window.view.sound_on = self._context.patient_sound
         self.window.view.begin(self._set_up)
         self.window.open_beside(self._context.shell)
-        self._live.set_patient_view(True)
+        self._show_open(True)
 
     def close(self) -> None:
         """Let it go; may be called although it is not there."""
@@ -118,7 +117,8 @@ class PatientViewing(QObject):
         if self.window is not None and not self._hidden:
             self.window.show_standing(scene)
 
-    def _follow(self, glance: Glance) -> None:
+    def follow(self, glance: Glance) -> None:
+        """Draw what the hand does now."""
         if self.window is None or not self.is_open or self._guide is None or self._rests or self._hidden:
             return
         self.window.show_running(self._guide.take(glance))

@@ -24,7 +24,7 @@ from carpus.ui.fault_words import fault_words
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.patients.flow import StoredPatients
+    from carpus.ui.patients.stored import StoredPatients
 
 NOTE_HEIGHT_PX = 84
 WHOLE_DAY = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")

@@ -2,29 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
-from carpus.core.errors import SessionUnreadable
-from carpus.core.records import of_clinic
-from carpus.core.records.keeping import Records
-from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import NewSessions
-from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import compare, compare_rows, unfair_reasons
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import put_off_last
 from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.ports import MOST_ROWS, PatientCard, PatientRow, ResultLine
-from carpus.ui.report.further_rows import main_words
-from carpus.ui.report.hand_rows import compared_figures
-from carpus.ui.report.tables import repetition_words
-from carpus.ui.report.words import warnings
+from carpus.ui.patients.stored import StoredPatients
 
 
 class PatientsFlow(Flow):
@@ -63,113 +48,3 @@ class PatientsFlow(Flow):
             self.screen.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
         elif self.context.way.place == "patients" and name == "new_patient":
             self.screen.new_patient()
-
-
-_ENDS = ("arc",)
-"""Movements that the card leaves out: it shows the two ends, which the therapist trains."""
-
-
-class StoredPatients:
-    """The register of patients. Names beyond the pseudonym are known behind it alone."""
-
-    def __init__(self, library: Library) -> None:
-        self._library = library
-        self._shown: dict[str, int] = {}
-
-    def patients(self, search: str = "") -> Sequence[PatientRow]:
-        return [PatientRow.of(record) for record in self._library.patients.listed(search, most=MOST_ROWS)]
-
-    def archived(self) -> Sequence[str]:
-        return [one.pseudonym for one in Records(self._library).archived() if one.recorded is None]
-
-    def card(self, patient_id: str) -> PatientCard:
-        """What the therapist must recall, of the last session against the first that compares."""
-        record = self._library.patients.one(patient_id)
-        self._shown[patient_id] = record.version
-        row = PatientRow.of(record)
-        entries = self._library.sessions(patient_id)
-        if not entries:
-            archived = any(one.patient_id == patient_id for one in Records(self._library).archived())
-            return PatientCard(row, has_sessions=archived)  # the way to the archive is the list of sessions
-        picture = self._library.marker_picture(patient_id)
-        real = [entry for entry in entries if not entry.simulated]
-        if not real and patient_id != PRACTICE_PATIENT:
-            return PatientCard(row, marker_picture_rgb=picture, has_sessions=True)
-        try:
-            last = self._library.figures((real or entries)[0])
-            first = self._first_alike(patient_id, last)
-        except SessionUnreadable:
-            return PatientCard(row, marker_picture_rgb=picture, has_sessions=True)
-        note = last.notes[-1][1] if last.notes else ""
-        said = () if patient_id == PRACTICE_PATIENT else warnings(last)
-        # A reach or a touch is not told by how far the joints bend.
-        about = main_words(last)
-        results = () if about else _results(first, last)
-        return PatientCard(row, results, repetition_words(last), note, last.when, picture, said, True, about)
-
-    def suggest_pseudonym(self) -> str:
-        return self._library.patients.suggest_pseudonym()
-
-    def add(self, entry: PatientEntry) -> str:
-        patient_id = self._library.patients.add(entry)
-        self._library.notes.patient("added", patient_id)
-        return patient_id
-
-    def change(self, patient_id: str, entry: PatientEntry) -> None:
-        """Change what a person wrote; what the form does not show stays."""
-        record = self._library.patients.one(patient_id)
-        new = replace(entry, age_band=record.entry.age_band)
-        self._library.patients.change(patient_id, new, self._shown.pop(patient_id, record.version))
-        self._library.notes.patient("changed", patient_id)
-
-    def diagnoses(self) -> Sequence[str]:
-        return of_clinic.diagnoses(self._library.store)
-
-    def list_diagnosis(self, words: str, *, listed: bool) -> None:
-        of_clinic.list_diagnosis(self._library.store, words, listed=listed)
-
-    def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:
-        """The first session of the same hand and exercise that the progress compares with; no more are read."""
-        alike = [
-            entry
-            for entry in self._library.sessions(patient_id)
-            if entry.hand == last.side and entry.exercise == last.exercise.id and entry.session_id != last.session_id
-        ]
-        for entry in reversed(alike):
-            figures = self._library.figures(entry)
-            if figures.simulated == last.simulated and not unfair_reasons(figures, figures):
-                return figures
-        return None
-
-
-def _joint_results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
-    """Of the whole hand what the exercise is about, finger by finger."""
-    rows = [last.row("arc", -1, figure.joint) for figure in compared_figures(last)]
-    known = [row for row in rows if row is not None and row.count]
-    changes = {}
-    if first is not None and first.session_id != last.session_id:
-        changes = {item.joint: item for item in compare_rows(first, last, known)}
-    out = []
-    for row in known:
-        change = changes.get(row.joint)
-        difference, verdict = (change.difference_deg, change.verdict) if change else (float("nan"), "not_judged")
-        out.append(
-            ResultLine(row.movement, row.mean_deg, row.sd_deg, difference, verdict, row.joint, at_least=row.limited)
-        )
-    return out
-
-
-def _results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
-    if last.joint_rows:
-        return _joint_results(first, last)
-    changes = {}
-    if first is not None and first.session_id != last.session_id:
-        changes = {(item.movement, item.angle): item for item in compare(first, last)}
-    out = []
-    for row in last.rows:
-        if row.movement in _ENDS or last.exercise.angle is None:
-            continue
-        change = changes.get((row.movement, row.angle))
-        difference, verdict = (change.difference_deg, change.verdict) if change else (float("nan"), "not_judged")
-        out.append(ResultLine(row.movement, row.mean_deg, row.sd_deg, difference, verdict))
-    return out

@@ -27,7 +27,7 @@ from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.patients.flow import StoredPatients
+    from carpus.ui.patients.stored import StoredPatients
 
 LOOK_AT_DAY_MS = 30_000
 ARCHIVED_NAMED = 3

@@ -11,7 +11,7 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Progress
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.report.pdf import progress_report
+from carpus.ui.report.gather import progress_report
 from carpus.ui.saved_table import named_beside, save_table
 
 

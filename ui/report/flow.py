@@ -15,10 +15,10 @@ from carpus.core.records import of_clinic, patients
 from carpus.core.records.of_clinic import keep_form, read_form
 from carpus.core.results.report_form import ReportForm, usual_paper
 from carpus.ui.flow import Flow, ScreenContext
+from carpus.ui.report.gather import session_report
 from carpus.ui.report.home_page import HomeReport, own_way
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pages import Report
-from carpus.ui.report.pdf import session_report
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport

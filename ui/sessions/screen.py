@@ -22,7 +22,7 @@ from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.theme import MARGIN_PX, Theme
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.sessions.flow import StoredSessions
+    from carpus.ui.sessions.stored import StoredSessions
 
 
 class SessionsScreen(QWidget):

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from carpus.core.capture.devices.capture_process import ExposureSet, Outlet
+from carpus.core.capture.devices.capture_child import ExposureSet, Outlet
 
 LIGHT_SHARE = 0.9
 """Of a picture's time the longest exposure: a longer one would slow the camera down."""

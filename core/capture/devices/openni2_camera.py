@@ -10,7 +10,7 @@ import threading
 from collections.abc import Mapping, Sequence
 
 from carpus.core.camera import Camera
-from carpus.core.capture.devices.capture_process import (
+from carpus.core.capture.devices.capture_child import (
     WAIT_MS,
     CameraPlan,
     GaveUp,

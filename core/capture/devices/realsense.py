@@ -15,7 +15,7 @@ from typing import Any
 
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.cameras import USB_3, CameraKind, further_findings, library_finding
-from carpus.core.capture.devices.capture_process import (
+from carpus.core.capture.devices.capture_child import (
     WAIT_MS,
     CameraPlan,
     GaveUp,

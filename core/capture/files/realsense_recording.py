@@ -9,8 +9,8 @@ from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.core.capture.devices.capture_process import Arrived, Ended, Opened, Serve
-from carpus.core.capture.devices.process_camera import ANSWER_S, CaptureProcess
+from carpus.core.capture.devices.capture_child import Arrived, Ended, Opened, Serve
+from carpus.core.capture.devices.capture_process import ANSWER_S, CaptureProcess
 from carpus.core.capture.devices.realsense import require_library, sensor_named, serve
 from carpus.core.capture.frame_assembly import WAITING_IN_FILE, Assembler, Layout, camera_of_lens
 from carpus.core.capture.source import SourceInfo
