@@ -373,6 +373,22 @@ class IntrinsicsAssumed(CarpusFault):
     do = phrase("Put the camera_info.yaml of the camera beside it.")
 
 
+class UnitAssumed(CarpusFault):
+    """Told, never raised: the numbers of a recording make sense in another unit than its form has."""
+
+    happened = phrase("By its numbers, the recording has {detail}, and Carpus reads it so: {subject}.")
+    safe = _RECORDING_UNCHANGED
+    do = phrase("If this is not so, correct the list, or state depth_unit_m in camera_info.yaml.")
+
+
+class TimesTwice(CarpusFault):
+    """Told, never raised: lines of a list with the time of the one before are left out; ``detail`` counts them."""
+
+    happened = phrase("Pictures with the same time as the one before are left out: {subject} ({detail}).")
+    safe = phrase("All other pictures are used, and the gaps are marked.")
+    do = phrase("Record again if there are many.")
+
+
 class RegistrationAssumed(CarpusFault):
     """Told, never raised: nothing says whether depth lies on colour; it is taken as so."""
 

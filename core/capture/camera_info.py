@@ -23,6 +23,7 @@ _USUAL_MODEL: DistortionModel = "plumb_bob"
 _MOST_BYTES = 1_000_000
 _MOST_SIDE_PX = 100_000
 _SCALES, _MOST_OFFSET_M = (0.8, 1.25), 0.1
+_DEPTH_UNITS_M = (1e-5, 1e-2)
 _FOUND_BACK_PX = 2.0
 _FOCAL_SHARE = (0.2, 10.0)
 """Focal length over the picture's width: beyond these a camera sees more than 136 or less than 6 degrees."""
@@ -49,13 +50,15 @@ class StoredCalibration:
 @dataclass(frozen=True, slots=True)
 class CameraInfo:
     """What the file says. ``registered`` and ``mirrored`` are None where it does not say; ``simulated``: the pictures
-    beside it are of a simulated hand."""
+    beside it are of a simulated hand; ``depth_unit_m`` metres per count of the depth pictures, None as their form
+    has it."""
 
     camera: Camera
     registered: bool | None = None
     mirrored: bool | None = None
     simulated: bool = False
     calibration: StoredCalibration | None = None
+    depth_unit_m: float | None = None
 
 
 def read_camera_info(path: Path) -> CameraInfo:
@@ -78,7 +81,8 @@ def read_camera_info(path: Path) -> CameraInfo:
     if not isinstance(content, dict):
         raise CameraFileUnreadable(path, phrase("not a camera calibration"))
     registered, mirrored, simulated = (_flag(path, content, key) for key in ("registered", "mirrored", SIMULATED))
-    return CameraInfo(_camera(path, content), registered, mirrored, bool(simulated), _calibration(path, content))
+    calibration, unit_m = _calibration(path, content), _depth_unit_m(path, content)
+    return CameraInfo(_camera(path, content), registered, mirrored, bool(simulated), calibration, unit_m)
 
 
 def write_camera_info(
@@ -241,6 +245,19 @@ def _size(path: Path, content: dict[str, Any], key: str) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 < value <= _MOST_SIDE_PX:
         raise CameraFileUnreadable(path, phrase("{key} is not a number of pixels", key=key))
     return value
+
+
+def _depth_unit_m(path: Path, content: dict[str, Any]) -> float | None:
+    value = content.get("depth_unit_m")
+    if value is None:
+        return None
+    try:  # YAML 1.1 takes 1e-3 for a word
+        unit_m = math.nan if isinstance(value, bool) else float(value)
+    except (TypeError, ValueError):
+        unit_m = math.nan
+    if not _DEPTH_UNITS_M[0] <= unit_m <= _DEPTH_UNITS_M[1]:
+        raise CameraFileUnreadable(path, phrase("depth_unit_m is not metres per count, as 0.001 or 0.0002"))
+    return unit_m
 
 
 def _flag(path: Path, content: dict[str, Any], key: str) -> bool | None:

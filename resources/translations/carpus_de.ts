@@ -6883,6 +6883,34 @@
         <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
         <translation>Nicht vergleichbar: {why}. Die Werte werden gezeigt, beurteilt wird nichts.</translation>
     </message>
+    <message>
+        <source>By its numbers, the recording has {detail}, and Carpus reads it so: {subject}.</source>
+        <translation>Den Zahlen nach hat die Aufnahme {detail}, und Carpus liest sie so: {subject}.</translation>
+    </message>
+    <message>
+        <source>If this is not so, correct the list, or state depth_unit_m in camera_info.yaml.</source>
+        <translation>Wenn das nicht stimmt, die Liste berichtigen oder depth_unit_m in camera_info.yaml angeben.</translation>
+    </message>
+    <message>
+        <source>Pictures with the same time as the one before are left out: {subject} ({detail}).</source>
+        <translation>Bilder mit derselben Zeit wie das vorige sind ausgelassen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Record again if there are many.</source>
+        <translation>Neu aufnehmen, wenn es viele sind.</translation>
+    </message>
+    <message>
+        <source>depth in millimetres, not 5000 per metre</source>
+        <translation>Tiefe in Millimetern, nicht 5000 pro Meter</translation>
+    </message>
+    <message>
+        <source>depth_unit_m is not metres per count, as 0.001 or 0.0002</source>
+        <translation>depth_unit_m sind keine Meter pro Zähler, wie 0.001 oder 0.0002</translation>
+    </message>
+    <message>
+        <source>times in {unit}, not in seconds</source>
+        <translation>Zeiten in {unit}, nicht in Sekunden</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

@@ -6883,6 +6883,34 @@
         <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
         <translation>Coppia non confrontabile: {why}. I valori sono mostrati, nulla è valutato.</translation>
     </message>
+    <message>
+        <source>By its numbers, the recording has {detail}, and Carpus reads it so: {subject}.</source>
+        <translation>Dai suoi numeri la registrazione ha {detail}, e Carpus la legge così: {subject}.</translation>
+    </message>
+    <message>
+        <source>If this is not so, correct the list, or state depth_unit_m in camera_info.yaml.</source>
+        <translation>Se non è giusto, correggere l’elenco o indicare depth_unit_m in camera_info.yaml.</translation>
+    </message>
+    <message>
+        <source>Pictures with the same time as the one before are left out: {subject} ({detail}).</source>
+        <translation>Le immagini con lo stesso tempo della precedente sono escluse: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Record again if there are many.</source>
+        <translation>Registrare di nuovo se sono molte.</translation>
+    </message>
+    <message>
+        <source>depth in millimetres, not 5000 per metre</source>
+        <translation>profondità in millimetri, non 5000 per metro</translation>
+    </message>
+    <message>
+        <source>depth_unit_m is not metres per count, as 0.001 or 0.0002</source>
+        <translation>depth_unit_m non indica metri per unità, come 0.001 o 0.0002</translation>
+    </message>
+    <message>
+        <source>times in {unit}, not in seconds</source>
+        <translation>tempi in {unit}, non in secondi</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

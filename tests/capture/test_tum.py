@@ -27,7 +27,9 @@ from carpus.core.errors import (
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
+    TimesTwice,
     TimesUnordered,
+    UnitAssumed,
 )
 from carpus.core.types import SIMULATED
 
@@ -183,7 +185,11 @@ BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
     "line without a name": (more("rgb.txt", "1305031109.0"), RecordingUnreadable, "line 8"),
     "time not a number": (more("depth.txt", "nan x.png"), RecordingUnreadable, "line 7"),
     "times swapped": (swapped("rgb.txt"), TimesUnordered, "line 7"),
-    "a time twice": (more("rgb.txt", ""), TimesUnordered, "line 8"),
+    "a line leads to a drive": (more("rgb.txt", "1305031109.0 C:\\a.png"), RecordingUnreadable, "out of the folder"),
+    "a unit of depth that is none": (
+        lambda f: (camera_file(OWN_CAMERA)(f), edit(f / "camera_info.yaml", lambda t: [*t, "depth_unit_m: 1"])),
+        CameraFileUnreadable, "depth_unit_m",
+    ),
     "depth times swapped": (swapped("depth.txt"), TimesUnordered, "line 6"),
     "colour picture gone": (lambda f: sorted((f / "rgb").iterdir())[3].unlink(), PictureDamaged, "missing"),
     "depth picture gone": (lambda f: sorted((f / "depth").iterdir())[3].unlink(), PictureDamaged, "missing"),
@@ -305,3 +311,66 @@ def test_the_first_picture_must_be_there_whole(tmp_path: Path) -> None:
         for leave_out in (False, True):  # and nobody is told to go on without it
             with pytest.raises(FirstPictureDamaged):
                 TumFolder(folder, leave_out_damaged=leave_out)
+
+
+@pytest.mark.parametrize(("unit", "counts"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
+@pytest.mark.parametrize("first_s", [120.0, 1726543210.0])
+def test_times_in_parts_of_a_second_are_recognised_and_said(
+    take: Path, unit: str, counts: float, first_s: float
+) -> None:
+    for name in ("rgb.txt", "depth.txt"):
+        lines = [line.split() for line in (take / name).read_text().splitlines() if line[0] != "#"]
+        later = [(f"{(first_s + float(time_s) - TIMES_S[0]) * counts:.3f}", path) for time_s, path in lines]
+        (take / name).write_text("".join(f"{time} {path}\n" for time, path in later))
+    told: list[CarpusFault] = []
+    source = TumFolder(take, notice=told.append)
+    assert [type(fault) for fault in told] == [UnitAssumed, UnitAssumed]
+    assert unit in told[0].detail
+    stamps = np.array([frame.timestamp_s for frame in source.frames()])
+    assert stamps == pytest.approx(first_s + np.array(TIMES_S) - TIMES_S[0], abs=1e-5)
+    assert source.info.nominal_fps == pytest.approx(1.0 / 0.033, rel=0.01)
+
+
+@pytest.mark.parametrize("step_s", [0.2, 0.67, 1.5])
+def test_a_slow_recording_in_seconds_stays_one(tmp_path: Path, step_s: float) -> None:
+    told: list[CarpusFault] = []
+    source = TumFolder(write_recording(tmp_path / "slow", [step_s * k for k in range(4)]), notice=told.append)
+    assert not told
+    assert source.stored[3].timestamp_s == pytest.approx(3.0 * step_s)
+
+
+def test_a_time_twice_is_left_out_and_counted(take: Path) -> None:
+    for name in ("rgb.txt", "depth.txt"):
+        edit(take / name, lambda lines: [*lines[:-1], lines[-2], lines[-1], lines[-1]])
+    told: list[CarpusFault] = []
+    frames = list(TumFolder(take, notice=told.append).frames())
+    assert [frame.timestamp_s for frame in frames] == [round(time_s, 6) for time_s in TIMES_S]
+    assert [(type(fault), fault.detail) for fault in told] == [(TimesTwice, "2"), (TimesTwice, "2")]
+
+
+def test_backslashes_in_lists_are_read(take: Path) -> None:
+    for name in ("rgb.txt", "depth.txt"):
+        edit(take / name, lambda lines: [line.replace("/", "\\") for line in lines])
+    assert len(list(TumFolder(take).frames())) == len(TIMES_S)
+
+
+@pytest.mark.parametrize(("counts_per_m", "said"), [(5000, False), (1000, True)])
+def test_depth_in_millimetres_is_recognised_and_said(take: Path, counts_per_m: int, said: bool) -> None:
+    for path in (take / "depth").iterdir():
+        picture = np.full((HEIGHT, WIDTH), round(0.72 * counts_per_m), np.uint16)
+        picture[:10] = 0
+        cv2.imwrite(str(path), picture)
+    told: list[CarpusFault] = []
+    frame = next(TumFolder(take, notice=told.append).frames())
+    assert frame.depth_raw is not None
+    assert frame.depth_raw[20, 20] * frame.depth_unit_m == pytest.approx(0.72)
+    assert [type(fault) for fault in told] == [UnitAssumed] * said
+
+
+@pytest.mark.parametrize("unit_m", ["0.001", "1e-3", "0.0002"])
+def test_the_camera_file_may_state_the_unit_of_depth(take: Path, unit_m: str) -> None:
+    write_camera_info(take / "camera_info.yaml", OWN_CAMERA)
+    edit(take / "camera_info.yaml", lambda lines: [*lines, f"depth_unit_m: {unit_m}"])
+    told: list[CarpusFault] = []
+    assert next(TumFolder(take, notice=told.append).frames()).depth_unit_m == float(unit_m)
+    assert not told

@@ -7,17 +7,17 @@ import math
 import os
 import shutil
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from io import FileIO
-from pathlib import Path, PurePath
+from pathlib import Path, PurePath, PureWindowsPath
 
 import numpy as np
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.camera_info import CAMERA_FILE, fitted_camera, read_camera_info, write_camera_info
+from carpus.core.capture.camera_info import CAMERA_FILE, CameraInfo, fitted_camera, read_camera_info, write_camera_info
 from carpus.core.capture.files.pictures import encode_color, encode_depth, read_color, read_depth
 from carpus.core.capture.source import Notice, SourceInfo, ignore, is_simulated
 from carpus.core.durable import Writing, private, write_fault
@@ -33,7 +33,9 @@ from carpus.core.errors import (
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
+    TimesTwice,
     TimesUnordered,
+    UnitAssumed,
 )
 from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED, DepthImage, FloatArray, Frame
@@ -41,6 +43,13 @@ from carpus.core.types import SIMULATED, DepthImage, FloatArray, Frame
 COLOR_LIST = "rgb.txt"
 DEPTH_LIST = "depth.txt"
 DEPTH_UNIT_M = 1.0 / 5000.0
+_MILLIMETRE_M = 1e-3
+_TIME_UNITS = ((2e6, 1e-9, "ns"), (2e3, 1e-6, "µs"), (2.0, 1e-3, "ms"))
+"""From such a step between two pictures on, which no camera takes in seconds, times are in these parts of one."""
+_NO_CAMERA_SEES = 0.5
+"""Of the sensor's nearest distance: where half of the readings are nearer, their unit is another."""
+_LOOKS_AT = 5
+"""Depth pictures looked at for their unit."""
 PAIRING_LIMIT_S = 0.020
 _TIME_ROUNDING_S = 1e-6
 """The lists give microseconds; two times 20 ms apart may differ by a little more in floating point."""
@@ -90,10 +99,10 @@ class TumFolder:
             raise RecordingUnreadable(folder, phrase("not a folder"))
         self._read_ahead = read_ahead
         self._folder, self._leave_out, self._notice = folder, leave_out_damaged, notice
-        color, color_gone = _there(_read_list(folder / COLOR_LIST), leave_out_damaged, first=True)
+        color, color_gone = _there(_read_list(folder / COLOR_LIST, notice), leave_out_damaged, first=True)
         if not color:
             raise RecordingEmpty(folder, phrase("no picture in {color_list}", color_list=COLOR_LIST))
-        depth, depth_gone = _there(_depth_list(folder, need_depth), leave_out_damaged, first=False)
+        depth, depth_gone = _there(_depth_list(folder, need_depth, notice), leave_out_damaged, first=False)
         if color_gone or depth_gone:
             notice(PicturesLost(folder, _counted(color_gone, depth_gone, "missing")))
         color_s = np.array([time_s for time_s, _ in color])
@@ -115,13 +124,17 @@ class TumFolder:
         except PictureDamaged as fault:
             raise FirstPictureDamaged(fault.subject, fault.detail) from fault
         self._size = (first.shape[1], first.shape[0])
+        camera_info = _camera(folder, *self._size)
+        self._depth_unit_m = camera_info.depth_unit_m or _likely_unit_m(self.stored, camera_info.camera)
+        if camera_info.depth_unit_m is None and self._depth_unit_m != DEPTH_UNIT_M:
+            notice(UnitAssumed(folder, phrase("depth in millimetres, not 5000 per metre")))
         self.info = SourceInfo(
             name=folder.resolve().name,
-            camera=_camera(folder, *self._size),
+            camera=camera_info.camera,
             has_depth=any(frame.depth is not None for frame in self.stored),
             frame_count=len(self.stored),
             nominal_fps=1.0 / float(np.median(np.diff(color_s))) if len(color) > 1 else _FPS_OF_ONE_PICTURE,
-            settings={"format": "tum", "depth_unit_m": repr(DEPTH_UNIT_M), **_simulated(folder / COLOR_LIST)},
+            settings={"format": "tum", "depth_unit_m": repr(self._depth_unit_m), **_simulated(folder / COLOR_LIST)},
             recording_id=_remark(folder / COLOR_LIST, RECORDING_ID_REMARK),
             recorded=_remark(folder / COLOR_LIST, RECORDED_REMARK),
         )
@@ -186,7 +199,7 @@ class TumFolder:
         depth = None if stored.depth is None or not with_depth else read_depth(stored.depth)
         if stored.depth is not None and depth is not None:
             self._check_size(stored.depth, depth.shape)
-        return Frame(index, stored.timestamp_s, color, depth, DEPTH_UNIT_M, stored.dropped_before)
+        return Frame(index, stored.timestamp_s, color, depth, self._depth_unit_m, stored.dropped_before)
 
     def _check_size(self, path: Path, shape: tuple[int, ...]) -> None:
         width, height = self._size
@@ -238,9 +251,9 @@ def missing_before(timestamp_s: FloatArray) -> list[int]:
     return [0, *(max(0, round(float(gap)) - 1) for gap in gap_s / np.median(gap_s))]
 
 
-def _depth_list(folder: Path, need_depth: bool) -> list[_Entry]:
+def _depth_list(folder: Path, need_depth: bool, notice: Notice) -> list[_Entry]:
     path = folder / DEPTH_LIST
-    depth = _read_list(path) if path.exists() else []
+    depth = _read_list(path, notice) if path.exists() else []
     if need_depth and not depth:
         raise DepthMissing(
             folder, phrase("no picture in {depth_list}", depth_list=DEPTH_LIST) if path.exists() else f"no {DEPTH_LIST}"
@@ -248,8 +261,25 @@ def _depth_list(folder: Path, need_depth: bool) -> list[_Entry]:
     return depth
 
 
-def _read_list(path: Path) -> list[_Entry]:
-    """Times, picture files and lines of ``rgb.txt`` or ``depth.txt``; the times rise strictly."""
+def _likely_unit_m(stored: Sequence[StoredFrame], camera: Camera) -> float:
+    """Metres per count of the depth pictures: as the format has it, or a millimetre where half of what is seen would
+    else be far nearer than the sensor sees."""
+    for frame in [frame for frame in stored if frame.depth is not None][:_LOOKS_AT]:
+        assert frame.depth is not None
+        try:
+            counts = read_depth(frame.depth)
+        except PictureDamaged:  # told when it is read
+            continue
+        if (counts > 0).any():
+            middle, sensor = float(np.median(counts[counts > 0])), camera.sensor
+            is_too_near = middle * DEPTH_UNIT_M < _NO_CAMERA_SEES * sensor.nearest_m
+            return _MILLIMETRE_M if is_too_near and middle * _MILLIMETRE_M >= sensor.nearest_m else DEPTH_UNIT_M
+    return DEPTH_UNIT_M
+
+
+def _read_list(path: Path, notice: Notice) -> list[_Entry]:
+    """Times in seconds, picture files and lines of ``rgb.txt`` or ``depth.txt``; the times rise strictly. ``notice``
+    hears of times in another unit, and of lines with the time of the one before, which are left out."""
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as cause:
@@ -259,12 +289,16 @@ def _read_list(path: Path) -> list[_Entry]:
     except UnicodeDecodeError as cause:
         raise RecordingUnreadable(path, phrase("not a text file")) from cause
     entries: list[_Entry] = []
+    twice = 0
     for number, line in enumerate(text.splitlines(), start=1):
         content = line.strip()
         if not content or content.startswith("#"):
             continue
         time_s, picture = _entry(path, number, content)
-        if entries and time_s <= entries[-1][0]:
+        if entries and time_s == entries[-1][0]:
+            twice += 1
+            continue
+        if entries and time_s < entries[-1][0]:
             raise TimesUnordered(
                 path,
                 phrase(
@@ -275,6 +309,13 @@ def _read_list(path: Path) -> list[_Entry]:
                 ),
             )
         entries.append((time_s, picture, f"{path.name} line {number}"))
+    if twice:
+        notice(TimesTwice(path, str(twice)))
+    step = float(np.median(np.diff([time_s for time_s, _, _ in entries]))) if len(entries) > 1 else 0.0
+    for least, scale, unit in _TIME_UNITS:
+        if step >= least:
+            notice(UnitAssumed(path, phrase("times in {unit}, not in seconds", unit=unit)))
+            return [(time_s * scale, picture, place) for time_s, picture, place in entries]
     return entries
 
 
@@ -329,15 +370,16 @@ def _entry(path: Path, number: int, content: str) -> tuple[float, Path]:
                 "line {number} is not a time and a file name: {content}", number=number, content=f"{content[:60]!r}"
             ),
         )
-    inside = PurePath(names[0])
-    if inside.is_absolute() or ".." in inside.parts or "\0" in names[0]:
+    on_windows = PureWindowsPath(names[0])
+    inside = PurePath(on_windows.as_posix())
+    if inside.is_absolute() or on_windows.drive or on_windows.root or ".." in inside.parts or "\0" in names[0]:
         raise RecordingUnreadable(
             path, phrase("line {number} leads out of the folder: {content}", number=number, content=f"{content[:60]!r}")
         )
     return time_s, path.parent / inside
 
 
-def _camera(folder: Path, width_px: int, height_px: int) -> Camera:
+def _camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
     path = folder / CAMERA_FILE
     size = f"{width_px} x {height_px} pixels"
     if not path.exists():
@@ -346,7 +388,7 @@ def _camera(folder: Path, width_px: int, height_px: int) -> Camera:
             raise CameraFileUnreadable(
                 path, phrase("missing, and pictures of {size} have no default camera", size=size)
             )
-        return camera
+        return CameraInfo(camera)
     info = read_camera_info(path)
     camera = info.camera
     if (camera.width_px, camera.height_px) != (width_px, height_px):
@@ -362,7 +404,7 @@ def _camera(folder: Path, width_px: int, height_px: int) -> Camera:
     if info.mirrored or info.registered is False:
         wrong = "mirrored: true" if info.mirrored else "registered: false"
         raise CameraFileUnreadable(path, phrase("{wrong}, which a folder of pictures cannot be", wrong=wrong))
-    return camera
+    return info
 
 
 class TumWriter(Writing):
