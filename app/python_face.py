@@ -54,8 +54,9 @@ _UNITS = {"_deg_s": "deg/s", "_mm_s": "mm/s", "_deg": "deg", "_mm": "mm", "_px":
 
 @dataclass(frozen=True, slots=True)
 class Wrist:
-    """The wrist of one picture, degrees: + radial, + flexion, + supination on both hands; ``*_sd_deg`` their standard
-    deviations. ``position_m`` (3,), ``rotation_w2_w0`` (3, 3) and ``velocity_m_s`` (3,) of W2 in W0;
+    """The wrist of one picture, degrees: + radial, + flexion, + supination on both hands, from the
+    palm down (thumb up is + 90); ``*_sd_deg`` their standard deviations.
+    ``position_m`` (3,), ``rotation_w2_w0`` (3, 3) and ``velocity_m_s`` (3,) of W2 in W0;
     ``angular_velocity_deg_s`` (3,) in W2, which the papers' filter has none of. NaN where the hand is lost."""
 
     deviation_deg: float

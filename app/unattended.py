@@ -239,8 +239,7 @@ def lines_of(figures: SessionFigures) -> list[str]:
     lines.append(f"Repetitions: {figures.counted}")
     for row in figures.rows:
         name = terms.movement_long_name(row.movement)
-        value = numbers.with_spread(row.mean_deg, row.sd_deg)
-        lines.append(f"{name}: {value if row.mean_deg >= 0.0 else terms.lacking(value)}")
+        lines.append(f"{name}: {terms.end_words(row.mean_deg, row.movement, row.sd_deg)}")
     for row in figures.joint_rows:
         if row.movement == "arc" and row.count:
             value = numbers.with_spread(row.mean_deg, row.sd_deg)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from datetime import date
 
-from carpus.core.hand.exercises import SIDES, known_exercise
+import numpy as np
+
+from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, exercise_named, known_exercise
+from carpus.core.hand.forearm_rotation import is_from_thumb_up, read_wrist_angles
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import FloatArray
 from carpus.ui import language, numbers
@@ -22,6 +25,9 @@ def legal_notice() -> str:
     """The sentence as a window has it, which says in its own language why this one is English."""
     before = "" if language.spoken() == "en" else tr("Legal notice, in its English wording:")
     return f"{before} {LEGAL_SENTENCE}".lstrip()
+
+
+FOREARM = ("supination", "pronation")
 
 
 def exercise_name(exercise_id: str) -> str:
@@ -78,25 +84,64 @@ def lacking(size: str) -> str:
     return tr("lacks {angle}").format(angle=size)
 
 
-def end_words(mean_deg: float) -> str:
-    """``42°``; ``lacks 20°`` of an end that was never reached, whatever stands beside it."""
-    shown = numbers.degrees(mean_deg)
-    return lacking(shown) if mean_deg < 0.0 and shown != numbers.degrees(0.0) else shown
+def end_words(mean_deg: float, movement: str = "", sd_deg: float = math.nan) -> str:
+    """``42°``; ``lacks 20°`` of an end that was never reached, whatever stands beside it.
+
+    Of the forearm, whose palm looks down at 90° of pronation, it is nothing unusual: ``−20°``.
+    """
+    shown = numbers.with_spread(mean_deg, sd_deg)
+    if mean_deg >= 0.0 or numbers.degrees(mean_deg) == numbers.degrees(0.0):
+        return shown
+    return f"\N{MINUS SIGN}{shown}" if movement in FOREARM else lacking(shown)
 
 
 def movement_long_name(movement: str) -> str:
     """As :func:`movement_name`, with the noun where the short word alone is not one."""
-    return {"radial": tr("Radial deviation"), "ulnar": tr("Ulnar deviation")}.get(movement, movement_name(movement))
+    return {
+        "radial": tr("Radial deviation"),
+        "ulnar": tr("Ulnar deviation"),
+        "supination": tr("Forearm supination"),
+        "pronation": tr("Forearm pronation"),
+    }.get(movement, movement_name(movement))
 
 
-def movement_at_zero(angle: int) -> str:
+def direction_names(angle: int, exercise: Exercise) -> tuple[str, str]:
+    """Both directions of a wrist angle; a rotation that accompanies another movement is no supination."""
+    if angle == PRONOSUPINATION and not is_from_thumb_up(exercise):
+        return tr("Rotation +"), tr("Rotation −")  # thumb side up, thumb side down
+    upper, lower = SIDES[angle]
+    return movement_name(upper), movement_name(lower)
+
+
+def direction_long_name(angle: int, value_deg: float, exercise: Exercise) -> str:
+    """As :func:`direction_name`, with the noun where the short word alone is not one."""
+    if angle == PRONOSUPINATION and not is_from_thumb_up(exercise):
+        return direction_name(angle, value_deg, exercise)
+    return movement_long_name(SIDES[angle][0 if value_deg >= 0.0 else 1])
+
+
+def direction_name(angle: int, value_deg: float, exercise: Exercise) -> str:
+    """The direction that a value lies in."""
+    return direction_names(angle, exercise)[0 if value_deg >= 0.0 else 1]
+
+
+def thumb_up_words() -> str:
+    """Where pronation and supination are counted from, said once on every page that has them."""
+    return tr(
+        "Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation."
+    )
+
+
+def movement_at_zero(angle: int, exercise: Exercise) -> str:
     """What a wrist is in that shows no movement to either side; ``angle`` is the column."""
-    return tr("Palm down") if angle == 2 else tr("Straight")
+    if angle != PRONOSUPINATION:
+        return tr("Straight")
+    return tr("Thumb up") if is_from_thumb_up(exercise) else tr("As at the start")
 
 
 def arc_name(angle: int) -> str:
     """The whole arc of one angle, where more than one is shown."""
-    return {0: tr("Side arc"), 1: tr("Bending arc"), 2: tr("Turning arc")}[angle]
+    return {0: tr("Side arc"), 1: tr("Bending arc"), 2: tr("Forearm rotation")}[angle]
 
 
 def hand_name(side: str) -> str:
@@ -121,10 +166,10 @@ def affected_phrase(side: str, dominance: str) -> str:
 
 
 def start_angle_words(angles_rad: FloatArray) -> str:
-    """``Flexion 10°, Ulnar 5°`` of deviation, flexion, pro/supination (3,); empty for a straight hand."""
+    """``Flexion 10°, Pronation 60°`` of the angles (3,) of a file; empty for a straight hand with the palm down."""
+    read = read_wrist_angles(angles_rad, exercise_named("FOREARM_PS"), np.zeros(3))
     parts = [
-        f"{movement_name(SIDES[column][0 if angles_rad[column] > 0 else 1])} "
-        f"{numbers.degrees(math.degrees(angles_rad[column]))}"
+        f"{movement_name(SIDES[column][0 if read[column] > 0 else 1])} {numbers.degrees(math.degrees(read[column]))}"
         for column in (1, 0, 2)
         if abs(angles_rad[column]) > 1e-6
     ]

@@ -22,6 +22,7 @@ from carpus.core.agreement.reference import Reference, listed
 from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
 from carpus.core.errors import ReferenceUnsuited
 from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
+from carpus.core.hand.forearm_rotation import supination_from_thumb_up
 from carpus.core.hand.protocols import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.phrase import phrase
@@ -448,6 +449,8 @@ def _with_readings(
                 )
                 continue
             mine = float(values.mean())
+            if reading.from_thumb_up:
+                mine = float(supination_from_thumb_up(np.array(mine)))
         else:
             mine = _range_end(figures, reading.angle, reading.movement)
             if not math.isfinite(mine):

@@ -53,12 +53,17 @@ KNOWN_NAMES = frozenset((*TIME_NAMES, "angle", "movement", *(name.lower() for na
 @dataclass(frozen=True, slots=True)
 class GoniometerReading:
     """One reading of a goniometer, radians with the signs of Carpus; ``time_s`` after the first picture, NaN where it
-    is of the whole session's range in the way of ``movement``."""
+    is of the whole session's range in the way of ``movement``. Of supination and pronation it is from thumb up."""
 
     angle: str
     movement: str
     value_rad: float
     time_s: float
+
+    @property
+    def from_thumb_up(self) -> bool:
+        """Whether zero is thumb up, as a goniometer has it, and not the palm down of ``pronosupination``."""
+        return self.movement in ("supination", "pronation")
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,7 +83,7 @@ REPETITION_COLUMNS = {
     "both sides",
     "peak_s": "when it was furthest on its way there, the middle of a hold",
     "end_s": "when it reached its last turning place, or passed that middle again",
-    "angle_deg": "at the peak",
+    "angle_deg": "at the peak; of pronosupination from the palm down, as in the table of the wrist",
     "arc_deg": "from its smallest angle to its largest, without what noise adds",
     "arc_sd_deg": "standard deviation of the arc by the tracker",
     "peak_speed_deg_s": "of its quickest stroke",

@@ -211,6 +211,8 @@ def _readme(formats: Sequence[str], deidentified: bool) -> str:
         "",
         "Lengths and angles carry their units in names, headers or the .json beside each file; what is not known is",
         "NaN, an empty cell, n/a or a residual of -1, never 0. Wrist: + radial, + flexion, + supination on both hands.",
+        "pronosupination is counted from the palm down; supination and pronation, by their names, from thumb up, as in",
+        "clinics: a palm flat on the table is 0 of the first, and at 90 degrees of pronation.",
         "A .h5 is imported by copying it into the data folder of Carpus.",
         "",
         LEGAL,

@@ -118,7 +118,8 @@ W0_AXES = (
     "W0, the hand's axes at the neutral pose: origin WRIST disc, X to the MCP3 disc, Z out of the back of the hand"
 )
 ANGLES_MEAN = (
-    "deviation + radial, flexion + flexion, pronosupination + supination on both hands; "
+    "deviation + radial, flexion + flexion, pronosupination + supination from the palm down (thumb up is + 90), on "
+    "both hands; "
     "ZYX Euler angles of the hand W2 in W0; joints: zero is the straight finger, + bends, + spreads to the thumb's side"
 )
 

@@ -109,12 +109,16 @@ EXERCISES = (
     ),
     Exercise(
         "FOREARM_PS", PRONOSUPINATION, 10, math.nan, False,
-        name=phrase("Palm up – palm down"),
+        name=phrase("Pronation–supination"),
         asked=phrase("Turn the palm up as far as the markers stay visible, then back."),
         position=phrase("Elbow at the side, forearm free, palm down under the camera."),
+        unseen=phrase(
+            "Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers "
+            "go out of sight at about 25° of pronation. A goal short of thumb up has a minus: supination −25°."
+        ),
         adult=(phrase("Turn your palm up"), phrase("Turn your palm down")),
         child=(phrase("Turn up"), phrase("Turn down")),
-        back=phrase("Turn your hand back"), motion="pronosupination",
+        back=phrase("Turn your hand back"), motion="palm_up",
     ),
     Exercise(
         "FIST_COMPOSITE", None, 10, math.nan, False, _FINGERS, "MCP3_flexion",

@@ -23,6 +23,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo, is_simulated, recorded_at, recording_id
 from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
+from carpus.core.hand.forearm_rotation import stored_targets_deg
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
@@ -361,7 +362,8 @@ class SourceMeasuring:
 
     def _parameters(self, learnt: Learnt) -> str:
         """All settings as JSON, with what the exercise aimed at."""
-        aims = (self._set_up.target_positive_deg, self._set_up.target_negative_deg)
+        read = self._set_up.target_positive_deg, self._set_up.target_negative_deg
+        aims = stored_targets_deg(read, self._set_up.exercise)
         set_up = {
             "repetitions": self._set_up.repetitions,
             "targets_deg": [aim if np.isfinite(aim) else None for aim in aims],

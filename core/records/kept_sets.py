@@ -11,6 +11,7 @@ from sqlalchemy import Row, select
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile
 from carpus.core.hand.exercises import EXERCISES, exercise_named
+from carpus.core.hand.forearm_rotation import read_targets_deg, stored_targets_deg
 from carpus.core.hand.protocols import protocol_names
 from carpus.core.records.changes import changed, kept, new
 from carpus.core.records.patients import Patients, goal, goals, known, storable
@@ -66,9 +67,10 @@ def last_set_up(store: Store, patient_id: str) -> SetUp | None:
     row = store.row(select(SET_UP).where(SET_UP.c.id == patient_id))
     if row is None:
         return None
+    exercise = exercise_named(row.exercise)
     last = SetUp(
-        patient_id, Patients(store).one(patient_id).entry.pseudonym, row.side, exercise_named(row.exercise),
-        row.repetitions, known(row.positive_deg), known(row.negative_deg), bool(row.keep_pictures),
+        patient_id, Patients(store).one(patient_id).entry.pseudonym, row.side, exercise, row.repetitions,
+        *read_targets_deg((known(row.positive_deg), known(row.negative_deg)), exercise), bool(row.keep_pictures),
         bool(row.ends_free), row.discs, bool(row.for_child),
     )  # fmt: skip
     with suppress(CarpusFault):
@@ -81,11 +83,12 @@ def last_set_up(store: Store, patient_id: str) -> SetUp | None:
 def keep_set_up(store: Store, set_up: SetUp) -> None:
     """Remember it, with its goal."""
     targets = set_up.target_positive_deg, set_up.target_negative_deg
+    stored = stored_targets_deg(targets, set_up.exercise)
     row = kept(
         SET_UP, set_up.patient_id, patient_id=set_up.patient_id, side=set_up.side, exercise=set_up.exercise.id,
         discs=set_up.discs, set_id=set_up.course.set_id if set_up.course is not None else "",
         repetitions=set_up.repetitions, keep_pictures=int(set_up.keep_pictures), ends_free=int(set_up.ends_free),
-        for_child=int(set_up.for_child), positive_deg=storable(targets[0]), negative_deg=storable(targets[1]),
+        for_child=int(set_up.for_child), positive_deg=storable(stored[0]), negative_deg=storable(stored[1]),
     )  # fmt: skip
     of_goal = [goal(set_up.patient_id, set_up.exercise.id, set_up.side, *targets)] if set_up.exercise.counts else []
     store.do([row, *of_goal])

@@ -14,6 +14,8 @@ from typing import Any
 from sqlalchemy import ColumnElement, Row, func, select
 
 from carpus.core.dates import day_of
+from carpus.core.hand.exercises import known_exercise
+from carpus.core.hand.forearm_rotation import read_targets_deg, stored_targets_deg
 from carpus.core.measures.by_hand import MEASURES, HandValue
 from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, RowChange, changed, kept, new
@@ -201,12 +203,14 @@ def goals(store: Store, patient_id: str) -> Goals:
     """The targets that were last set for each exercise and hand of a patient; NaN for none."""
     out: dict[tuple[str, Side], tuple[float, float]] = {}
     for row in store.rows(select(GOAL).where(GOAL.c.patient_id == patient_id)):
-        out[row.exercise, row.side] = known(row.positive_deg), known(row.negative_deg)
+        stored = known(row.positive_deg), known(row.negative_deg)
+        out[row.exercise, row.side] = read_targets_deg(stored, known_exercise(row.exercise))
     return out
 
 
 def goal(patient_id: str, exercise: str, side: Side, positive_deg: float, negative_deg: float) -> RowChange:
-    """The change that sets one."""
+    """The change that sets one. It is stored as in the session files: supination from the palm down."""
+    positive_deg, negative_deg = stored_targets_deg((positive_deg, negative_deg), known_exercise(exercise))
     return kept(
         GOAL, f"{patient_id}:{exercise}:{side}", patient_id=patient_id, exercise=exercise, side=side,
         positive_deg=storable(positive_deg), negative_deg=storable(negative_deg),

@@ -18,6 +18,7 @@ import numpy as np
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.exercises import STILL_RADIUS_MM, Exercise, Movement
+from carpus.core.hand.forearm_rotation import read_targets_deg
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits, RetestStudy
 from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import WristCentre, rotation_in_place, wrist_centre
@@ -328,7 +329,7 @@ def session_figures(
         findings=session.calibration.verdict.findings,
         simulated=header.simulated,
         not_counted=choices.not_counted,
-        targets_deg=header.targets_deg,
+        targets_deg=read_targets_deg(header.targets_deg, seen.exercise),
         recording_id=header.recording_id,
         created=datetime.fromisoformat(header.created),
         angle_order=session.angle_order,

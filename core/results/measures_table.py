@@ -55,7 +55,8 @@ def measure_rows(figures: SessionFigures, session: str) -> tuple[SessionFigure, 
 
 MEASURE_COLUMNS = {
     "measure": "what was measured. Of the wrist flexion, extension, radial, ulnar, supination, pronation each count "
-    "in their own direction; below 0 neutral was not reached. Of a joint largest and smallest are angles with the sign "
+    "in their own direction; below 0 neutral was not reached. Supination and pronation are of the forearm, from thumb "
+    "up: a palm flat on the table is at 90 deg of pronation. Of a joint largest and smallest are angles with the sign "
     "of the joint. arc is a size; speeds, times, units, pauses and smoothness are of single strokes, one way, where "
     "the table of repetitions has both ways together; of a whole finger (TAM) total active motion, flexion and "
     "extension deficit",
@@ -79,9 +80,11 @@ def positive_of(angle: str) -> str:
 
     >>> positive_of("deviation"), positive_of("MCP2_abduction"), positive_of("CMC1_extension")
     ('radial', 'to the thumb', 'thumb away from the index finger in the plane of the palm')
+    >>> positive_of("pronosupination")
+    'supinated, 0 is palm down'
     """
     if angle in WRIST_ANGLES:
-        return ("radial", "flexed", "supinated")[WRIST_ANGLES.index(angle)]
+        return ("radial", "flexed", "supinated, 0 is palm down")[WRIST_ANGLES.index(angle)]
     if angle == "CMC1_extension":
         return "thumb away from the index finger in the plane of the palm"
     if angle == "CMC1_abduction":
@@ -94,8 +97,9 @@ def _positive(row: SessionFigure) -> str:
     if row.measure in ("largest", "smallest"):
         return positive_of(row.of.partition(",")[0])
     words = {
-        "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar", "supination": "supinated",
-        "pronation": "pronated", "extension deficit": "further from straight", "smoothness": "smoother",
+        "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar",
+        "supination": "supinated, 0 is thumb up", "pronation": "pronated, 0 is thumb up",
+        "extension deficit": "further from straight", "smoothness": "smoother",
         "jerk": "smoother",
     }  # fmt: skip
     return words.get(row.measure, "more")

@@ -18,7 +18,7 @@ from carpus.core.measures.fingers import bending_weights
 from carpus.core.measures.forearm import rotation_in_place
 from carpus.core.measures.signals import BoolArray, valid_wrist_angles
 from carpus.core.results.ranges import bending_joints, is_total
-from carpus.core.results.seen import JointCurves, best_motion, joint_curves, seen_well
+from carpus.core.results.seen import JointCurves, best_motion, joint_curves, read_angles_rad, seen_well
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray, Side, TrackStatus
 
@@ -102,8 +102,9 @@ def seen_angle(session: Session, joint: str, angle: int) -> FloatArray:
     NaN where it was not seen well enough to be measured by the rules of its ranges, or the session does not have it."""
     if not joint:
         motion = best_motion(session)
-        valid = valid_wrist_angles(seen_well(session), motion.angles_rad, motion.angles_sd_rad)
-        return np.degrees(np.where(valid, motion.angles_rad, np.nan))[:, angle]
+        angles_rad = read_angles_rad(session)
+        valid = valid_wrist_angles(seen_well(session), angles_rad, motion.angles_sd_rad)
+        return np.degrees(np.where(valid, angles_rad, np.nan))[:, angle]
     joints = joint_curves(session)
     if joints is not None and is_total(joint):
         return _total_bending(joints, int(joint.removeprefix("TAM")))

@@ -1,7 +1,7 @@
 """Usual ranges of healthy people: each with its source and whom that source measured; none where it says nothing.
 
 A range is of one joint moved actively as far as it goes, so it stands beside the angle that an exercise trains, and
-beside no other; a total beside a fist. Pro/supination has none: its zero here is palm down.
+beside no other; a total beside a fist. Pronation and supination are of the forearm, from thumb up.
 """
 
 from __future__ import annotations
@@ -62,6 +62,7 @@ _WRIST_SOURCE = phrase("AMA Guides; AAOS 1965 (goniometer)")
 _TOTAL_SOURCE = phrase("ASSH, sum of active bending in a fist")
 _WRIST_DEG: Mapping[Movement, tuple[float, float]] = {
     "flexion": (60.0, 80.0), "extension": (60.0, 70.0), "radial": (20.0, 20.0), "ulnar": (30.0, 30.0),
+    "pronation": (80.0, 80.0), "supination": (80.0, 80.0),
 }  # fmt: skip
 """The lower of the two sources (AMA), and the higher (AAOS) (clinical reference 4.1)."""
 

@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.exercises import SIDES, Exercise, Movement
+from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, Movement
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import (
@@ -289,7 +289,8 @@ MOST_DEG = 90.0
 
 @dataclass(frozen=True, slots=True)
 class GoalProposal:
-    """For one direction, degrees without sign: the mean of the last ``sessions``, the ``goal_deg`` proposed, whole
+    """For one direction, degrees that way (supination is below 0
+    where thumb up was not reached): the mean of the last ``sessions``, the ``goal_deg`` proposed, whole
     degrees, and ``told_from_deg``, from where on a gain exceeds measurement error; the goal is never above it."""
 
     direction: int
@@ -329,7 +330,8 @@ def _proposal(recent: Sequence[SessionFigures], exercise: Exercise, direction: i
     limit = _limit_deg(known[0][0], known[0][1], exercise)
     told_from = math.ceil(basis + limit)
     goal = min(math.floor(basis + min(STEP_DEG, limit)), MOST_DEG)
-    if goal < 1.0 or (goal == MOST_DEG and goal < basis):  # no step up is left
+    least = 1.0 if exercise.angle != PRONOSUPINATION else -MOST_DEG  # a palm turns up from 90 degrees of pronation
+    if goal < least or (goal == MOST_DEG and goal < basis):  # no step up is left
         return None
     return GoalProposal(direction, basis, len(means), float(goal), float(told_from))
 

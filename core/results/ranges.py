@@ -14,7 +14,8 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.clinical_angles import angle_rates_matrix, isb_from_rotation
-from carpus.core.hand.exercises import SIDES, Exercise, Movement
+from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, Movement
+from carpus.core.hand.forearm_rotation import is_from_thumb_up
 from carpus.core.hand.protocols import joint_angle_names
 from carpus.core.measures.fingers import FINGERS, JointTrack, TotalMotion, joint_range, total_active_motion
 from carpus.core.measures.motion_range import RangeFigure, motion_range
@@ -112,10 +113,12 @@ def range_row(movement: Movement, angle: int, figure: RangeFigure, limited: bool
 
 def wrist_rows(seen: SeenSession, counted: Sequence[Repetition]) -> tuple[RangeRow, ...]:
     """Of the angle that the exercise trains, else of all three: over the repetitions that count, without any over the
-    whole session."""
+    whole session. A rotation that accompanies another movement is no pronation or supination: it has its arc alone."""
     angles = FREE_ORDER if seen.exercise.angle is None else (seen.exercise.angle,)
     smoothed = seen.session.smoothed is not None
-    return tuple(row for angle in angles for row in _angle_rows(angle, seen.signals[angle], counted, smoothed))
+    rows = (row for angle in angles for row in _angle_rows(angle, seen.signals[angle], counted, smoothed))
+    thumb_up = is_from_thumb_up(seen.exercise)
+    return tuple(row for row in rows if thumb_up or row.angle != PRONOSUPINATION or row.movement == "arc")
 
 
 def _angle_rows(angle: int, signal: Signal, counted: Sequence[Repetition], smoothed: bool) -> list[RangeRow]:

@@ -11,7 +11,8 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import PRONOSUPINATION, exercise_named
+from carpus.core.hand.forearm_rotation import pronosupination_from_palm_down
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.fingers import joint_range
 from carpus.core.measures.motion_range import LEAST_VALID_SHARE, MotionRange, motion_range
@@ -68,6 +69,8 @@ class Trained:
     tracked: Signal
     looked_back: bool
     range_of: Callable[[Sequence[Repetition]], MotionRange]
+    from_thumb_up: bool = False
+    """Whether it is supination as a clinician reads it; rows have it from the palm down, as every file."""
     passive_s: tuple[tuple[float, float], ...] = ()
     """Stretches of which was said, while they were measured, that somebody else moves the hand."""
     smooth: Signal = field(init=False, repr=False, compare=False)
@@ -163,7 +166,7 @@ def trained_angle(seen: SeenSession) -> Trained | None:
     if track is not None and track.known:
         return Trained(
             exercise.joint, find_repetitions(track.tracked), track.seen, track.seen_sd, track.tracked, looked_back,
-            lambda some: joint_range(track, some), passive_s,
+            lambda some: joint_range(track, some), passive_s=passive_s,
         )  # fmt: skip
     if exercise.angle is None or not len(seen.signals[exercise.angle].time_s):
         return None
@@ -171,7 +174,8 @@ def trained_angle(seen: SeenSession) -> Trained | None:
     angle, smooth = signal.column(0), low_pass(signal, HIGHEST_CUTOFF_HZ).column(0)
     return Trained(
         WRIST_ANGLES[exercise.angle], find_repetitions(angle), angle, signal.column(1), angle, looked_back,
-        lambda some: motion_range(smooth, signal.column(1), tuple(some), smoothed=looked_back), passive_s,
+        lambda some: motion_range(smooth, signal.column(1), tuple(some), smoothed=looked_back),
+        exercise.angle == PRONOSUPINATION, passive_s,
     )  # fmt: skip
 
 
@@ -244,7 +248,9 @@ def _measured(
     # Half a way from rest is slower, and small beside its noise: it says nothing of how quick or smooth the hand is.
     full = [one for one in whole if not one.stroke.half]
     why: Unmeasured = window.cut or (HIDDEN if window.valid_share < LEAST_VALID_SHARE else "")
-    turned = measured.maximum if is_high else measured.minimum
+    turned = (measured.maximum if is_high else measured.minimum).values
+    if trained.from_thumb_up:
+        turned = pronosupination_from_palm_down(turned)
     return Measured(
         window,
         why,
@@ -253,7 +259,7 @@ def _measured(
             start_s=start_s,
             peak_s=peak_s,
             end_s=end_s,
-            angle_rad=float(turned.values[0]) if known else math.nan,
+            angle_rad=float(turned[0]) if known else math.nan,
             arc_rad=float(measured.arc.values[0]) if known else math.nan,
             arc_sd_rad=measured.arc.measurement_sd if known else math.nan,
             peak_speed_rad_s=_over(full, "peak_speed_rad_s", max),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.hand.exercises import Exercise, exercise_named
+from carpus.core.hand.forearm_rotation import read_wrist_angles
 from carpus.core.measures.fingers import JointTrack, joint_track, joints_seen, possible_joints, valid_joints
 from carpus.core.measures.signals import BoolArray, Signal, even_signal, settled, valid_view, valid_wrist_angles
 from carpus.core.session.values import Motion, Session
@@ -18,9 +19,18 @@ def best_motion(session: Session) -> Motion:
     return session.motion if session.smoothed is None else session.smoothed
 
 
+def read_angles_rad(session: Session) -> FloatArray:
+    """The wrist's angles (N, 3) as a clinician reads them, by the smoother where there is one."""
+    exercise = exercise_named(session.header.exercise)
+    return read_wrist_angles(best_motion(session).angles_rad, exercise, session.calibration.start_angles_rad)
+
+
 @dataclass(frozen=True, slots=True)
 class ReportCurves:
-    """Angles over the session as they are drawn: ``time_s`` (N,) after the first frame, the rest (N, 3)."""
+    """Angles over the session as they are drawn: ``time_s`` (N,) after the first frame, the rest (N, 3).
+
+    The wrist's are counted as :func:`core.hand.forearm_rotation.read_wrist_angles` says.
+    """
 
     time_s: FloatArray
     angles_deg: FloatArray
@@ -33,7 +43,7 @@ def session_curves(session: Session) -> ReportCurves:
     motion = best_motion(session)
     time_s = session.timestamp_s - session.timestamp_s[0] if len(session) else np.empty(0)
     return ReportCurves(
-        time_s, np.degrees(motion.angles_rad), np.degrees(motion.angles_sd_rad), np.asarray(session.status)
+        time_s, np.degrees(read_angles_rad(session)), np.degrees(motion.angles_sd_rad), np.asarray(session.status)
     )
 
 
@@ -90,14 +100,11 @@ def seen_well(session: Session) -> BoolArray:
 
 
 def wrist_signals(session: Session, view: BoolArray) -> list[Signal]:
-    """The wrist's three angles, each with its sd as a second column, with gaps where it was not seen well."""
-    motion = best_motion(session)
-    valid = valid_wrist_angles(view, motion.angles_rad, motion.angles_sd_rad)
+    """The wrist's three angles as they are read, each with its sd, with gaps where it was not seen well."""
+    angles_rad, sds_rad = read_angles_rad(session), best_motion(session).angles_sd_rad
+    valid = valid_wrist_angles(view, angles_rad, sds_rad)
     time_s = session.timestamp_s - session.timestamp_s[:1]
-    return [
-        even_signal(time_s, np.column_stack((motion.angles_rad[:, k], motion.angles_sd_rad[:, k])), valid[:, k])
-        for k in range(3)
-    ]
+    return [even_signal(time_s, np.column_stack((angles_rad[:, k], sds_rad[:, k])), valid[:, k]) for k in range(3)]
 
 
 @dataclass(frozen=True, slots=True)

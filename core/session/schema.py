@@ -35,8 +35,8 @@ ROOT_ATTRIBUTES = {
     "protocol": " or ".join(protocol_names()),
     "exercise": "what was trained",
     "software_version": "of the Carpus that wrote the file",
-    "parameters": "JSON of all settings; `set_up` has repetitions and targets and, within a set of exercises, "
-    "`set`: `run` (the same for all its sessions), `part`, `of`, `seconds`",
+    "parameters": "JSON of all settings; `set_up` has repetitions and targets (pronosupination from palm down) and, "
+    "within a set of exercises, `set`: `run` (the same for all its sessions), `part`, `of`, `seconds`",
     "complete": "false while written, true once closed",
     "origin": "session_id of the session this one was tracked again from, else empty",
 }
@@ -164,7 +164,8 @@ CALIBRATION_FIELDS = (
     Field("/calibration/marker_covariance", "marker_covariance_w0_m2", "f8", ("M", 3, 3), "m^2",
           "how well the place of each disc is known, covariance in W0", optional=True),
     Field("/calibration/start_angles", "start_angles_rad", "f8", ("A",), "rad",
-          "angles of the neutral pose as the therapist gave them, zero when none were", optional=True),
+          "angles of the neutral pose as the therapist gave them, zero when none were; pronosupination from the palm "
+          "down", optional=True),
     Field("/calibration/residual", "residual_m", "f8", ("M",), "m",
           "distance of each disc from its fitted place", optional=True),
     Field("/calibration/surface", "surface", "f8", (TABLE_ROWS, 5), "m",
@@ -185,7 +186,8 @@ MOTION_FIELDS = (
     Field("/wrist/angular_velocity", "angular_velocity_rad_s", "f8", ("N", 3), "rad/s",
           "angular velocity in W2, a state of the filter"),
     Field("/wrist/angles", "angles_rad", "f8", ("N", "A"), "rad",
-          "clinical angles: + radial, + flexion, + supination on both hands"),
+          "clinical angles: + radial, + flexion, + supination on both hands; pronosupination from the palm down, "
+          "so that thumb up is + 90 degrees"),
     Field("/wrist/angles_sd", "angles_sd_rad", "f8", ("N", "A"), "rad",
           "standard deviation of the clinical angles, calibration included"),
     Field("/wrist/angles_zyz", "angles_zyz_rad", "f8", ("N", "Z"), "rad",
@@ -281,7 +283,7 @@ REPETITION_COLUMNS = (
            "of a motion to both sides, on the clock of /frames/timestamp"),
     Column("peak", "peak_s", "f8", "s", "when it was furthest on its way there, the middle of a hold"),
     Column("end", "end_s", "f8", "s", "when it reached its last turning place, or passed that middle again"),
-    Column("angle", "angle_rad", "f8", "rad", "at the peak"),
+    Column("angle", "angle_rad", "f8", "rad", "at the peak, counted as in /wrist/angles"),
     Column("arc", "arc_rad", "f8", "rad", "from its smallest angle to its largest, without what noise adds"),
     Column("arc_sd", "arc_sd_rad", "f8", "rad", "standard deviation of the arc by the tracker"),
     Column("peak_speed", "peak_speed_rad_s", "f8", "rad/s", "of its quickest stroke"),

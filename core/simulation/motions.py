@@ -120,13 +120,13 @@ def _rest(patient: _Patient) -> None:
     pass
 
 
-def _to_and_fro(hold_share: float = _HOLD_SHARE, **shares: float) -> Callable[[_Patient], None]:
-    """The wrist from one end of the range of an angle to the other."""
+def _to_and_fro(hold_share: float = _HOLD_SHARE, back: float = 1.0, **shares: float) -> Callable[[_Patient], None]:
+    """The wrist from one end of the range of an angle to the other, ``back`` as far beyond neutral as there."""
 
     def write(patient: _Patient) -> None:
         ends = [
             patient.wrist_target(**shares),
-            patient.wrist_target(**{name: -share for name, share in shares.items()}),
+            patient.wrist_target(**{name: -back * share for name, share in shares.items()}),
         ]
         patient.repeat(patient.wrist, ends, np.zeros(3), hold_share)
 
@@ -340,6 +340,7 @@ MOTIONS: dict[str, tuple[Callable[[_Patient], None], float]] = {
     "flexion": (_to_and_fro(flexion=1.0), 0.3),
     "deviation": (_to_and_fro(deviation=1.0), 0.4),
     "pronosupination": (_to_and_fro(supination=1.0), 0.35),
+    "palm_up": (_to_and_fro(back=0.1, supination=1.5), 0.35),
     "mixed": (_mixed, 0.4),
     "fast_deviation": (_to_and_fro(0.0, deviation=1.0), 1.7),
     "reach": (_reach, 1.0 / _DEFAULT_REACH_S),

@@ -2120,10 +2120,6 @@
         <translation>Spreizung</translation>
     </message>
     <message>
-        <source>0° = palm down</source>
-        <translation>0° = Handfläche unten</translation>
-    </message>
-    <message>
         <source>should stay within {angle}</source>
         <translation>soll in {angle} bleiben</translation>
     </message>
@@ -3128,10 +3124,6 @@
         <translation>Seit {when}: {changes}.</translation>
     </message>
     <message>
-        <source>zero is the neutral hand, palm down</source>
-        <translation>Null ist die Hand in Nullstellung, Handfläche nach unten</translation>
-    </message>
-    <message>
         <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
         <translation>Winkel in der Reihenfolge Deviation, Flexion, Pro-/Supination; {zero}.</translation>
     </message>
@@ -3516,10 +3508,6 @@
         <translation>Handgelenk zur Seite</translation>
     </message>
     <message>
-        <source>Palm up – palm down</source>
-        <translation>Handfläche auf – ab</translation>
-    </message>
-    <message>
         <source>Free movement</source>
         <translation>Freie Bewegung</translation>
     </message>
@@ -3716,20 +3704,12 @@
         <translation>Ulnarduktion</translation>
     </message>
     <message>
-        <source>Palm down</source>
-        <translation>Handfläche unten</translation>
-    </message>
-    <message>
         <source>Side arc</source>
         <translation>Umfang seitlich</translation>
     </message>
     <message>
         <source>Bending arc</source>
         <translation>Umfang Beugung</translation>
-    </message>
-    <message>
-        <source>Turning arc</source>
-        <translation>Umfang Drehung</translation>
     </message>
     <message>
         <source>Right hand</source>
@@ -6911,6 +6891,66 @@
         <source>times in {unit}, not in seconds</source>
         <translation>Zeiten in {unit}, nicht in Sekunden</translation>
     </message>
+    <message>
+        <source>Rotation from the start</source>
+        <translation>Drehung seit dem Start</translation>
+    </message>
+    <message>
+        <source>rotation from the start; {within}</source>
+        <translation>Drehung seit dem Start; {within}</translation>
+    </message>
+    <message>
+        <source>0° = thumb up</source>
+        <translation>0° = Daumen oben</translation>
+    </message>
+    <message>
+        <source>rotation from the start</source>
+        <translation>Drehung seit dem Start</translation>
+    </message>
+    <message>
+        <source>zero is the neutral hand</source>
+        <translation>null ist die neutrale Hand</translation>
+    </message>
+    <message>
+        <source>Forearm supination</source>
+        <translation>Unterarm-Supination</translation>
+    </message>
+    <message>
+        <source>Forearm pronation</source>
+        <translation>Unterarm-Pronation</translation>
+    </message>
+    <message>
+        <source>Rotation +</source>
+        <translation>Drehung +</translation>
+    </message>
+    <message>
+        <source>Rotation −</source>
+        <translation>Drehung −</translation>
+    </message>
+    <message>
+        <source>Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation.</source>
+        <translation>Pronation und Supination des Unterarms zählen ab Daumen oben (0°); die Handfläche flach auf dem Tisch ist 90° Pronation.</translation>
+    </message>
+    <message>
+        <source>Thumb up</source>
+        <translation>Daumen oben</translation>
+    </message>
+    <message>
+        <source>As at the start</source>
+        <translation>Wie beim Start</translation>
+    </message>
+    <message>
+        <source>Forearm rotation</source>
+        <translation>Unterarmdrehung</translation>
+    </message>
+    <message>
+        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A goal short of thumb up has a minus: supination −25°.</source>
+        <translation>Die Winkel zählen ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen verschwinden die Marker bei etwa 25° Pronation. Ein Ziel vor Daumen oben hat ein Minus: Supination −25°.</translation>
+    </message>
+    <message>
+        <source>Pronation–supination</source>
+        <translation>Pronation–Supination</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -8871,10 +8911,6 @@ Umschalt+F8 von der Seite</translation>
         <source>now</source>
         <translation>jetzt</translation>
     </message>
-    <message>
-        <source>0° = palm down; stay within {angle}</source>
-        <translation>0° = Handfläche unten; in {angle} bleiben</translation>
-    </message>
 </context>
 <context>
     <name>LiveFlow</name>
@@ -9745,6 +9781,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Goal {angle}</source>
         <translation>Ziel {angle}</translation>
+    </message>
+    <message>
+        <source>Goal</source>
+        <translation>Ziel</translation>
     </message>
 </context>
 <context>
@@ -11433,16 +11473,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Das Handgelenk kann nicht gerade liegen</translation>
     </message>
     <message>
-        <source>Measure with a goniometer how far the wrist is from straight as it lies now. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation>Messen Sie mit dem Winkelmesser, wie weit das Handgelenk jetzt von der geraden Lage abweicht. Carpus rechnet diese Winkel zu allem hinzu, was es am Handgelenk misst, und sagt es im Bericht. Gebeugte Finger sind in Ordnung: Null eines Fingergelenks ist der gerade Finger, wie auch immer das Bild.</translation>
-    </message>
-    <message>
         <source>It lies straight</source>
         <translation>Es liegt gerade</translation>
     </message>
     <message>
         <source>Use these angles</source>
         <translation>Diese Winkel verwenden</translation>
+    </message>
+    <message>
+        <source>Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
+        <translation>Messen Sie mit dem Winkelmesser, wie weit das Handgelenk jetzt von der geraden Lage abweicht, und den Unterarm ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet diese Winkel zu allem hinzu, was es am Handgelenk misst, und sagt es im Bericht. Gebeugte Finger sind in Ordnung: Null eines Fingergelenks ist der gerade Finger, wie auch immer das Bild.</translation>
     </message>
 </context>
 <context>

@@ -2120,10 +2120,6 @@
         <translation>Abduzione</translation>
     </message>
     <message>
-        <source>0° = palm down</source>
-        <translation>0° = palmo in giù</translation>
-    </message>
-    <message>
         <source>should stay within {angle}</source>
         <translation>deve restare entro {angle}</translation>
     </message>
@@ -3128,10 +3124,6 @@
         <translation>Confronto con {when}: {changes}.</translation>
     </message>
     <message>
-        <source>zero is the neutral hand, palm down</source>
-        <translation>lo zero è la mano neutra, palmo in giù</translation>
-    </message>
-    <message>
         <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
         <translation>Angoli nell’ordine deviazione, flessione, prono-supinazione; {zero}.</translation>
     </message>
@@ -3516,10 +3508,6 @@
         <translation>Polso di lato</translation>
     </message>
     <message>
-        <source>Palm up – palm down</source>
-        <translation>Palmo in su – palmo in giù</translation>
-    </message>
-    <message>
         <source>Free movement</source>
         <translation>Movimento libero</translation>
     </message>
@@ -3716,20 +3704,12 @@
         <translation>Deviazione ulnare</translation>
     </message>
     <message>
-        <source>Palm down</source>
-        <translation>Palmo in giù</translation>
-    </message>
-    <message>
         <source>Side arc</source>
         <translation>Arco laterale</translation>
     </message>
     <message>
         <source>Bending arc</source>
         <translation>Arco di flesso-estensione</translation>
-    </message>
-    <message>
-        <source>Turning arc</source>
-        <translation>Arco di rotazione</translation>
     </message>
     <message>
         <source>Right hand</source>
@@ -6911,6 +6891,66 @@
         <source>times in {unit}, not in seconds</source>
         <translation>tempi in {unit}, non in secondi</translation>
     </message>
+    <message>
+        <source>Rotation from the start</source>
+        <translation>Rotazione dall’inizio</translation>
+    </message>
+    <message>
+        <source>rotation from the start; {within}</source>
+        <translation>rotazione dall’inizio; {within}</translation>
+    </message>
+    <message>
+        <source>0° = thumb up</source>
+        <translation>0° = pollice in alto</translation>
+    </message>
+    <message>
+        <source>rotation from the start</source>
+        <translation>rotazione dall’inizio</translation>
+    </message>
+    <message>
+        <source>zero is the neutral hand</source>
+        <translation>zero è la mano neutra</translation>
+    </message>
+    <message>
+        <source>Forearm supination</source>
+        <translation>Supinazione dell’avambraccio</translation>
+    </message>
+    <message>
+        <source>Forearm pronation</source>
+        <translation>Pronazione dell’avambraccio</translation>
+    </message>
+    <message>
+        <source>Rotation +</source>
+        <translation>Rotazione +</translation>
+    </message>
+    <message>
+        <source>Rotation −</source>
+        <translation>Rotazione −</translation>
+    </message>
+    <message>
+        <source>Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation.</source>
+        <translation>Pronazione e supinazione dell’avambraccio si contano dal pollice in alto (0°); palmo piatto sul tavolo è 90° di pronazione.</translation>
+    </message>
+    <message>
+        <source>Thumb up</source>
+        <translation>Pollice in alto</translation>
+    </message>
+    <message>
+        <source>As at the start</source>
+        <translation>Come all’inizio</translation>
+    </message>
+    <message>
+        <source>Forearm rotation</source>
+        <translation>Rotazione dell’avambraccio</translation>
+    </message>
+    <message>
+        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A goal short of thumb up has a minus: supination −25°.</source>
+        <translation>Gli angoli si contano dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori escono di vista a circa 25° di pronazione. Un obiettivo prima del pollice in alto ha il meno: supinazione −25°.</translation>
+    </message>
+    <message>
+        <source>Pronation–supination</source>
+        <translation>Pronazione–supinazione</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -8871,10 +8911,6 @@ Maiusc+F8 di lato</translation>
         <source>now</source>
         <translation>ora</translation>
     </message>
-    <message>
-        <source>0° = palm down; stay within {angle}</source>
-        <translation>0° = palmo in giù; restare entro {angle}</translation>
-    </message>
 </context>
 <context>
     <name>LiveFlow</name>
@@ -9745,6 +9781,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Goal {angle}</source>
         <translation>Obiettivo {angle}</translation>
+    </message>
+    <message>
+        <source>Goal</source>
+        <translation>Obiettivo</translation>
     </message>
 </context>
 <context>
@@ -11433,16 +11473,16 @@ Maiusc+F8 di lato</translation>
         <translation>Il polso non può stare dritto</translation>
     </message>
     <message>
-        <source>Measure with a goniometer how far the wrist is from straight as it lies now. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation>Misurare con un goniometro quanto il polso, così com’è appoggiato, è lontano dalla posizione dritta. Carpus aggiunge questi angoli a tutto ciò che misura del polso e lo dice nella relazione. Le dita piegate vanno bene così: lo zero di un’articolazione delle dita è il dito dritto, qualunque sia l’immagine.</translation>
-    </message>
-    <message>
         <source>It lies straight</source>
         <translation>È dritto</translation>
     </message>
     <message>
         <source>Use these angles</source>
         <translation>Usa questi angoli</translation>
+    </message>
+    <message>
+        <source>Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
+        <translation>Misurare con un goniometro quanto il polso, così com’è appoggiato, è lontano dalla posizione dritta, e l’avambraccio dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Carpus aggiunge questi angoli a tutto ciò che misura del polso e lo dice nella relazione. Le dita piegate vanno bene così: lo zero di un’articolazione delle dita è il dito dritto, qualunque sia l’immagine.</translation>
     </message>
 </context>
 <context>

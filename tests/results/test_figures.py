@@ -192,7 +192,7 @@ def test_usual_values_stand_beside_what_their_source_covers_and_name_it() -> Non
 
     assert ends("arc", 1, "WRIST_FE") == (120.0, 150.0)
     assert ends("arc", 0, "WRIST_RU") == (50.0, 50.0)
-    assert ends("arc", 2, "FOREARM_PS") is None, "its zero is another"
+    assert ends("pronation", 2, "FOREARM_PS") == ends("supination", 2, "FOREARM_PS") == (80.0, 80.0)
     assert ends("flexion", 1, "WRIST_RU") is None, "nobody asked for all of it"
     assert ends("flexion", 1, "FREE") is None
     assert total_norm(3, exercise_named("FIST_HOOK")) is None, "the source speaks of a fist"

@@ -62,7 +62,7 @@ def test_typing_narrows_the_list_by_name_real_name_and_exercise(
     for typed, expected in (
         ("lind", ["linden"]),
         ("rosa", ["linden"]),
-        ("palm", ["heron", "juniper"]),
+        ("pronation", ["heron", "juniper"]),
         ("plate fracture", ["linden", "juniper"]),
         ("wrist side", ["quartz"]),
     ):

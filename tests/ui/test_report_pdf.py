@@ -58,7 +58,7 @@ def test_the_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Pat
         assert (embedded, unicode_map) == ("yes", "yes")
     assert tool("pdfimages", "-list", str(report)).splitlines()[2:] == []
     first, second = (words_of(report, page).split() for page in (1, 2))
-    assert {"Radial", "Ulnar", "Supination"} <= set(first)
+    assert {"Radial", "Ulnar", "Rotation"} <= set(first)
     assert {"mm/s", "+100°/s", "Turning"} <= set(second)
     paths = [tool("pdftocairo", "-svg", "-f", page, "-l", page, str(report), "-").count("<path") for page in "12"]
     assert min(paths) > 480, "about 70 and 240 of them are the plots'"

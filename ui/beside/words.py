@@ -99,7 +99,7 @@ def _basis(one: ComparedRange) -> str:
 
 def _end(row: RangeRow) -> str:
     sign = f"{AT_LEAST}{numbers.NARROW_GAP}" if row.limited and row.joint else ""
-    return f"{sign}{numbers.degrees(row.mean_deg) if row.joint else terms.end_words(row.mean_deg)}"
+    return f"{sign}{numbers.degrees(row.mean_deg) if row.joint else terms.end_words(row.mean_deg, row.movement)}"
 
 
 def row_name(one: ComparedRange, among: Sequence[ComparedRange]) -> str:

@@ -144,8 +144,11 @@ class MeasureRow(QObject):
             self.beside.setText(self.tr("mean {value}").format(value=words) if values else "")
         elif self.measure.kind == "angle":
             row, active = self._of_carpus, self.fields[0][1]
-            known = row is not None and row.count and math.isfinite(active.value())
-            self.beside.setText(numbers.with_spread(row.mean_deg, row.sd_deg) if known and row is not None else "–")
+            words = numbers.UNKNOWN
+            if row is not None and row.count and math.isfinite(active.value()):
+                words = numbers.with_spread(row.mean_deg, row.sd_deg)
+                words = words if row.joint else terms.end_words(row.mean_deg, row.movement, row.sd_deg)
+            self.beside.setText(words)
 
 
 class HandForm(QWidget):

@@ -127,7 +127,7 @@ def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -
 
 
 class DegreesField(QLineEdit):
-    """An angle above 0, whole or with a decimal comma or point; empty for none. What is refused stays, and is marked.
+    """An angle, whole or with a decimal comma or point; empty for none. What is refused stays, and is marked.
 
     ``problem`` tells in words what is refused; ``checked`` is sent with them, empty words when all is well.
     """
@@ -136,7 +136,7 @@ class DegreesField(QLineEdit):
 
     def __init__(self, theme: Theme, most: int, nothing: str) -> None:
         super().__init__()
-        self._theme, self._most = theme, most
+        self._theme, self._least, self._most = theme, 0, most
         self.setPlaceholderText(nothing)
         self.setMaxLength(12)
         self.textChanged.connect(self._check)
@@ -146,16 +146,23 @@ class DegreesField(QLineEdit):
 
     def value(self) -> float:
         """Degrees; NaN where nothing, or nothing usable, is written."""
-        text = self.text().strip().removesuffix("°").strip().replace(",", ".")
+        text = self.text().strip().removesuffix("°").strip().replace(",", ".").replace("\N{MINUS SIGN}", "-")
         try:
             value = float(text)
         except ValueError:
             return math.nan
-        return value if 0.0 < value <= self._most else math.nan
+        above = value > 0.0 if self._least == 0 else value >= self._least
+        return value if above and value <= self._most else math.nan
+
+    def set_least(self, least: int) -> None:
+        """0, beyond which an angle must be, or the lowest that can be entered."""
+        self._least = least
+        self._check()
 
     def set_value(self, value_deg: float) -> None:
         """Show an angle; NaN empties the field."""
-        self.setText(f"{numbers.figures(value_deg, 6)}°" if math.isfinite(value_deg) else "")
+        shown = numbers.figures(value_deg, 6).replace("-", "\N{MINUS SIGN}")
+        self.setText(f"{shown}°" if math.isfinite(value_deg) else "")
 
     @property
     def problem(self) -> str:

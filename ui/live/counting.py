@@ -8,7 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from carpus.core.hand.exercises import FLEXION, Exercise
+from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
+from carpus.core.hand.forearm_rotation import read_wrist_angles
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.measures.fingers import FURTHER_RAD
 from carpus.core.measures.repetitions import find_repetitions
@@ -17,12 +18,14 @@ from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES, figure_of
 from carpus.ui.joint_figures import figures_of
 
+_STRAIGHT = np.zeros(3)
+
 
 class RunningCount:
     """Takes recorded frames; counts when asked. Counting is for once a second, not for each frame."""
 
     def __init__(self, exercise: Exercise, protocol: MarkerProtocol | None = None) -> None:
-        self._protocol = protocol or exercise.protocol
+        self._protocol, self._exercise = protocol or exercise.protocol, exercise
         self.angle = FLEXION if exercise.angle is None else exercise.angle
         self.joint = exercise.joint
         self._figure = FIGURES.index(figure_of(exercise.joint)) if exercise.joint else -1
@@ -103,7 +106,7 @@ class RunningCount:
             return list(zip(value, sd, measured[:, column].tolist(), strict=True))
         return [
             (
-                float(frame.moment.angles_rad[self.angle]),
+                float(read_wrist_angles(frame.moment.angles_rad, self._exercise, _STRAIGHT)[self.angle]),
                 float(frame.moment.angles_sd_rad[self.angle]),
                 frame.status == TrackStatus.TRACKED,
             )
@@ -111,7 +114,8 @@ class RunningCount:
         ]
 
     def _take_best(self, value_deg: float) -> None:
-        if value_deg >= 0.0:
+        turns = self.angle == PRONOSUPINATION and self._figure < 0  # it begins at 90 degrees of one direction
+        if value_deg >= 0.0 or turns:
             self.best_positive_deg = float(np.fmax(self.best_positive_deg, value_deg))
-        else:
+        if value_deg < 0.0 or turns:
             self.best_negative_deg = float(np.fmin(self.best_negative_deg, value_deg))

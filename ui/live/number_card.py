@@ -9,7 +9,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
+from carpus.core.hand.exercises import PRONOSUPINATION, Exercise, exercise_named
+from carpus.core.hand.forearm_rotation import axis_deg, is_from_thumb_up
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import paint_card
 from carpus.ui.figures import FIGURES, FINGERS, Figure, side_word
@@ -82,7 +83,8 @@ class NumberCard(QWidget):
         super().__init__()
         self._theme = theme
         self.reading = Reading()
-        self._word = SIDES[1][0]
+        self.exercise: Exercise = exercise_named("")
+        self._way = 1.0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         theme.changed.connect(self.updateGeometry)
         self._large = False
@@ -114,9 +116,9 @@ class NumberCard(QWidget):
     def show_reading(self, reading: Reading) -> None:
         """Show new figures; the word for the direction stays while the angle is about zero."""
         if reading.angle != self.reading.angle:
-            self._word = SIDES[reading.angle][0]
+            self._way = 1.0
         if math.isfinite(reading.value_deg) and abs(reading.value_deg) > 0.5:
-            self._word = SIDES[reading.angle][0 if reading.value_deg > 0 else 1]
+            self._way = reading.value_deg
         if reading != self.reading:
             self.reading = replace(reading)
             self.setAccessibleName(f"{self.movement()} {numbers.with_spread(reading.value_deg, reading.sd_deg)}")
@@ -133,15 +135,20 @@ class NumberCard(QWidget):
             return figure.long_name
         value = self.reading.value_deg
         if math.isfinite(value) and abs(value) < 0.5:
-            return terms.movement_at_zero(self.reading.angle)
-        return terms.movement_long_name(self._word)
+            return terms.movement_at_zero(self.reading.angle, self.exercise)
+        return terms.direction_long_name(self.reading.angle, self._way, self.exercise)
+
+    def _turns_up(self) -> bool:
+        """Whether a palm that looks down is turned up: what counts is how far, though it may stay on that side."""
+        turns = self.reading.angle == PRONOSUPINATION and is_from_thumb_up(self.exercise)
+        return turns and not math.isfinite(self.reading.target_negative_deg)
 
     def _ends(self) -> tuple[float, float, str, str]:
         figure = self.reading.figure
         if figure is not None:
             return *figure.range_deg, *figure.end_names
-        top_deg = AXIS_TICK_DEG[self.reading.angle]
-        upper, lower = (terms.movement_name(name) for name in SIDES[self.reading.angle])
+        top_deg, _ = axis_deg(self.reading.angle, self.exercise)
+        upper, lower = terms.direction_names(self.reading.angle, self.exercise)
         return -top_deg, top_deg, f"{lower} {top_deg:.0f}°", f"{upper} {top_deg:.0f}°"
 
     def _number_px(self) -> float:
@@ -266,10 +273,14 @@ class NumberCard(QWidget):
         y = 114 * (0.65 + 0.35 * scale) + max(self._number_px() - NUMBER_PX, 0.0) / 3 - self._pressed_px()
         self._text(painter, self.tr("Speed"), left, y, 14, REGULAR, "text2")
         self._text(painter, speed_words(reading.speed_deg_s), left, y + 21 * scale, 20, SEMIBOLD, "text")
-        positive = reading.figure is not None or self._word == SIDES[reading.angle][0]
+        positive = reading.figure is not None or self._way > 0.0 or self._turns_up()
         best = reading.best_positive_deg if positive else reading.best_negative_deg
         across = left + 0.487 * self._right_px()
-        movement = "" if reading.figure is not None else terms.movement_name(SIDES[reading.angle][0 if positive else 1])
+        movement = (
+            ""
+            if reading.figure is not None
+            else terms.direction_names(reading.angle, self.exercise)[0 if positive else 1]
+        )
         words = self.tr("Best {movement}").format(movement=inside(movement)) if movement else self.tr("Best today")
         size, room = 14, self._across - 8 - across
         if QFontMetricsF(font(10 * scale, REGULAR)).horizontalAdvance(words) > room:
@@ -278,7 +289,8 @@ class NumberCard(QWidget):
             size -= 1
         self._text(painter, words, across, y, size, REGULAR, "text2")
         bound = reading.best_at_least and math.isfinite(best)
-        shown = f"≥{numbers.NARROW_GAP}{numbers.degrees(best)}" if bound else numbers.degrees(best)
+        shown = numbers.signed_degrees(best if positive else -best)
+        shown = f"≥{numbers.NARROW_GAP}{shown}" if bound else shown
         self._text(painter, shown, across, y + 21 * scale, 20, SEMIBOLD, "text")
 
     def _text(self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str) -> None:

@@ -6,6 +6,10 @@ import math
 import time
 from dataclasses import replace
 
+import numpy as np
+
+from carpus.core.hand.exercises import PRONOSUPINATION
+from carpus.core.hand.forearm_rotation import pronosupination_from_palm_down
 from carpus.core.measures.signals import LARGEST_SD_RAD
 from carpus.core.types import TrackStatus
 from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
@@ -85,6 +89,8 @@ class Readings:
             value, sd, measured = history.figure_value(FIGURES.index(figure_of(set_up.exercise.joint)))
         elif angle is not None:
             value, sd = float(history.angles_deg[angle]), float(history.sds_deg[angle])
+            if angle == PRONOSUPINATION:  # the patient's hand is drawn from where it lies, palm down
+                value = math.degrees(float(pronosupination_from_palm_down(np.radians(value))))
         sure = measured and seen and math.isfinite(value) and sd <= math.degrees(LARGEST_SD_RAD)
         bent = [history.figure_value(FIGURES.index(Figure(finger, "middle"))) for finger in FINGERS[1:]]
         bent_deg = [one for one, _, known in bent if known] if whole_hand else []

@@ -201,7 +201,8 @@ class LiveScreen(Fitted):
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, measuring: SourceMeasuring, set_up: SetUp) -> None:
         exercise, calibration = set_up.exercise, measuring.calibration
-        self.history.clear(set_up.protocol)
+        self.history.clear(set_up.protocol, exercise, None if calibration is None else calibration.start_angles_rad)
+        self.number.exercise = exercise
         self._whole_hand = set_up.protocol.has_fingers
         self._light, self._behind, self._view = SteadyLight(), Behind(), None
         self.on_picture.view = None

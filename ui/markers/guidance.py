@@ -11,7 +11,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QSpinBox, QVBoxLayout, QWidget
 
 from carpus.core.calibration.result import ALL_STRAIGHT
-from carpus.core.hand.exercises import SIDES
+from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, exercise_named
+from carpus.core.hand.forearm_rotation import pronosupination_from_palm_down, read_wrist_angles
+from carpus.core.rounding import rounded
 from carpus.core.types import FloatArray
 from carpus.core.words import marker_in_words
 from carpus.ui import terms
@@ -302,9 +304,13 @@ class StraightFingers(QWidget):
         )
 
 
-LARGEST_DEG = 80
+LARGEST_DEG, LARGEST_TURN_DEG = 80, 110
 ORDER = (1, 0, 2)
 """Flexion first, as it is the one that contractures limit most."""
+
+
+def _from_thumb_up(angles_rad: FloatArray) -> FloatArray:
+    return read_wrist_angles(angles_rad, exercise_named("FOREARM_PS"), np.zeros(3))
 
 
 class StartAngleSheet(Sheet):
@@ -316,15 +322,16 @@ class StartAngleSheet(Sheet):
         super().__init__(host, theme, 620)
         body = self.card.body
         words = self.tr(
-            "Measure with a goniometer how far the wrist is from straight as it lies now. Carpus adds these "
-            "angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero "
+            "Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb "
+            "up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and "
+            "says so in the report. Bent fingers are fine as they are: zero "
             "of a finger joint is the straight finger, whatever the picture."
         )
         self.head(self.tr("The wrist cannot lie straight"), words, gap=16)
         self.fields: dict[int, tuple[Choices, QSpinBox]] = {}
         for column in ORDER:
             direction = Choices(theme, [(name, terms.movement_name(name)) for name in SIDES[column]], SIDES[column][0])
-            value = number_field(theme, LARGEST_DEG, "°")
+            value = number_field(theme, LARGEST_TURN_DEG if column == PRONOSUPINATION else LARGEST_DEG, "°")
             value.setAlignment(Qt.AlignmentFlag.AlignRight)
             value.setAccessibleName(terms.movement_name(SIDES[column][0]))
             body.addLayout(in_line((direction, 1), value))
@@ -338,17 +345,19 @@ class StartAngleSheet(Sheet):
 
     def begin(self, angles_rad: FloatArray) -> None:
         for column, (direction, value) in self.fields.items():
-            direction.choose(SIDES[column][0 if angles_rad[column] >= 0 else 1])
-            value.setValue(round(abs(math.degrees(angles_rad[column]))))
+            shown_deg = math.degrees(_from_thumb_up(angles_rad)[column])
+            direction.choose(SIDES[column][0 if shown_deg >= 0 else 1])
+            value.setValue(rounded(abs(shown_deg)))
         self.open(self.fields[ORDER[0]][1])
         self.fields[ORDER[0]][1].selectAll()
 
     def angles_rad(self) -> FloatArray:
-        """Deviation, flexion, pro/supination (3,) as entered."""
+        """Deviation, flexion, pronosupination (3,) as in the files, of what was entered from thumb up."""
         out = np.zeros(3)
         for column, (direction, value) in self.fields.items():
             sign = 1.0 if direction.value() == SIDES[column][0] else -1.0
             out[column] = sign * math.radians(value.value())
+        out[PRONOSUPINATION] = pronosupination_from_palm_down(out[PRONOSUPINATION])
         return out
 
     def _keep(self, angles_rad: FloatArray) -> None:

@@ -154,7 +154,7 @@ class PatientView(QWidget):
             painter.setPen(QPen(self._theme.color("accent"), 4, Qt.PenStyle.DashLine))
             painter.drawPath(to.map(goal.hand))
         self._paint_hand(painter, to, hand if hand is not None else None, arm=figure_at(exercise, 0.0))
-        self._paint_goal(painter, to, arc_of(exercise))
+        self._paint_goal(painter, to, exercise)
 
     def _paint_hand(
         self, painter: QPainter, to: QTransform, hand: DrawnPose | None, arm: DrawnPose | None = None
@@ -206,8 +206,8 @@ class PatientView(QWidget):
             painter.drawEllipse(to.map(arc.at(scene.aim * along)), 0.8 * wide, 0.8 * wide)
         painter.restore()
 
-    def _paint_goal(self, painter: QPainter, to: QTransform, arc: Arc) -> None:
-        scene, color = self.scene, self._theme.color
+    def _paint_goal(self, painter: QPainter, to: QTransform, exercise: Exercise) -> None:
+        scene, color, arc = self.scene, self._theme.color, arc_of(exercise)
         if not math.isfinite(scene.goal_deg):
             return
         at = to.map(arc.at(scene.goal_deg))
@@ -224,7 +224,9 @@ class PatientView(QWidget):
                 painter.drawEllipse(at, radius, radius)
         painter.setFont(font(SMALL_PX * min(self._theme.text_scale, 1.25), SEMIBOLD))
         painter.setPen(color("good" if reached else "accent"))
-        words = self.tr("Goal {angle}").format(angle=numbers.degrees(abs(scene.goal_deg)))
+        words = self.tr("Goal {angle}").format(angle=numbers.degrees(scene.goal_deg))
+        if exercise.angle == PRONOSUPINATION:  # drawn from palm down, while its number counts from thumb up
+            words = self.tr("Goal")
         metrics = QFontMetricsF(painter.font())
         beyond = to.map(arc.at(1.05 * scene.goal_deg)) - at
         # Away from the joint, unless the way comes from there.

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QKeyEvent, QScreen
 from PySide6.QtWidgets import QApplication, QWidget
 
+from carpus.core.hand.forearm_rotation import stored_targets_deg
 from carpus.core.records.set_up import SetUp
 from carpus.ui.controls.layouts import in_column
 from carpus.ui.patient.guide import Glance, Guide, GuideScene
@@ -77,7 +78,8 @@ class PatientViewing(QObject):
 
     def begin(self, set_up: SetUp) -> None:
         self._set_up, self._sounded = set_up, 0
-        self._guide = Guide(set_up.exercise, set_up.target_positive_deg, set_up.target_negative_deg)
+        read = set_up.target_positive_deg, set_up.target_negative_deg
+        self._guide = Guide(set_up.exercise, *stored_targets_deg(read, set_up.exercise))
         if self.window is not None:
             self.window.view.begin(set_up)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from datetime import date
 
@@ -176,18 +177,18 @@ class _ResultRow(QWidget):
         gap = 5 if line.joint else 10  # five fingers
         row.setContentsMargins(0, gap, 0, gap)
         words = figure_of(line.joint).short_name if line.joint else terms.movement_name(line.movement)
-        lacks = not line.joint and line.mean_deg < 0.0
         name = Text(theme, words, 14, REGULAR, "text2")
         self._name = name
         theme.changed.connect(self._fit)
         self._theme = theme
         self._fit()
         row.addWidget(name)
-        value = f"≥{numbers.NARROW_GAP}{numbers.degrees(line.mean_deg)}"
-        if not line.at_least:
-            value = numbers.with_spread(line.mean_deg, line.sd_deg)
-        if lacks:
-            value = terms.lacking(value)
+        sd_deg = math.nan if line.at_least else line.sd_deg
+        value = numbers.with_spread(line.mean_deg, sd_deg)
+        if not line.joint:
+            value = terms.end_words(line.mean_deg, line.movement, sd_deg)
+        if line.at_least:
+            value = f"≥{numbers.NARROW_GAP}{value}"
         row.addWidget(Text(theme, value, 16, SEMIBOLD))
         words = change_since_first(line.verdict, line.change_deg)
         change = Text(theme, words, 12, MEDIUM, verdict_token(line.verdict), wrap=True)

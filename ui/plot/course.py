@@ -10,7 +10,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from carpus.core.hand.exercises import EXERCISES, Movement
+from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Movement
 from carpus.core.measures.by_hand import HandValue, measure_named
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import Progress, row_aimed_at
@@ -69,8 +69,12 @@ def scale_of(progress: Progress, key: RowKey) -> Scale:
     step = STEP_DEG if top_deg <= 90 else 2 * STEP_DEG if top_deg <= 180 else 100.0
     rows = [row_of(progress, number, key) for number in range(len(progress.points))]
     lacks = not joint and any(row is not None and row.mean_deg < 0.0 for row in rows)
-    ticks = tuple(np.arange(-step if lacks else 0.0, top_deg + 1e-6, step).tolist())
-    labels = tuple((tick, end_words(tick)) for tick in ticks)
+    low_deg = -step if lacks else 0.0
+    if angle == PRONOSUPINATION and movement != "arc":
+        # From thumb up a palm that looks down is at 90 degrees of pronation: supination may begin as far below zero.
+        step, top_deg, low_deg = 2 * STEP_DEG, 120.0, -120.0 if lacks else 0.0
+    ticks = tuple(np.arange(low_deg, top_deg + 1e-6, step).tolist())
+    labels = tuple((tick, end_words(tick, movement)) for tick in ticks)
     return Scale(ticks[0] - (0.3 * step if lacks else 0.0), top_deg, ticks, labels, strong_ends=False)
 
 
@@ -164,12 +168,14 @@ def still(progress: Progress, key: RowKey) -> list[Mark]:
     other = progress.other_hand.row(movement, angle, joint) if progress.other_hand else None
     if other is not None and other.count and progress.other_hand is not None:
         out.append(Level(other.mean_deg, "text2"))
-        words = f"{terms.hand_name(progress.other_hand.side)} {numbers.degrees(other.mean_deg)}"
+        shown = numbers.degrees(other.mean_deg) if joint else end_words(other.mean_deg, movement)
+        words = f"{terms.hand_name(progress.other_hand.side)} {shown}"
         labels.append((other.mean_deg, words, "text2"))
     goals = Goals(progress, key)
     if math.isfinite(goals.newest_deg):
         out.append(goals)
-        words = tr("Goal {angle}").format(angle=numbers.degrees(goals.newest_deg))
+        shown = numbers.degrees(goals.newest_deg) if joint else end_words(goals.newest_deg, movement)
+        words = tr("Goal {angle}").format(angle=shown)
         labels.append((goals.newest_deg, words, "accent"))
     return [*out, EndLabels(labels)]
 
@@ -182,13 +188,13 @@ class Goals:
     key: RowKey
 
     def goal_deg(self, number: int) -> float:
-        """Of one session, without sign; NaN for none."""
+        """Of one session, that way; NaN for none."""
         joint, movement, angle = self.key
         figures = self.progress.points[number].figures
         for target, direction in zip(figures.targets_deg, (1, -1), strict=True):
             row = row_aimed_at(figures, figures.exercise, direction)
             if row is not None and (row.joint, row.movement, row.angle) == (joint, movement, angle):
-                return abs(target)
+                return direction * target
         return math.nan
 
     @property
@@ -278,7 +284,7 @@ class Points:
         unit = style.unit
         face = font(style.end_label.pixelSize() * 1.17, SEMIBOLD, display=False)
         metrics = QFontMetricsF(face)
-        text = numbers.degrees(row.mean_deg) if joint else end_words(row.mean_deg)
+        text = numbers.degrees(row.mean_deg) if joint else end_words(row.mean_deg, row.movement)
         sd = row.sd_deg if math.isfinite(row.sd_deg) else 0.0
         baseline = float(panel.y(row.mean_deg + sd)) - 8 * unit
         if joint and row.limited:

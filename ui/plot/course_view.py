@@ -125,8 +125,8 @@ class ProgressChart(ZoomCard):
         assert row is not None
         least = f"≥{numbers.NARROW_GAP}" if row.joint and row.limited else ""
         value = f"{least}{numbers.with_spread(row.mean_deg, row.sd_deg)}"
-        if not row.joint and row.mean_deg < 0.0:
-            value = terms.lacking(value)
+        if not row.joint:
+            value = terms.end_words(row.mean_deg, row.movement, row.sd_deg)
         named = self.tr("{name} {value}, {count} repetitions")
         lines = [
             numbers.report_date(figures.when),

@@ -9,7 +9,8 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.exercises import STILL_RADIUS_MM
+from carpus.core.hand.exercises import STILL_RADIUS_MM, Exercise, exercise_named
+from carpus.core.hand.forearm_rotation import read_wrist_angles
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.measures.forearm import USUAL_CENTRE_M, rotation_in_place, wrist_centre
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
@@ -72,8 +73,12 @@ class History:
     def __init__(self, protocol: MarkerProtocol) -> None:
         self.clear(protocol)
 
-    def clear(self, protocol: MarkerProtocol) -> None:
-        self._protocol = protocol
+    def clear(
+        self, protocol: MarkerProtocol, exercise: Exercise | None = None, start_angles_rad: FloatArray | None = None
+    ) -> None:
+        """Begin again; the wrist's angles are read as the exercise has them, from where the hand started."""
+        self._protocol, self._exercise = protocol, exercise or exercise_named("")
+        self._start_rad = np.zeros(3) if start_angles_rad is None else start_angles_rad
         self._rows = np.empty((0, _COLUMNS))
         self._index = np.empty(0, dtype=np.int64)
         self._hand = _Hand.of(protocol, ())
@@ -101,6 +106,8 @@ class History:
         if more.value_deg.shape[1]:
             self._mix = mix(joints_of(self._protocol, len(fresh[-1].moment.joint_angles_rad)))
         more_rows = np.array([_row(frame) for frame in fresh])
+        read_rad = read_wrist_angles(np.radians(more_rows[:, _ANGLES]), self._exercise, self._start_rad)
+        more_rows[:, _ANGLES] = np.degrees(read_rad)
         self._rows = np.concatenate((self._rows, more_rows))
         self._keep_poses(more_rows)
         self._index = np.concatenate((self._index, [frame.index for frame in fresh]))

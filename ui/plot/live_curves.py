@@ -9,24 +9,17 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QFontMetricsF, QPainter
 
-from carpus.core.hand.exercises import (
-    AXIS_LIMIT_DEG,
-    AXIS_TICK_DEG,
-    FLEXION,
-    PRONOSUPINATION,
-    SIDES,
-    Exercise,
-    exercise_named,
-)
+from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise, exercise_named
+from carpus.core.hand.forearm_rotation import axis_deg
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times, fitted
+from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Scales, StayWithin, Target, Times, fitted
 from carpus.ui.plot.series import Curve
-from carpus.ui.plot.session import stay_words, target_words
+from carpus.ui.plot.session import stay_words, target_words, zero_marks
 from carpus.ui.plot.style import CURVE_TOKENS, screen_style, write
 from carpus.ui.theme import Theme
 
@@ -54,7 +47,7 @@ class LiveCurves(PlotCard):
         self._speeds = False
         self._single = False
         self._values: list[tuple[str, str, str]] = []
-        self._words = [SIDES[k][0] for k in range(3)]
+        self._ways = [1.0, 1.0, 1.0]
         self.setAccessibleName(self.tr("Curves of the last ten seconds"))
 
     def set_exercise(self, exercise: Exercise, target_positive_deg: float, target_negative_deg: float) -> None:
@@ -92,11 +85,11 @@ class LiveCurves(PlotCard):
         self._values = []
         for k in range(3):
             if math.isfinite(angles[k]) and abs(angles[k]) > ZERO_BAND_DEG:
-                self._words[k] = SIDES[k][0 if angles[k] > 0 else 1]
+                self._ways[k] = float(angles[k])
             known = math.isfinite(angles[k]) and not self._history.waiting
-            name = terms.movement_name(self._words[k]) if known else self.tr("no value")
+            name = terms.direction_name(k, self._ways[k], self._exercise) if known else self.tr("no value")
             if known and abs(angles[k]) < ZERO_BAND_DEG:
-                name = terms.movement_at_zero(k)
+                name = terms.movement_at_zero(k, self._exercise)
             self._values.append(
                 (name, numbers.degrees(angles[k]) if known else "", numbers.spread(sds[k]) if known else "")
             )
@@ -138,8 +131,8 @@ class LiveCurves(PlotCard):
         return [first] if self._single else [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
 
     def _angle_scale(self, k: int) -> Scale:
-        upper, lower = (terms.movement_name(name) for name in SIDES[k])
-        return axes.angle_scale(AXIS_TICK_DEG[k], AXIS_LIMIT_DEG[k], upper, lower, tight=k != self._first())
+        names = terms.direction_names(k, self._exercise)
+        return axes.angle_scale(*axis_deg(k, self._exercise), *names, tight=k != self._first())
 
     # --- what is in it ------------------------------------------------------------------------------------
     def furnish(self, canvas: Canvas) -> None:
@@ -194,11 +187,8 @@ class LiveCurves(PlotCard):
     def _limits(self, column: int) -> list[Mark]:
         limit = self._exercise.trick_limit_deg
         if column != self._first() and math.isfinite(limit):
-            words = stay_words(limit, column)
-            if column == PRONOSUPINATION:
-                words = self.tr("0° = palm down; stay within {angle}").format(angle=numbers.degrees(limit))
-            return [StayWithin(limit, words)]
-        return [Remark(0.0, stay_words(limit, column))] if column == PRONOSUPINATION else []
+            return [StayWithin(limit, stay_words(limit, column))]
+        return zero_marks(column, self._exercise)
 
     def paint_ground(self, painter: QPainter) -> None:
         style, panels = screen_style(self._theme), self.panels()

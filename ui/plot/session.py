@@ -10,7 +10,8 @@ import numpy as np
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter
 
-from carpus.core.hand.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
+from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
+from carpus.core.hand.forearm_rotation import axis_deg, is_from_thumb_up
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.repetition_rows import ShownRepetition
@@ -21,7 +22,7 @@ from carpus.ui.figures import FINGERS, Figure, Row, spread_labels
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import Curves, Mark, Name, RepetitionMarks, Scales, StayWithin, Target, Times
+from carpus.ui.plot.marks import Curves, Mark, Name, Remark, RepetitionMarks, Scales, StayWithin, Target, Times
 from carpus.ui.plot.series import LONGEST_STEP_S, Curve, Series
 from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
 from carpus.ui.translate import tr
@@ -51,10 +52,16 @@ def group_words() -> tuple[str, str]:
 
 
 def stay_words(limit_deg: float, key: int) -> str:
-    """What is said of an angle that should hardly move; of pro/supination where its zero is."""
-    if key == PRONOSUPINATION:
-        return tr("0° = palm down")
-    return tr("should stay within {angle}").format(angle=numbers.degrees(limit_deg))
+    """What is said of an angle that should hardly move."""
+    within = tr("should stay within {angle}").format(angle=numbers.degrees(limit_deg))
+    return within if key != PRONOSUPINATION else tr("rotation from the start; {within}").format(within=within)
+
+
+def zero_marks(key: int, exercise: Exercise) -> list[Mark]:
+    """Where the forearm's rotation is counted from, at its zero; nothing of the other angles."""
+    if key != PRONOSUPINATION:
+        return []
+    return [Remark(0.0, tr("0° = thumb up") if is_from_thumb_up(exercise) else tr("rotation from the start"))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,8 +143,8 @@ class SessionPlot:
         top, out = box.top(), []
         for place, column in enumerate(order):
             height = unit * (2 if place == 0 else 1)
-            upper, lower = (terms.movement_name(name) for name in SIDES[column])
-            scale = axes.angle_scale(AXIS_TICK_DEG[column], AXIS_LIMIT_DEG[column], upper, lower, tight=place > 0)
+            names = terms.direction_names(column, self.exercise)
+            scale = axes.angle_scale(*axis_deg(column, self.exercise), *names, tight=place > 0)
             out.append((Panel(QRectF(box.left(), top, box.width(), height), scale, *self.shown_s), column))
             top += height + between
         return out
@@ -148,6 +155,8 @@ class SessionPlot:
         limit = self.exercise.trick_limit_deg
         if place > 0 and math.isfinite(limit):
             out.append(StayWithin(limit, stay_words(limit, key)))
+        else:
+            out += zero_marks(key, self.exercise)
         out.append(Scales())
         if place == 0:
             targets = [value for value in (self.target_positive_deg, self.target_negative_deg) if math.isfinite(value)]
@@ -164,11 +173,14 @@ class SessionPlot:
 
     def columns(self, key: int) -> list[tuple[str, Series]]:
         """Name and whole series of every curve of a panel, for reading off and for tables."""
-        return [(WRIST_ANGLES[key], self.series(key))]
+        name = WRIST_ANGLES[key]
+        if key == PRONOSUPINATION:  # as it is read: the files' name has the files' zero
+            name = "supination_from_thumb_up" if is_from_thumb_up(self.exercise) else "rotation_from_start"
+        return [(name, self.series(key))]
 
     def values(self, key: int, time_s: float) -> list[Value]:
         value, sd = value_at(self.curves, key, time_s)
-        name = terms.movement_name(SIDES[key][0 if value >= 0 else 1]) if math.isfinite(value) else no_value_words()
+        name = terms.direction_name(key, value, self.exercise) if math.isfinite(value) else no_value_words()
         return [Value(name, CURVE_TOKENS[key], value, sd)]
 
 

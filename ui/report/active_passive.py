@@ -14,7 +14,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.hand_rows import AT_LEAST, has_totals, range_words
-from carpus.ui.report.tables import mean_words, turned
+from carpus.ui.report.tables import is_deficit, mean_words, turned
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import reason_words
 from carpus.ui.words.by_hand import value_words
@@ -112,9 +112,9 @@ def _of_joint(figures: SessionFigures | None, key: RowKey) -> str:
 def _words(row: RangeRow | None) -> str:
     if row is None:
         return ""
-    words = mean_words(row if row.mean_deg >= 0.0 else turned(row))
-    if row.mean_deg < 0.0:
-        words = f"\N{MINUS SIGN}{words}"
+    words = mean_words(row)
+    if is_deficit(row):
+        words = f"\N{MINUS SIGN}{mean_words(turned(row))}"
     return f"{AT_LEAST}{numbers.NARROW_GAP}{words}" if row.limited else words
 
 

@@ -14,7 +14,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.further_rows import main_words, short_words
-from carpus.ui.report.tables import mean_words
+from carpus.ui.report.tables import is_deficit, mean_words, turned
 from carpus.ui.report.words import since_sessions
 from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import change_short, reason_words
@@ -356,4 +356,8 @@ def main_figure(figures: SessionFigures) -> str:
                 return f"{figure.long_name} {range_words(row)}"
         return ""
     rows = [row for row in figures.rows if row.movement != "arc" and row.count] or [*figures.rows]
-    return f"{terms.movement_name(rows[0].movement)} {mean_words(rows[0])}" if rows else ""
+    if not rows:
+        return ""
+    if is_deficit(rows[0]):
+        return f"{terms.deficit_name(rows[0].movement)} {mean_words(turned(rows[0]))}"
+    return f"{terms.movement_name(rows[0].movement)} {mean_words(rows[0])}"

@@ -11,6 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainterPath, QPen, QPolygonF, QTransform
 
 from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
+from carpus.core.hand.forearm_rotation import stored_targets_deg
 from carpus.core.records.values import HomePlan
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Goals, compare_rows, progress, row_aimed_at
@@ -91,8 +92,9 @@ def own_way(figures: SessionFigures, history: Sequence[SessionFigures], goals: G
     since = [compare_rows(one, figures, [found[-1][1]]) for one, _ in found[1:-1]]
     if change[0].verdict == "no_change" and any(item.verdict == "worse" for items in since for item in items):
         return None  # what was reached in between is not held
-    goal = goals.get((exercise.id, figures.side), figures.targets_deg)[0]
-    values = tuple(row.mean_deg for _, row in found)
+    # Nothing of it is a number: the hand is drawn from where it lies, of the forearm from palm down.
+    goal = stored_targets_deg(goals.get((exercise.id, figures.side), figures.targets_deg), exercise)[0]
+    values = tuple(stored_targets_deg((row.mean_deg, math.nan), exercise)[0] for _, row in found)
     return OwnWay(tuple(one.when.date() for one, _ in found), values, goal, change[0].verdict == "improved")
 
 

@@ -10,7 +10,8 @@ from datetime import date
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor
 
-from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
+from carpus.core.hand.exercises import AXIS_TICK_DEG, PRONOSUPINATION, SIDES, Exercise
+from carpus.core.hand.forearm_rotation import is_from_thumb_up
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import MotionCurves
@@ -277,6 +278,13 @@ def _paint_curves(page: Page, report: SessionReport, top: float) -> float:
     return top + 30 + 158 + 16
 
 
+def _bars_end_deg(exercise: Exercise, angles: Sequence[int]) -> float:
+    """The end of the axis of the bars; a forearm goes beyond 90 degrees of pronation."""
+    if PRONOSUPINATION in angles and is_from_thumb_up(exercise):
+        return 120.0
+    return AXIS_TICK_DEG[angles[0]] if len(angles) == 1 else 80.0
+
+
 def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
     """Today, last time and the other hand from one end of the movement to the other."""
     figures = report.figures
@@ -294,7 +302,7 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
         return top - 8
     compared = any(shown is not figures for _, shown, *_ in bars)
     page.title(tr("Range today, last time and other hand") if compared else tr("Range today"), top + 11)
-    tick = AXIS_TICK_DEG[angles[0]] if len(angles) == 1 else 80.0
+    tick = _bars_end_deg(figures.exercise, angles)
     left, right = page.left + 78, page.right - 6
     area_top, height = top + 20, 15.0 * len(bars) + 6
 

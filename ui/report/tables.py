@@ -129,8 +129,11 @@ def _with_unseen(parts: list[str], figures: SessionFigures) -> str:
 def mean_words(row: RangeRow) -> str:
     """``57° ± 2°``: the spread between repetitions, of a single one the tracker's own; two are listed."""
     if 1 < row.count < 3:
-        return ", ".join(numbers.degrees(value) for value in row.values_deg)
-    return numbers.with_spread(row.mean_deg, row.sd_deg if prints_spread(row) else row.measurement_sd_deg)
+        degrees = numbers.signed_degrees if row.movement in terms.FOREARM else numbers.degrees
+        return ", ".join(degrees(value) for value in row.values_deg)
+    words = numbers.with_spread(row.mean_deg, row.sd_deg if prints_spread(row) else row.measurement_sd_deg)
+    is_short = row.movement in terms.FOREARM and numbers.signed_degrees(row.mean_deg) != numbers.degrees(row.mean_deg)
+    return f"\N{MINUS SIGN}{words}" if is_short else words
 
 
 def prints_spread(row: RangeRow) -> bool:
@@ -139,8 +142,9 @@ def prints_spread(row: RangeRow) -> bool:
 
 
 def is_deficit(row: RangeRow) -> bool:
-    """Whether an end of the wrist's movement was never reached: the other one does not come back to neutral."""
-    return not row.joint and row.movement != "arc" and row.mean_deg < 0.0
+    """Whether an end of the wrist's movement was never reached: the other one does not come back to neutral. A forearm
+    that does not come to thumb up has a value below zero."""
+    return not row.joint and row.movement not in ("arc", *terms.FOREARM) and row.mean_deg < 0.0
 
 
 def turned(row: RangeRow) -> RangeRow:
@@ -171,10 +175,10 @@ def _range_row(
     return TableRow(
         movement=name,
         today=mean_words(row),
-        best=numbers.degrees(row.best_deg),
-        other_hand=terms.end_words(beside.mean_deg) if beside else "",
+        best=terms.end_words(row.best_deg, row.movement),
+        other_hand=terms.end_words(beside.mean_deg, row.movement) if beside else "",
         usual=numbers.UNKNOWN if norm is None else _range(norm.low_deg, norm.high_deg),
-        last=terms.end_words(before.mean_deg) if before else "",
+        last=terms.end_words(before.mean_deg, row.movement) if before else "",
         change=words,
         short_change=short or words,
         token="" if row.movement == "arc" else CURVE_TOKENS[row.angle],
@@ -186,7 +190,7 @@ def _trick_row(angle: int, figures: SessionFigures, previous: SessionFigures | N
     limit = figures.exercise.trick_limit_deg
     value = float(figures.trick_deg[angle])
     inside = value <= limit
-    names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Turning")}
+    names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Rotation from the start")}
     before = float(previous.trick_deg[angle]) if previous else math.nan
     return TableRow(
         movement=names[angle],

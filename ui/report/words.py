@@ -23,7 +23,7 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
     today = ", ".join(
         f"{inside(terms.deficit_name(row.movement))} {numbers.degrees(-row.mean_deg)}"
         if is_deficit(row)
-        else f"{_name(row.movement, row.angle, figures)} {numbers.degrees(row.mean_deg)}"
+        else f"{_name(row.movement, row.angle, figures)} {terms.end_words(row.mean_deg, row.movement)}"
         for row in rows
     )
     if not today:
@@ -84,7 +84,7 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
         else numbers.UNKNOWN
     )
     given = terms.start_angle_words(figures.start_angles_deg * math.pi / 180.0)
-    zero = tr("zero is the neutral hand, palm down")
+    zero = tr("zero is the neutral hand")
     order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
     if figures.angle_order == "isb":
         order = tr("Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.")
@@ -102,6 +102,7 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
             markers=markers, distance=distance
         ),
         order.format(zero=zero),
+        zero_words(figures),
         tr("The wrist’s angles are in the order of the ISB.")
         if figures.joint_rows and figures.angle_order == "isb"
         else "",
@@ -112,6 +113,12 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
         tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
     ]
     return " ".join(filter(None, sentences))
+
+
+def zero_words(figures: SessionFigures) -> str:
+    """Where pronation and supination are counted from, where the figures have them."""
+    has_them = any(row.movement in ("supination", "pronation") for row in figures.rows)
+    return terms.thumb_up_words() if has_them else ""
 
 
 def camera_words(figures: SessionFigures) -> str:
@@ -163,10 +170,10 @@ def target_words(figures: SessionFigures) -> str:
     angle = figures.exercise.angle
     if angle is None:
         return ""
-    named = zip(SIDES[angle], figures.targets_deg, strict=True)
+    named = zip(SIDES[angle], figures.targets_deg, (1.0, -1.0), strict=True)
     return ", ".join(
-        f"{terms.movement_name(movement)} {numbers.degrees(abs(value))}"
-        for movement, value in named
+        f"{terms.movement_name(movement)} {terms.end_words(direction * value, movement)}"
+        for movement, value, direction in named
         if math.isfinite(value)
     )
 
@@ -202,7 +209,7 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
                 residual=f"{numbers.fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
             )
             lines.append((tr("Point the wrist turns about"), words, True))
-    names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Turning")}
+    names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Rotation from the start")}
     for angle in (0, 1, 2):
         value = float(figures.trick_deg[angle])
         if math.isfinite(value):

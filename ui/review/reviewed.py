@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carpus.core.hand.exercises import FLEXION, SIDES
+from carpus.core.hand.exercises import FLEXION, Exercise
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.records.values import SessionEntry
 from carpus.core.results.figures import SessionFigures, session_figures
@@ -92,14 +92,16 @@ class Reviewed:
             value, sd = float(joints.angles_deg[row, column]), float(joints.sds_deg[row, column])
             return _said(figure_of(exercise.joint).long_name, value, sd)
         column = self._trained
-        return _wrist_said(column, float(self.curves.angles_deg[row, column]), float(self.curves.sds_deg[row, column]))
+        return _wrist_said(
+            exercise, column, float(self.curves.angles_deg[row, column]), float(self.curves.sds_deg[row, column])
+        )
 
     def measured_words(self, row: int, time_s: float) -> str:
         """Of the whole hand how many discs are hidden, of the wrist its angle at a time."""
         if self.is_hand:
             hidden = int((~np.isfinite(self.session.markers.measured_px[row, :, 0])).sum())
             return _hidden_words(hidden) if hidden else ""
-        return _wrist_said(self._trained, *value_at(self.curves, self._trained, time_s))
+        return _wrist_said(self.figures.exercise, self._trained, *value_at(self.curves, self._trained, time_s))
 
     @property
     def _trained(self) -> int:
@@ -134,8 +136,8 @@ def _hidden_words(count: int) -> str:
     return tr("1 marker hidden") if count == 1 else tr("{count} markers hidden").format(count=count)
 
 
-def _wrist_said(column: int, value: float, sd: float) -> str:
-    return _said(terms.movement_name(SIDES[column][0 if value >= 0 else 1]), value, sd)
+def _wrist_said(exercise: Exercise, column: int, value: float, sd: float) -> str:
+    return _said(terms.direction_name(column, value, exercise), value, sd)
 
 
 def _said(name: str, value: float, sd: float) -> str:

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from carpus.core.hand.exercises import SIDES, Exercise, exercise_named, exercises_of
+from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
 from carpus.core.records.set_up import PRACTICE_PATIENT, ExerciseSet, SetUp, begun
 from carpus.core.results.figures import SessionFigures
@@ -29,6 +29,7 @@ from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.translate import inside, say, tr
 
 MOST_REPETITIONS, MOST_TARGET_DEG = 50, 90
+_NONE = (math.nan, math.nan)
 
 
 class ExerciseScreen(QWidget):
@@ -87,11 +88,19 @@ class ExerciseScreen(QWidget):
         row = in_line(gap=16)
         for field in self._target_fields:
             row.addWidget(field)
-        fill(body, row, self.problem, self.proposal, (self.accept, 0, Qt.AlignmentFlag.AlignLeft), self._ends_field)
+        fill(
+            body,
+            row,
+            self.problem,
+            self.view,
+            self.proposal,
+            (self.accept, 0, Qt.AlignmentFlag.AlignLeft),
+            self._ends_field,
+        )
         body.addWidget(Labelled(theme, self.tr("The patient’s view is for"), self.audience))
         body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
         self.pictures_cost = caption(theme, wrap=True)
-        fill(body, self.pictures_cost, self.view, STRETCH)
+        fill(body, self.pictures_cost, STRETCH)
         fill(self._card.body, (scrolled(body), 1), self.primary)
         columns = in_line(
             (left, 1), gap=MARGIN_PX, margins=(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4), within=self
@@ -155,11 +164,9 @@ class ExerciseScreen(QWidget):
         if last is not None:
             self.repetitions.setValue(last.repetitions)
             self.ends.choose(last.ends_free)
-            for field, value in zip(self.targets, (last.target_positive_deg, last.target_negative_deg), strict=True):
-                field.set_value(abs(value))
+            self._show_targets((last.target_positive_deg, last.target_negative_deg))
         else:
-            for field in self.targets:
-                field.set_value(math.nan)
+            self._show_targets(_NONE)
         self._show_problem()
 
     @property
@@ -232,6 +239,7 @@ class ExerciseScreen(QWidget):
             words = self.tr("Target, {movement}").format(movement=inside(movement))
             name.setText(words)
             self.targets[number].setAccessibleName(words)
+            self.targets[number].set_least(-MOST_TARGET_DEG if exercise.angle == PRONOSUPINATION else 0)
         if exercise.counts:
             self.repetitions.setValue(exercise.repetitions)
         self._show_goals()
@@ -270,10 +278,13 @@ class ExerciseScreen(QWidget):
         """The targets that were last set for this exercise and hand; none leaves the fields empty."""
         side = self._side()
         if self._set(self.exercises.value()) is None and side is not None:
-            none = (math.nan, math.nan)
-            for field, value in zip(self.targets, self._goals.get((self._exercise().id, side), none), strict=True):
-                field.set_value(abs(value))
+            self._show_targets(self._goals.get((self._exercise().id, side), _NONE))
         self._show_proposal()
+
+    def _show_targets(self, targets_deg: tuple[float, float]) -> None:
+        """Each in its own direction, of supination below 0 where it stops short of thumb up."""
+        for field, direction, value in zip(self.targets, (1.0, -1.0), targets_deg, strict=True):
+            field.set_value(direction * value)
 
     def _show_proposal(self) -> None:
         """What the last sessions speak for, in one sentence, and a button that takes it over."""
@@ -339,9 +350,9 @@ def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
         tr("{movement} {goal} (mean {mean}; a gain can be told from {told})")
         .format(
             movement=_name(exercise, one),
-            goal=numbers.degrees(one.goal_deg),
-            mean=numbers.degrees(one.basis_deg),
-            told=numbers.degrees(one.told_from_deg),
+            goal=numbers.signed_degrees(one.goal_deg),
+            mean=numbers.signed_degrees(one.basis_deg),
+            told=numbers.signed_degrees(one.told_from_deg),
         )
         .strip()
         for one in proposed

@@ -27,7 +27,10 @@ def measure_name(measure: HandMeasure) -> str:
         return say(measure.name)
     joint, _, movement = measure.id.rpartition("_")
     if not joint:
-        return tr("Wrist, {movement}").format(movement=inside(terms.movement_long_name(movement.lower())))
+        name = terms.movement_long_name(movement.lower())
+        return (
+            name if movement in ("PRONATION", "SUPINATION") else tr("Wrist, {movement}").format(movement=inside(name))
+        )
     finger = int(joint[-1])
     row = {"MCP": tr("knuckle"), "PIP": tr("middle joint"), "DIP": tr("end joint"), "IP": tr("end joint")}[joint[:-1]]
     name = long_finger_name(str(finger))

@@ -54,7 +54,9 @@ def headline(progress: Progress) -> tuple[str, str]:
     others = [item for item in progress.comparisons if item is not main and item.verdict != "not_judged"]
     if main.joint:  # of many joints only those that changed
         others = [item for item in others if item.verdict in ("improved", "worse")]
-    return answer, " ".join([_basis(main), *(_rest(item) for item in others)])
+    turned = any(item.movement in ("supination", "pronation") for item in progress.comparisons)
+    zero = [terms.thumb_up_words()] if turned else []
+    return answer, " ".join([_basis(main), *(_rest(item) for item in others), *zero])
 
 
 def comparison_name(item: Comparison, among: Sequence[Comparison] = ()) -> str:
@@ -101,8 +103,9 @@ def before_after(item: Comparison) -> str:
 
 def _ends(item: Comparison) -> tuple[str, str]:
     """Both means; of the wrist a side that was not reached lacks something."""
-    words = numbers.degrees if item.joint else terms.end_words
-    return words(item.before_deg), words(item.after_deg)
+    if item.joint:
+        return numbers.degrees(item.before_deg), numbers.degrees(item.after_deg)
+    return terms.end_words(item.before_deg, item.movement), terms.end_words(item.after_deg, item.movement)
 
 
 def change_line(item: Comparison) -> str:

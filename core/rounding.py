@@ -1,0 +1,24 @@
+"""How a number that a person reads is rounded: halves away from zero, as everybody learnt it; Python rounds to even."""
+
+from __future__ import annotations
+
+from decimal import ROUND_HALF_UP, Decimal
+
+
+def rounded(value: float) -> int:
+    """The nearest whole number, halves away from zero.
+
+    >>> rounded(44.5), rounded(-44.5), rounded(0.4999)
+    (45, -45, 0)
+    """
+    return int(Decimal(repr(float(value))).quantize(Decimal(1), ROUND_HALF_UP))
+
+
+def written(value: float, decimals: int = 0) -> str:
+    """A finite number with that many decimals, halves away from zero; nothing is minus nothing.
+
+    >>> written(44.5), written(-44.5), written(0.25, 1), written(-0.04, 1)
+    ('45', '-45', '0.3', '0.0')
+    """
+    shown = Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_UP)
+    return f"{shown + 0:.{decimals}f}".removeprefix("-") if shown == 0 else f"{shown:.{decimals}f}"
