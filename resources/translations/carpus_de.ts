@@ -11482,7 +11482,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation>Messen Sie mit dem Winkelmesser, wie weit das Handgelenk jetzt von der geraden Lage abweicht, und den Unterarm ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet diese Winkel zu allem hinzu, was es am Handgelenk misst, und sagt es im Bericht. Gebeugte Finger sind in Ordnung: Null eines Fingergelenks ist der gerade Finger, wie auch immer das Bild.</translation>
+        <translation>Messen Sie mit dem Goniometer, wie weit das Handgelenk jetzt von gerade abweicht, und den Unterarm ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet diese Winkel in alles ein, was es am Handgelenk misst, und der Bericht sagt es. Gebeugte Finger dürfen bleiben, wie sie sind: null eines Fingergelenks ist der gestreckte Finger, was auch immer das Bild zeigt.</translation>
     </message>
 </context>
 <context>

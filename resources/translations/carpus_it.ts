@@ -11482,7 +11482,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation>Misurare con un goniometro quanto il polso, così com’è appoggiato, è lontano dalla posizione dritta, e l’avambraccio dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Carpus aggiunge questi angoli a tutto ciò che misura del polso e lo dice nella relazione. Le dita piegate vanno bene così: lo zero di un’articolazione delle dita è il dito dritto, qualunque sia l’immagine.</translation>
+        <translation>Misurate con il goniometro quanto il polso, come sta ora, è lontano dal dritto, e l’avambraccio dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Carpus aggiunge questi angoli a tutto ciò che misura del polso e il referto lo dice. Le dita flesse vanno bene così: lo zero di un’articolazione delle dita è il dito disteso, qualunque sia l’immagine.</translation>
     </message>
 </context>
 <context>
