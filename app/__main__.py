@@ -27,7 +27,8 @@ from typing import NoReturn
 from carpus import __version__
 from carpus.app.command_line import CommandParser, flushed, on_stop, open_closed, say
 from carpus.app.commands import COMMANDS
-from carpus.core.errors import CarpusFault
+from carpus.core.durable import FULL
+from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.purpose import PURPOSE
 
 EXIT_DONE, EXIT_COULD_NOT = 0, 1
@@ -123,6 +124,8 @@ def _words(cause: Exception) -> str | None:
     if isinstance(cause, BrokenPipeError):
         return None  # the reader of our output went away (`carpus info FILE | head`)
     if isinstance(cause, OSError):
+        if cause.errno in FULL:
+            return _words(DiskFull(cause.filename or "", cause.strerror or ""))
         subject = "" if cause.filename is None else f" {cause.filename}"
         reason = cause.strerror or cause
         return f"the system refuses{subject} ({reason}); check the file and the room on its disk."
@@ -132,7 +135,7 @@ def _words(cause: Exception) -> str | None:
         where = where.tb_next
     place = f"{Path(where.tb_frame.f_code.co_filename).name}:{where.tb_lineno}" if where else "unknown place"
     return (
-        f"something unforeseen happened ({type(cause).__name__}: {cause}, {place}). Your files are as they were. "
+        f"something unforeseen happened ({type(cause).__name__}: {cause}, {place}). "
         "Please report it; CARPUS_DEBUG=1 shows more."
     )
 

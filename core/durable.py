@@ -8,6 +8,7 @@ import errno
 import os
 import re
 import shutil
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
@@ -44,6 +45,18 @@ def write_fault(path: Path, cause: OSError | RuntimeError) -> CarpusFault:
     if number in FULL:
         return DiskFull(path, os.strerror(number))
     return OutputNotWritable(path, os.strerror(number) if number else "")
+
+
+def is_full(folder: Path) -> bool:
+    """Whether the disk of a folder takes nothing more."""
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(1 << 16))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as cause:
+        return cause.errno in FULL
+    return False
 
 
 def sync_folder(folder: Path) -> None:
@@ -108,7 +121,7 @@ def make_private(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         folder.chmod(0o700)
     except OSError as cause:
-        raise OutputNotWritable(folder, cause.strerror or "") from cause
+        raise write_fault(folder, cause) from cause
 
 
 def make_private_file(path: Path) -> None:
@@ -117,7 +130,7 @@ def make_private_file(path: Path) -> None:
         os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
         path.chmod(0o600)
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
 
 
 def link_or_copy(path: Path, target: Path) -> None:

@@ -94,7 +94,7 @@ class DepthMissing(CarpusFault):
 class CameraFileUnreadable(CarpusFault):
     happened = phrase("The file of the camera cannot be used: {subject} ({detail}).")
     safe = _FILE_UNCHANGED
-    do = phrase("Calibrate the camera again, or take the file away to use the usual values.")
+    do = phrase("Calibrate the camera again, or correct the file.")
 
 
 class ClicksUnreadable(CarpusFault):
@@ -437,8 +437,8 @@ class NotCorrected(CarpusFault):
 
 class RegisterUnreadable(CarpusFault):
     happened = phrase("The list of patients cannot be opened: {subject} ({detail}).")
-    safe = phrase("The session files are safe; the list can be made again from them, without the names.")
-    do = phrase("Start Carpus again, or move the file away and let Carpus make a new list.")
+    safe = phrase("The session files are not touched. Names and notes are in this file alone: keep it.")
+    do = phrase("Start Carpus again. If that does not help, ask your IT support.")
 
 
 class RegisterBusy(RegisterUnreadable):
@@ -463,7 +463,7 @@ class RegisterDamaged(RegisterUnreadable):
 
     happened = phrase("The list of patients is damaged: {subject} ({detail}).")
     safe = RegisterUnreadable.safe
-    do = phrase("Start Carpus again, or take the list from a backup.")
+    do = phrase("Start Carpus again: it keeps what can still be read. If names are missing then, restore a backup.")
 
 
 class RegisterSetAside(CarpusFault):
@@ -633,7 +633,7 @@ class BackupIncomplete(CarpusFault):
 
     happened = phrase("The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.")
     safe = phrase("Everything else is in it.")
-    do = phrase("Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.")
+    do = phrase("Bring the session folder or its disk back, then back up again.")
 
 
 class BackupUnequal(CarpusFault):

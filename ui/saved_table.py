@@ -8,9 +8,7 @@ from collections.abc import Iterable, Sequence
 from itertools import count
 from pathlib import Path
 
-from carpus.core.durable import private
-from carpus.core.errors import OutputNotWritable
-from carpus.core.formats.new_output import plain_cell
+from carpus.core.formats.new_output import new_bytes, plain_cell
 
 
 def table_text(head: Sequence[str], rows: Iterable[Iterable[object]]) -> str:
@@ -23,12 +21,10 @@ def table_text(head: Sequence[str], rows: Iterable[Iterable[object]]) -> str:
 
 
 def save_private(path: Path, content: bytes) -> None:
-    """Write a file that nobody else may read, in place of what is there. Raises :class:`OutputNotWritable`."""
-    try:
-        with open(path, "wb", opener=private) as file:
-            file.write(content)
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+    """Write a file that nobody else may read, in place of what is there. Raises :class:`DiskFull` or
+    :class:`OutputNotWritable`; then what was there stays."""
+    with new_bytes(path, replaces=True) as file:
+        file.write(content)
 
 
 def save_table(path: Path, head: Sequence[str], rows: Iterable[Iterable[object]]) -> None:

@@ -20,7 +20,8 @@ from carpus.app.sources import TrackingInput, open_recording, tell_assumed
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.source import Recorded
-from carpus.core.errors import CarpusFault, OutputBusy, OutputExists, OutputNotWritable
+from carpus.core.durable import write_fault
+from carpus.core.errors import CarpusFault, OutputBusy, OutputExists
 from carpus.core.pipeline.told_settings import differences, settings_told
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
 from carpus.core.results.figures import session_figures
@@ -114,7 +115,7 @@ def _make_room(session: Path) -> None:
     try:
         session.parent.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
-        raise OutputNotWritable(session.parent, cause.strerror or "") from cause
+        raise write_fault(session.parent, cause) from cause
     clear_leftovers(session)
 
 

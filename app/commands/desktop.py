@@ -16,6 +16,7 @@ from carpus.app.of_file import note_in
 from carpus.app.settings import Settings, load_sound_settings, note_data_folder, with_data_folder, with_kept_folder
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, DataFolderChanged, FolderInUse
+from carpus.core.records.reserve import keep_reserve
 from carpus.core.records.restoring import drop_unfinished, is_restored, put_in_place
 from carpus.core.records.set_up import PRACTICE_PATIENT
 
@@ -106,6 +107,7 @@ def _opened(
                 before = note_data_folder(settings.data_folder)
             other = [] if before is None else [DataFolderChanged(settings.data_folder, str(before))]
             desktop = compose.compose(qt, settings, is_demo=is_demo, told=[*other, *told])
+            keep_reserve(settings.data_folder)
         except CarpusFault as fault:
             alone.let_go()
             tell(fault)

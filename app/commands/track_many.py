@@ -15,7 +15,8 @@ from carpus.app.batch.processes import LIMIT_S, cores, outcomes
 from carpus.app.batch.work import Outcome, Task, fault_of
 from carpus.app.command_line import bar, misused
 from carpus.app.sources import SESSION_SUFFIX, TrackingInput, places
-from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, RecordingMissing
+from carpus.core.durable import write_fault
+from carpus.core.errors import CarpusFault, OutputExists, RecordingMissing
 from carpus.core.formats.measures_files import check_place, measures_file
 from carpus.core.formats.new_output import cell, new_table
 from carpus.core.pipeline.told_settings import settings_told
@@ -108,7 +109,7 @@ def run_many(
     try:
         output.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
-        raise OutputNotWritable(output, cause.strerror or "") from cause
+        raise write_fault(output, cause) from cause
     begin_s = time.monotonic()
     with ExitStack() as open_tables, bar("tracking", "recording") as progress:
         takers = [open_tables.enter_context(measures_file(table, replaces=True)) for table in tables]

@@ -13,7 +13,7 @@ from types import TracebackType
 import platformdirs
 
 from carpus.core.durable import make_private
-from carpus.core.errors import OutputNotWritable
+from carpus.core.errors import CarpusFault
 
 SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
 """A path or a file's name with a pseudonym in it."""
@@ -47,8 +47,9 @@ def write_log() -> None:
         for old in folder.glob(f"{LOG_FILE}*"):
             old.chmod(0o600)
         handler = RotatingFileHandler(folder / LOG_FILE, maxBytes=LOG_BYTES, backupCount=2, encoding="utf-8")
-    except (OSError, OutputNotWritable):
+    except (OSError, CarpusFault):
         handler = logging.NullHandler()
+    logging.raiseExceptions = False  # a full disk costs lines of the log, and nothing else
     handler.setFormatter(LINES)
     logging.basicConfig(level=logging.INFO, handlers=[handler])
     logging.getLogger("alembic").setLevel(logging.WARNING)  # how the store is set up says nothing to a person

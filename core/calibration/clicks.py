@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
-from carpus.core.durable import private
-from carpus.core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, OutputNotWritable, ProtocolUnknown
+from carpus.core.durable import private, write_fault
+from carpus.core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, ProtocolUnknown
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray, Side
@@ -53,7 +53,7 @@ def write_clicks(path: Path, clicks: Clicks) -> None:
     except FileExistsError as cause:
         raise OutputExists(path) from cause
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
 
 
 def check_inside(clicks: Clicks, width_px: int, height_px: int) -> None:

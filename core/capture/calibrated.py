@@ -15,8 +15,8 @@ import numpy as np
 from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info
 from carpus.core.capture.source import GIVEN, SERIAL, FrameSource, SourceInfo
 from carpus.core.dates import is_moment
-from carpus.core.durable import replace_text
-from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.durable import replace_text, write_fault
+from carpus.core.errors import CarpusFault
 from carpus.core.names import CAMERAS, file_stem
 from carpus.core.types import DepthImage, Frame
 
@@ -177,7 +177,7 @@ def keep_name(data_folder: Path, kind: str, name: str) -> str:
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
     replace_text(path, json.dumps(names, ensure_ascii=False))
     return kept
 

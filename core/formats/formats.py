@@ -15,7 +15,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.durable import write_fault
+from carpus.core.errors import CarpusFault
 from carpus.core.formats.new_output import new_text
 from carpus.core.formats.provenance import LEGAL, Deidentification, provenance
 from carpus.core.formats.take import Take
@@ -135,7 +136,7 @@ def export_sessions(
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
-        raise OutputNotWritable(folder, cause.strerror or "") from cause
+        raise write_fault(folder, cause) from cause
     refused: list[Refused] = []
     nobody = _nobody(sessions) if deidentified else None
     files: list[Path] = []

@@ -34,6 +34,7 @@ from carpus.core.errors import (
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.database import STORE_FILE, copied
+from carpus.core.records.reserve import RESERVE_FILE
 from carpus.core.records.session_list import COPY_SUFFIX
 from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
 from carpus.core.session import recovery
@@ -43,7 +44,7 @@ FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
 SETTINGS_PREFIX, SESSIONS_PREFIX = "@settings/", f"{SESSIONS_FOLDER}/"
 PLACE_LOCK = ".lock"
-LEFT_OUT = (".alive", "-wal", "-shm", "-journal", ".lock", COPY_SUFFIX)
+LEFT_OUT = (".alive", "-wal", "-shm", "-journal", ".lock", COPY_SUFFIX, RESERVE_FILE)
 BLOCK = 1 << 20
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 _MOST = 1 << 62

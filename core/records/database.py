@@ -14,7 +14,7 @@ from sqlalchemy import Connection, create_engine, event, inspect
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import StaticPool
 
-from carpus.core.durable import make_private_file
+from carpus.core.durable import is_full, make_private_file, write_fault
 from carpus.core.errors import (
     DiskFull,
     OutputNotWritable,
@@ -34,6 +34,8 @@ met where it is."""
 BUSY_MS = 5000
 """How long one program waits for another."""
 CANNOT_WRITE = (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
+MAY_BE_FULL = (sqlite3.SQLITE_IOERR, *CANNOT_WRITE)
+"""What SQLite says too of a disk without room for the files that it needs beside its own."""
 READ_AGAIN = 3
 COPY_TIMEOUT_S = 30.0
 _MIGRATING = threading.Lock()
@@ -118,7 +120,7 @@ class Database:
         except (DBAPIError, sqlite3.Error) as cause:  # what SQLite says at a connection comes as it is
             said = getattr(cause, "orig", cause)
             code = getattr(said, "sqlite_errorcode", 0) & 0xFF
-            if code == sqlite3.SQLITE_FULL:
+            if code == sqlite3.SQLITE_FULL or (code in MAY_BE_FULL and is_full(self._path.parent)):
                 raise DiskFull(self._path) from cause
             if code in CANNOT_WRITE:
                 raise OutputNotWritable(self._path, str(said)) from cause
@@ -144,14 +146,15 @@ def copied(path: Path) -> sqlite3.Connection:
             with contextlib.closing(sqlite3.connect(uri, uri=True, timeout=COPY_TIMEOUT_S)) as store:
                 store.backup(copy)
         except sqlite3.Error as cause:
-            if getattr(cause, "sqlite_errorcode", 0) & 0xFF not in CANNOT_WRITE:
+            code = getattr(cause, "sqlite_errorcode", 0) & 0xFF
+            if code not in CANNOT_WRITE and not (code in MAY_BE_FULL and is_full(path.parent)):
                 raise
             copy.deserialize(_as_it_lies(path))
         if copy.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
             raise RegisterDamaged(path, phrase("damaged"))
     except (sqlite3.Error, OSError) as cause:
         copy.close()
-        raise RegisterUnreadable(path, str(cause)) from cause
+        raise (DiskFull(path) if is_full(path.parent) else RegisterUnreadable(path, str(cause))) from cause
     except BaseException:
         copy.close()
         raise
@@ -259,7 +262,7 @@ def set_aside(path: Path, now: datetime) -> Path:
             if old.exists():
                 old.rename(aside.with_name(aside.name + tail))
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
     return aside
 
 

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from sqlalchemy import delete, select
 
-from carpus.core.errors import ChangedMeanwhile, ErasureLeadsOut, ErasureUnfinished, FolderMissing
+from carpus.core.errors import ChangedMeanwhile, DiskFull, ErasureLeadsOut, ErasureUnfinished, FolderMissing
 from carpus.core.names import folded
 from carpus.core.records.changes import RowChange, changed, dropped, is_identity
 from carpus.core.records.database import STORE_FILE
@@ -26,6 +26,7 @@ from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_clinic import PLACE
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
+from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import DIAGNOSIS, OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
 from carpus.core.records.session_list import (
     COPY,
@@ -99,11 +100,20 @@ def _plan(
 
 def erase(store: Store, plan: ErasurePlan, log: Log) -> int:
     """Do it; how many files went. What cannot be deleted now is tried again whenever the store is opened. Of a patient
-    also what came since it was planned.
+    also what came since it was planned. On a full disk the room that is kept for it is used.
 
-    Raises :class:`ErasureUnfinished` where files are left, :class:`OutputNotWritable` where it could not be logged and
-    so was not begun.
+    Raises :class:`ErasureUnfinished` where files are left, :class:`OutputNotWritable` or :class:`DiskFull` where it
+    could not be logged and so was not begun.
     """
+    try:
+        return _erase(store, plan, log)
+    except DiskFull:
+        if not free_reserve(store.folder):
+            raise
+        return _erase(store, plan, log)
+
+
+def _erase(store: Store, plan: ErasurePlan, log: Log) -> int:
     log.note("erase_begun", plan.kind, plan.identity, files=len(plan.files))
     FilesOfSessions(store).take_in(tells=False)
     marked = [changed(SESSION, one.session_id, erasing=1) for one in plan.results]

@@ -18,9 +18,10 @@ import platformdirs
 
 from carpus.core.calibration.result import ALL_STRAIGHT
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.durable import make_private, sync_folder
+from carpus.core.durable import make_private, sync_folder, write_fault
 from carpus.core.errors import (
     CarpusFault,
+    DiskFull,
     FilesSetApart,
     FolderMissing,
     OutputNotWritable,
@@ -63,7 +64,7 @@ def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) 
             shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
             told.append(WaitingErased())
         except OSError as cause:
-            told.append(OutputNotWritable(place, cause.strerror or ""))
+            told.append(write_fault(place, cause))
     told += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
     for path in sorted(place.rglob("*.h5")):
         try:
@@ -77,7 +78,7 @@ def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) 
         except CarpusFault as fault:
             told.append(fault)
         except OSError as cause:
-            told.append(OutputNotWritable(data_folder, cause.strerror or ""))
+            told.append(write_fault(data_folder, cause))
     return told
 
 
@@ -161,7 +162,7 @@ class NewSessions:
         about = set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone()
         try:
             return library.index.new_path(set_up.patient_id, *about)
-        except (FolderMissing, OutputNotWritable) as fault:
+        except (FolderMissing, OutputNotWritable, DiskFull) as fault:
             if not library.store.on_share:
                 raise
             path = free_path(self.fallback_folder(set_up.patient_id), *about)

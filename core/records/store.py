@@ -16,6 +16,7 @@ from sqlalchemy import Delete, Insert, Row, Select, Update, select
 from carpus.core.durable import hold, make_private, make_private_file
 from carpus.core.errors import (
     CarpusFault,
+    DiskFull,
     ErasureUnfinished,
     FolderMissing,
     LogUnguarded,
@@ -31,6 +32,7 @@ from carpus.core.errors import (
 from carpus.core.phrase import phrase
 from carpus.core.records.changes import PRACTICE, Change, forget, is_practice, is_shared, lay_out, make, new
 from carpus.core.records.database import STORE_FILE, Database, copied, rescue, set_aside
+from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import PATIENT
 from carpus.core.session.disk import below
 
@@ -94,7 +96,12 @@ class Store:
     def _opened(self, path: Path) -> Database:
         with _alone(path):  # two programs that meet a damaged one would each set aside what the other has just made
             try:
-                return Database(path)
+                try:
+                    return Database(path)
+                except DiskFull:
+                    if not free_reserve(self.folder):
+                        raise
+                    return Database(path)
             except RegisterDamaged as fault:
                 aside, database = set_aside(path, datetime.now()), Database(path)
                 rows = rescue(aside, database)
@@ -214,7 +221,7 @@ def reading(
     faults of a store."""
     try:
         return Store(folder, sessions_folder, url, tell)
-    except OutputNotWritable:
+    except (OutputNotWritable, DiskFull):
         return Store(folder, sessions_folder, copy=copied(folder / STORE_FILE))
 
 

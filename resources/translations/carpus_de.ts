@@ -3952,10 +3952,6 @@
         <translation>Bringen Sie die Firmware mit dem RealSense Viewer des Herstellers auf den neuesten Stand.</translation>
     </message>
     <message>
-        <source>Calibrate the camera again, or take the file away to use the usual values.</source>
-        <translation>Kalibrieren Sie die Kamera neu, oder entfernen Sie die Datei, um die üblichen Werte zu verwenden.</translation>
-    </message>
-    <message>
         <source>Camera rights, {title}</source>
         <translation>Kamerarechte, {title}</translation>
     </message>
@@ -4512,14 +4508,6 @@
         <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Start Carpus again, or move the file away and let Carpus make a new list.</source>
-        <translation>Starten Sie Carpus neu, oder verschieben Sie die Datei, damit Carpus eine neue Liste erstellt.</translation>
-    </message>
-    <message>
-        <source>Start Carpus again, or take the list from a backup.</source>
-        <translation>Starten Sie Carpus neu, oder nehmen Sie die Liste aus einer Sicherung.</translation>
-    </message>
-    <message>
         <source>Start the window from a desktop. The commands for files work without a screen.</source>
         <translation>Starten Sie das Fenster aus einem Desktop. Die Befehle für Dateien gehen ohne Bildschirm.</translation>
     </message>
@@ -4850,10 +4838,6 @@
     <message>
         <source>The session and the reference were not changed.</source>
         <translation>Sitzung und Referenz wurden nicht verändert.</translation>
-    </message>
-    <message>
-        <source>The session files are safe; the list can be made again from them, without the names.</source>
-        <translation>Die Sitzungsdateien sind sicher; die Liste lässt sich daraus neu erstellen, ohne die Namen.</translation>
     </message>
     <message>
         <source>The session is unchanged, and its repetitions can be left out.</source>
@@ -6480,10 +6464,6 @@
         <translation>Alles andere ist darin.</translation>
     </message>
     <message>
-        <source>Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.</source>
-        <translation>Bringen Sie den Ordner der Sitzungen oder seinen Datenträger zurück und sichern Sie erneut; oder löschen Sie diese Sitzungen.</translation>
-    </message>
-    <message>
         <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
         <translation>Der Sicherung fehlen Dateien: {subject} ist nicht da oder nicht lesbar; {detail} insgesamt.</translation>
     </message>
@@ -6950,6 +6930,26 @@
     <message>
         <source>Pronation–supination</source>
         <translation>Pronation–Supination</translation>
+    </message>
+    <message>
+        <source>Bring the session folder or its disk back, then back up again.</source>
+        <translation>Schließen Sie den Sitzungsordner oder seinen Datenträger wieder an und sichern Sie noch einmal.</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera again, or correct the file.</source>
+        <translation>Kalibrieren Sie die Kamera neu, oder berichtigen Sie die Datei.</translation>
+    </message>
+    <message>
+        <source>Start Carpus again. If that does not help, ask your IT support.</source>
+        <translation>Starten Sie Carpus neu. Hilft das nicht, fragen Sie Ihre IT-Betreuung.</translation>
+    </message>
+    <message>
+        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a backup.</source>
+        <translation>Starten Sie Carpus neu: Was noch lesbar ist, bleibt erhalten. Fehlen danach Namen, stellen Sie eine Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>The session files are not touched. Names and notes are in this file alone: keep it.</source>
+        <translation>Die Sitzungsdateien sind unberührt. Namen und Notizen stehen nur in dieser Datei: behalten Sie sie.</translation>
     </message>
 </context>
 <context>

@@ -3956,10 +3956,6 @@
         <translation>Aggiornare il firmware con RealSense Viewer del produttore.</translation>
     </message>
     <message>
-        <source>Calibrate the camera again, or take the file away to use the usual values.</source>
-        <translation>Calibrare di nuovo la telecamera, o togliere il file per usare i valori usuali.</translation>
-    </message>
-    <message>
         <source>Camera rights, {title}</source>
         <translation>Permessi della telecamera, {title}</translation>
     </message>
@@ -4524,14 +4520,6 @@
         <translation>Alcune immagini sono più piccole e sono state ingrandite: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Start Carpus again, or move the file away and let Carpus make a new list.</source>
-        <translation>Riavviare Carpus, o spostare il file e lasciare che Carpus crei un nuovo elenco.</translation>
-    </message>
-    <message>
-        <source>Start Carpus again, or take the list from a backup.</source>
-        <translation>Riavviare Carpus, o riprendere l’elenco da una copia di sicurezza.</translation>
-    </message>
-    <message>
         <source>Start the window from a desktop. The commands for files work without a screen.</source>
         <translation>Avviare la finestra da un desktop. I comandi per i file funzionano senza schermo.</translation>
     </message>
@@ -4838,10 +4826,6 @@
     <message>
         <source>The session and the reference were not changed.</source>
         <translation>La sessione e il riferimento non sono stati modificati.</translation>
-    </message>
-    <message>
-        <source>The session files are safe; the list can be made again from them, without the names.</source>
-        <translation>I file delle sedute sono al sicuro; l’elenco si può rifare da quelli, senza i nomi.</translation>
     </message>
     <message>
         <source>The session is unchanged, and its repetitions can be left out.</source>
@@ -6480,10 +6464,6 @@
         <translation>Tutto il resto c’è.</translation>
     </message>
     <message>
-        <source>Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.</source>
-        <translation>Riporti la cartella delle sessioni o il suo disco, e rifaccia la copia; o cancelli queste sessioni.</translation>
-    </message>
-    <message>
         <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
         <translation>Alla copia di sicurezza mancano file: {subject} non c’è o non si può leggere; {detail} in tutto.</translation>
     </message>
@@ -6950,6 +6930,26 @@
     <message>
         <source>Pronation–supination</source>
         <translation>Pronazione–supinazione</translation>
+    </message>
+    <message>
+        <source>Bring the session folder or its disk back, then back up again.</source>
+        <translation>Ricollegare la cartella delle sedute o il suo disco, poi rifare la copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera again, or correct the file.</source>
+        <translation>Ricalibrare la telecamera, o correggere il file.</translation>
+    </message>
+    <message>
+        <source>Start Carpus again. If that does not help, ask your IT support.</source>
+        <translation>Riavviare Carpus. Se non basta, rivolgersi al supporto informatico.</translation>
+    </message>
+    <message>
+        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a backup.</source>
+        <translation>Riavviare Carpus: conserva ciò che è ancora leggibile. Se poi mancano nomi, ripristinare una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>The session files are not touched. Names and notes are in this file alone: keep it.</source>
+        <translation>I file delle sedute non sono stati toccati. Nomi e note sono solo in questo file: conservarlo.</translation>
     </message>
 </context>
 <context>

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import shutil
 import sqlite3
-from collections.abc import Iterator
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
+from typing import Any
 
 import h5py
 import pytest
@@ -17,13 +21,16 @@ from sqlalchemy import select, update
 
 from carpus.core.errors import (
     ChangedMeanwhile,
+    DiskFull,
     ErasureLeadsOut,
     ErasureUnfinished,
     FolderMissing,
     OutputNotWritable,
     SessionChanged,
 )
-from carpus.core.records import database, erasure, of_clinic, of_sessions
+from carpus.core.records import database, erasure, of_clinic, of_sessions, reserve
+from carpus.core.records import store as store_module
+from carpus.core.records.backup import back_up
 from carpus.core.records.changes import new
 from carpus.core.records.keeping import due, kept_until
 from carpus.core.records.library import Library
@@ -468,3 +475,66 @@ def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_
         erase_patient(house, house.patients.add(PatientEntry(pseudonym, "right", name="Li")))
         assert set(of_clinic.recipients(house.store)) == set(kept), pseudonym
         assert of_clinic.diagnoses(house.store) == ["Flexor tendon, zone 2"]
+
+
+def test_on_a_full_disk_the_list_opens_and_a_patient_is_erased_by_the_room_that_is_kept(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full_while_kept(real: Callable[..., Any]) -> Callable[..., Any]:
+        def tried(*given: Any, **named: Any) -> Any:
+            if (folder / reserve.RESERVE_FILE).exists():
+                raise DiskFull(folder)
+            return real(*given, **named)
+
+        return tried
+
+    monkeypatch.setattr(reserve, "MIN_FREE_BYTES", 0)
+    with opened(folder) as house:
+        linden = house.patients.add(LINDEN)
+        sessions = fill(house, linden)
+    reserve.keep_reserve(folder)
+    assert (folder / reserve.RESERVE_FILE).stat().st_size == reserve.RESERVE_BYTES
+    monkeypatch.setattr(store_module, "Database", full_while_kept(database.Database))
+    with opened(folder) as house:
+        plan = erasure.plan_patient(house.store, linden)
+        reserve.keep_reserve(folder)
+        with monkeypatch.context() as full:
+            full.setattr(house.store, "do", full_while_kept(house.store.do))
+            erasure.erase(house.store, plan, house.log)
+        assert traces(folder, *NAMES, linden, *sessions) == []
+    monkeypatch.setattr(store_module, "Database", lambda _: (_ for _ in ()).throw(DiskFull(folder)))
+    with pytest.raises(DiskFull), opened(folder):  # no room is kept any more
+        pass
+
+
+WITHOUT_ROOM = """
+import json, resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+from carpus.app.__main__ import main
+for words in json.loads(sys.argv[1]):
+    print(words[0], main(words), file=sys.stderr)
+"""
+
+
+def test_each_command_calls_a_full_disk_full(tmp_path: Path, folder: Path) -> None:
+    """A limit of the system that no file may hold a byte: each write is refused as on a full disk."""
+    with opened(folder) as house:
+        linden = house.patients.add(LINDEN)
+        session = house.index.one(measure(house, linden, T0)).path
+    back_up(folder, tmp_path / "place", software_version="1")
+    commands = (
+        ("erase", "Linden 42", "--data-folder", folder, "--for-good", "Linden 42"),
+        ("backup", tmp_path / "full", "--data-folder", folder),
+        ("restore", tmp_path / "place", "--into", tmp_path / "new"),
+        ("export", session, "--output", tmp_path / "export"),
+        ("report", session, "--output", tmp_path / "report.pdf"),
+    )
+    asked = json.dumps([[str(word) for word in words] for words in commands])
+    run = [sys.executable, "-c", WITHOUT_ROOM, asked]
+    said = subprocess.run(run, capture_output=True, text=True, timeout=300, check=False).stderr.splitlines()
+    for name, *_ in commands:
+        at = said.index(f"{name} 1")
+        assert "no room left" in said[at - 1], name
+    assert session.exists()
+    assert sorted(path.name for path in tmp_path.iterdir() if path.is_file()) == []
+    assert not (tmp_path / "new").exists()

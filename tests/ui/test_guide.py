@@ -94,4 +94,4 @@ def test_the_cards_are_two_pages_with_their_words(qtbot: QtBot, tmp_path: Path) 
     assert "Thumb base" in words_of(tmp_path / "cards.pdf", 1)
     assert "70 to 80 cm" in words_of(tmp_path / "cards.pdf", 2)
     with pytest.raises(OutputNotWritable):
-        write_cards(tmp_path / "no folder" / "cards.pdf")
+        write_cards(tmp_path / "cards.pdf" / "no folder" / "cards.pdf")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QMarginsF, QPointF, QRectF, Qt
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 
-from carpus.core.errors import OutputNotWritable
+from carpus.core.formats.new_output import new_bytes
 from carpus.core.hand.protocols import PALM_MARKERS, SITES
 from carpus.core.types import Side
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
@@ -26,26 +26,26 @@ WIDTH_MM, HEIGHT_MM = 180.0, 267.0
 
 
 def write_cards(path: Path) -> None:
-    """Both cards, A4, two pages. Raises :class:`OutputNotWritable`."""
-    try:
-        path.touch()
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
-    writer = QPdfWriter(str(path))
+    """Both cards, A4, two pages. Raises :class:`DiskFull` or :class:`OutputNotWritable`; then what was there stays."""
+    store = QByteArray()
+    buffer = QBuffer(store)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    writer = QPdfWriter(buffer)
     writer.setResolution(DPI)
     writer.setCreator("Carpus")
     writer.setTitle(tr("Carpus: discs and set-up"))
     page, upright = QPageSize(QPageSize.PageSizeId.A4), QPageLayout.Orientation.Portrait
     writer.setPageLayout(QPageLayout(page, upright, QMarginsF(15.0, 15.0, 15.0, 15.0), QPageLayout.Unit.Millimeter))
-    painter = QPainter()
-    if not painter.begin(writer):
-        raise OutputNotWritable(path)
+    painter = QPainter(writer)
     try:
         _discs(painter)
         writer.newPage()
         _set_up(painter)
     finally:
         painter.end()
+    buffer.close()
+    with new_bytes(path, replaces=True) as file:
+        file.write(store.data())
 
 
 def _discs(painter: QPainter) -> None:

@@ -11,7 +11,7 @@ from carpus.core.calibration.camera.calibrate import CameraCalibration
 from carpus.core.capture.calibrated import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
 from carpus.core.dates import iso
-from carpus.core.errors import OutputNotWritable
+from carpus.core.durable import write_fault
 
 
 def stored_of(
@@ -33,7 +33,7 @@ def write_calibration(path: Path, made: CameraCalibration, stored: StoredCalibra
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
     registered = None if made.depth is None else made.depth.is_registered
     name = stored.serial or "carpus"
     camera = replace(made.intrinsics.camera, sensor=made.before.sensor)

@@ -17,8 +17,8 @@ from carpus.core.capture.calibrated import SUFFIX as CALIBRATION_SUFFIX
 from carpus.core.capture.calibrated import age_days, stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.dates import is_moment
-from carpus.core.durable import private
-from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.durable import private, write_fault
+from carpus.core.errors import CarpusFault
 from carpus.core.installing import Finding, State
 from carpus.core.names import CAMERAS, file_stem
 
@@ -93,7 +93,7 @@ def add_check(path: Path, check: CardCheck) -> None:
             file.flush()
             os.fsync(file.fileno())
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
 
 
 def check_status(data_folder: Path, serial: str, now: datetime) -> CheckStatus:

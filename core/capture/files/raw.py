@@ -466,4 +466,4 @@ def _create(path: Path) -> BinaryIO:
     except FileExistsError as cause:
         raise OutputExists(path) from cause
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause

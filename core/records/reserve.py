@@ -1,0 +1,33 @@
+"""Room that is kept in a data folder, so that on a full disk its list can still be opened and a patient erased."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+from pathlib import Path
+
+from carpus.core.durable import private
+
+RESERVE_FILE = ".reserve"
+RESERVE_BYTES = 2 << 20
+"""Of pages that the store writes before it can let others go."""
+MIN_FREE_BYTES = 20 * RESERVE_BYTES
+
+
+def keep_reserve(folder: Path) -> None:
+    """Take the room where there is plenty and none is taken yet."""
+    path = folder / RESERVE_FILE
+    with contextlib.suppress(OSError):
+        if not path.exists() and shutil.disk_usage(folder).free > MIN_FREE_BYTES:
+            with open(path, "xb", opener=private) as file:
+                file.write(os.urandom(RESERVE_BYTES))  # what no disk can make smaller
+
+
+def free_reserve(folder: Path) -> bool:
+    """Give the room back; whether there was any."""
+    try:
+        (folder / RESERVE_FILE).unlink()
+    except OSError:
+        return False
+    return True
