@@ -18,7 +18,8 @@ from carpus.core.types import ByteImage, FloatArray, Frame, Side
 # --- patients ---------------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class PatientRow:
-    """One row of the list. ``name`` is searched and shown only on request."""
+    """One row of the list. ``name`` is searched, and shown only as ``found_by``: where a search found the row by it and
+    by nothing else that is shown."""
 
     patient_id: str
     pseudonym: str
@@ -35,6 +36,7 @@ class PatientRow:
     """Of the operation or injury, as in :class:`core.records.values.PatientEntry`."""
     result_count: int = 0
     """Results of all recordings; more than ``session_count`` where one was tracked again: it counts once."""
+    found_by: str = ""
 
     @classmethod
     def of(cls, record: PatientRecord) -> PatientRow:

@@ -9578,6 +9578,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Alle &amp;Sitzungen</translation>
     </message>
     <message>
+        <source>Name: {name}</source>
+        <translation>Name: {name}</translation>
+    </message>
+    <message>
         <source>Simulated: nothing counts</source>
         <translation>Simuliert: Nichts zählt</translation>
     </message>

@@ -9578,6 +9578,10 @@ Maiusc+F8 di lato</translation>
         <translation>Tutte le &amp;sedute</translation>
     </message>
     <message>
+        <source>Name: {name}</source>
+        <translation>Nome: {name}</translation>
+    </message>
+    <message>
         <source>Simulated: nothing counts</source>
         <translation>Simulato: non conta nulla</translation>
     </message>

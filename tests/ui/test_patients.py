@@ -84,9 +84,30 @@ def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
     assert not any("weeks" in text for text in shown_texts(screen.card))
 
 
-def test_a_real_name_is_never_painted_in_the_list(store: FakeStore) -> None:
-    row = replace(store.rows[5], name="Rosa Muster")
-    assert "Rosa" not in " ".join(cells(row, TODAY))
+@pytest.mark.parametrize(
+    ("typed", "is_shown"),
+    [
+        ("", False),
+        ("linden", False),
+        ("rosa", True),
+        ("Must", True),
+        ("wu", True),
+        ("os", False),
+        ("fracture mus", True),
+    ],
+)
+def test_a_real_name_is_shown_in_list_and_card_where_it_was_searched_for(
+    qtbot: QtBot, screen: PatientsScreen, store: FakeStore, typed: str, is_shown: bool
+) -> None:
+    store.rows[5] = replace(store.rows[5], name="Rosa Muster Wu")
+    screen.refresh("linden")
+    qtbot.keyClicks(screen.search, typed)
+    row = screen.list.rows.find("linden")
+    assert ("Rosa Muster Wu · Wrist fracture" in cells(screen.list.rows.row(row), TODAY)[2]) == is_shown
+    screen.list.setCurrentIndex(screen.list.rows.index(row))
+    assert ("Name: Rosa Muster Wu" in shown_texts(screen.card)) == is_shown
+    screen.search.clear()
+    assert "Name: Rosa Muster Wu" not in shown_texts(screen.card)
 
 
 def test_a_name_that_is_not_there_can_be_created_with_enter(

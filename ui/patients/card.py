@@ -35,6 +35,7 @@ class PatientCardView(Card):
         super().__init__(theme, 24)
         self._theme, self._today = theme, today
         self._name = ElidedText(theme, "", 28, SEMIBOLD)
+        self._found_by = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self._hand = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._diagnosis = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self._since = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -65,8 +66,8 @@ class PatientCardView(Card):
         in_column(why, margins=(0, 0, 0, 12), within=self._why)
         recall = QWidget()
         in_column(
-            self._hand, 12, self._why, 0, self._photo, 14, self._exercise, 2, self._last, 12, self._about, 4,
-            self._warning, 4, self._results, 14, self._note_when, self._note, STRETCH,
+            self._found_by, self._hand, 12, self._why, 0, self._photo, 14, self._exercise, 2, self._last, 12,
+            self._about, 4, self._warning, 4, self._results, 14, self._note_when, self._note, STRETCH,
             gap=0, margins=(0, 0, 0, 0), within=recall,
         )  # fmt: skip
         self._recall = ScrollArea(recall)  # large text: what must be recalled scrolls, the buttons stay
@@ -100,6 +101,7 @@ class PatientCardView(Card):
         self._name.setText(row.pseudonym)
         self._name.setToolTip(plain_tooltip(" · ".join(part for part in (row.pseudonym, row.name) if part)))
         self.edit_button.setVisible(not practice)
+        self._found_by.say(self.tr("Name: {name}").format(name=row.found_by) if row.found_by else "")
         self._hand.setText(
             self.tr("Simulated: nothing counts") if practice else terms.affected_phrase(row.side, row.dominance)
         )

@@ -59,16 +59,18 @@ class PatientModel(QAbstractListModel):
 
 
 def cells(row: PatientRow, today: date) -> tuple[str, str, str, str, str, str, str]:
-    """Name, hand, diagnosis, how long since, date of the last session, how long ago, number of sessions."""
+    """Pseudonym, hand, diagnosis (after the name that it was found by), how long since, date of the last session, how
+    long ago, number of sessions."""
     side = terms.side_name(row.side)
     if row.patient_id == PRACTICE_PATIENT:
         return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
+    about = " · ".join(part for part in (row.found_by, row.diagnosis) if part)
     since = numbers.weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
-        return row.pseudonym, side, row.diagnosis, since, tr("No session counted yet"), "", ""
+        return row.pseudonym, side, about, since, tr("No session counted yet"), "", ""
     when = row.last_session
     return (
-        row.pseudonym, side, row.diagnosis, since, numbers.short_date(when), numbers.days_ago(when, today),
+        row.pseudonym, side, about, since, numbers.short_date(when), numbers.days_ago(when, today),
         str(row.session_count),
     )  # fmt: skip
 

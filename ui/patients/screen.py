@@ -185,7 +185,7 @@ class PatientsScreen(QWidget):
         rows = self._rows
         if wanted and len(rows) > MOST_ROWS:  # with the practice patient: there may be more than are shown
             rows = (*self._store.patients(self.search.text()), rows[-1])
-        shown = [row for row in rows if _matches(row, wanted)]
+        shown = [_as_found(row, wanted) for row in rows if _matches(row, wanted)]
         self.list.rows.show_rows(shown)
         self.list.setVisible(bool(shown))
         self.header.setVisible(bool(shown))
@@ -217,7 +217,8 @@ class PatientsScreen(QWidget):
             name = self._rows[-1].pseudonym
             self.card.show_card(replace(card, row=replace(card.row, pseudonym=name)), self._camera_ready)
         else:
-            self.card.show_card(self._store.card(chosen), self._camera_ready)
+            card, found_by = self._store.card(chosen), self.list.rows.row(self.list.currentIndex().row()).found_by
+            self.card.show_card(replace(card, row=replace(card.row, found_by=found_by)), self._camera_ready)
 
     def _start(self) -> None:
         if chosen := self._chosen_id():
@@ -261,6 +262,17 @@ class _Nobody(QWidget):
 
 
 def _matches(row: PatientRow, wanted: list[str]) -> bool:
-    exercise = terms.exercise_name(row.exercise) if row.exercise else ""
-    text = f"{row.pseudonym} {row.name} {row.diagnosis} {exercise}".casefold()
+    text = f"{_shown_text(row)} {row.name}".casefold()
     return all(word in text for word in wanted)
+
+
+def _as_found(row: PatientRow, wanted: list[str]) -> PatientRow:
+    """The row with the real name where a word was found in it alone. One or two letters are in many names, and show
+    none, unless they are one."""
+    text, names = _shown_text(row).casefold(), row.name.casefold().split()
+    by_name = [word for word in wanted if word not in text]
+    return replace(row, found_by=row.name) if any(len(one) > 2 or one in names for one in by_name) else row
+
+
+def _shown_text(row: PatientRow) -> str:
+    return f"{row.pseudonym} {row.diagnosis} {terms.exercise_name(row.exercise) if row.exercise else ''}"
