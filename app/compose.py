@@ -98,9 +98,6 @@ def compose(
     OpeningsLogged(journey, library)
     safe = _safekeeping(journey, keeper, settings, settings_folder)
     journey.way.when_made("settings", lambda: _connect_settings(keeper.screen, journey, theme))
-    journey.way.when_made(
-        "retest", lambda: journey.retest.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
-    )
     tour = Tour(journey)
     welcome = Welcome(journey, theme, tour, keeper, library)
     ends = qt.commitDataRequest.connect(lambda _: shell.close_surely())
@@ -127,7 +124,6 @@ def _connect_settings(screen: SettingsScreen, journey: Journey, theme: Theme) ->
     from carpus.ui.settings.camera_card import CameraCard
 
     way, camera = journey.way, journey.camera_state
-    screen.retest.clicked.connect(lambda: way.show("retest"))
     card = CameraCard(theme)
     card.calibrate_button.clicked.connect(lambda: way.show("board"))
     card.check_button.clicked.connect(lambda: way.show("card"))

@@ -6,11 +6,17 @@ from __future__ import annotations
 import argparse
 import math
 from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from datetime import date
 from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from carpus.app.command_line import say, tell
 from carpus.core.errors import CarpusFault, ReferenceUnreadable, StudyUnsuited
+
+if TYPE_CHECKING:
+    from carpus.core.results.figures import SessionFigures
 
 EXAMPLE = "carpus retest sessions --output retest.csv"
 _WHY = {
@@ -47,9 +53,8 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.agreement.limits_file import store_limits
     from carpus.core.agreement.retest import studies, write_study
-    from carpus.core.measures.change import FEWEST_PEOPLE
 
-    figures, raters = _read(arguments.sessions, _raters(arguments.raters))
+    figures, raters = read_figures(arguments.sessions, tell, _raters(arguments.raters))
     found = studies(figures, raters)
     for one in found:
         who = f", {one.raters} raters" if one.raters else ""
@@ -75,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
             )
     if arguments.output is not None:
         print(f"Written: {write_study(found, arguments.output)}")
-    usable = [one for one in found if one.people >= FEWEST_PEOPLE and not one.simulated]
+    usable = [one for one in found if one.is_usable]
     if not any(one.people > 1 for one in found):
         raise StudyUnsuited(arguments.sessions[0], "nobody was measured twice, or fewer than two people were")
     if not arguments.store:
@@ -89,8 +94,13 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, str]]:  # type: ignore[type-arg]
-    """Figures of all sessions that can be read, and their raters by session id."""
+def read_figures(
+    places: Sequence[Path], told: Callable[[CarpusFault], object], named: Mapping[str, str] = MappingProxyType({})
+) -> tuple[list[SessionFigures], dict[str, str]]:
+    """Figures of all sessions, and their raters by session id; ``told`` hears of those that cannot be read.
+
+    Raises :class:`FolderMissing`, and :class:`StudyUnsuited` where none can be read.
+    """
     from carpus.app.of_file import read_choices, sessions_in
     from carpus.core.results.figures import session_figures
     from carpus.core.session.reader import read_session
@@ -100,7 +110,7 @@ def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, st
         try:
             figures.append(session_figures(read_session(path), read_choices(path)))
         except CarpusFault as fault:
-            tell(fault)
+            told(fault)
             continue
         for name in (path.name, path.stem):
             if name in named:

@@ -65,6 +65,7 @@ class PreferenceKeeper(QObject):
         return cast("SettingsFlow", self._journey.way.flow("settings")).screen
 
     def _make_flow(self) -> SettingsFlow:
+        from carpus.app.commands.retest import read_figures
         from carpus.ui.settings.flow import SettingsFlow
 
         settings, context = self._settings, self._journey.context
@@ -81,7 +82,7 @@ class PreferenceKeeper(QObject):
             settings.screen.research,
             settings.recording.start,
         )
-        return SettingsFlow(context, chosen, context.library.error_limits, settings.updates.folder)
+        return SettingsFlow(context, chosen, settings.updates.folder, read_figures)
 
     def _tell_start(self) -> None:
         self._journey.live.screen.recording.start_mode = self._settings.recording.start

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from carpus.ui.patients.flow import PatientsFlow
     from carpus.ui.progress.flow import ProgressFlow
     from carpus.ui.report.flow import ReportFlow
-    from carpus.ui.retest.flow import RetestFlow
     from carpus.ui.review.flow import ReviewFlow
     from carpus.ui.sessions.flow import SessionsFlow
     from carpus.ui.setup.flow import CameraFlow, ExerciseFlow
@@ -37,7 +36,7 @@ CORE = (
 """What takes longest to load of what screens use, and has nothing of Qt in it: for whatever thread."""
 PLACES = (
     "patients", "exercise", "camera", "markers", "live", "sessions", "review", "progress", "report", "by_hand",
-    "beside", "retest", "board", "card", "help", "correct",
+    "beside", "board", "card", "help", "correct",
 )  # fmt: skip
 
 
@@ -56,7 +55,6 @@ class Screens(QObject):
     report: ReportFlow
     by_hand: ByHandFlow
     beside: BesideFlow
-    retest: RetestFlow
     board: BoardFlow
     card: CardFlow
     help: HelpFlow
@@ -118,10 +116,6 @@ def flow_class(place: str) -> Callable[[ScreenContext], Flow]:
             from carpus.ui.beside.flow import BesideFlow
 
             return BesideFlow
-        case "retest":
-            from carpus.ui.retest.flow import RetestFlow
-
-            return RetestFlow
         case "board":
             from carpus.ui.camera_calibration.flow import BoardFlow
 

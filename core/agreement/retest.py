@@ -1,5 +1,4 @@
-"""Test and retest: the error of measurement from people who were measured more than once, discs put on anew; and such a
-study on its way: who is due, and what its limits, put into force, would change in what is said of patients.
+"""Test and retest: the error of measurement from people who were measured more than once, discs put on anew.
 
 Analysis of variance (McGraw and Wong 1996; Weir 2005). The standard error of measurement is of absolute agreement: what
 differs between mountings, days and raters is all in it.
@@ -10,10 +9,8 @@ from __future__ import annotations
 import math
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from datetime import date, datetime, timedelta
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 import scipy
@@ -21,11 +18,10 @@ import scipy
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
 from carpus.core.formats.new_output import cell, new_table
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.change import FEWEST_PEOPLE, MDC95_FACTOR, ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.measures.change import FEWEST_PEOPLE, MDC95_FACTOR, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import Comparison, Verdict, newest_results, progress, unfair_reasons
-from carpus.core.results.ranges import RowKey
-from carpus.core.types import FloatArray, Side
+from carpus.core.results.progress import newest_results, unfair_reasons
+from carpus.core.types import FloatArray
 
 MOST_DAYS = 14.0
 """Two mountings further apart measure the person's change too."""
@@ -142,6 +138,11 @@ class StudyFigures:
     found: Mapping[tuple[str, str], Retest]
     left_out: tuple[LeftOut, ...]
 
+    @property
+    def is_usable(self) -> bool:
+        """Whether it may become the clinic's own error limits."""
+        return bool(self.found) and not self.simulated and self.people >= FEWEST_PEOPLE
+
     def study(self, made: str) -> RetestStudy:
         """As it is stored, with its date."""
         limits = (
@@ -222,178 +223,3 @@ def write_study(studies: Sequence[StudyFigures], path: Path) -> Path:
             counts = (str(f.people), str(f.readings))
             rows.append((one.protocol, one.exercise, of, movement, *counts, *map(cell, values)))
     return new_table(path, HEAD, rows)
-
-
-State = Literal["complete", "due", "too_late", "missing"]
-Blocked = Literal["", "few", "simulated", "nothing"]
-
-
-@dataclass(frozen=True, slots=True)
-class Mounting:
-    """One session of a person; ``reason`` why it takes no part, empty where it does; ``rater`` initials if known."""
-
-    session_id: str
-    when: datetime
-    rater: str
-    reason: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Person:
-    """One hand of one person. ``due_by`` until when a second time counts, None unless one is due."""
-
-    patient_id: str
-    pseudonym: str
-    side: Side | None
-    mountings: tuple[Mounting, ...]
-    state: State
-    due_by: date | None = None
-
-    @property
-    def counted(self) -> tuple[Mounting, ...]:
-        """Those that take part, in order of time."""
-        return tuple(one for one in self.mountings if not one.reason)
-
-    @property
-    def days_apart(self) -> int:
-        """From the first to the last that takes part."""
-        counted = self.counted
-        return (counted[-1].when.date() - counted[0].when.date()).days if len(counted) > 1 else 0
-
-
-@dataclass(frozen=True, slots=True)
-class RetestPlan:
-    """``study`` what is found so far, None before anybody was measured twice."""
-
-    exercise: str
-    people: tuple[Person, ...]
-    study: StudyFigures | None
-
-    @property
-    def complete(self) -> int:
-        return len({one.patient_id for one in self.people if one.state == "complete"})
-
-    @property
-    def next_due(self) -> Person | None:
-        """Whose second time ends soonest; else somebody who has not begun, or begins again."""
-        due = [one for one in self.people if one.state == "due" and one.due_by is not None]
-        if due:
-            return min(due, key=lambda one: one.due_by or date.max)
-        return next((one for one in self.people if one.state in ("missing", "too_late")), None)
-
-    @property
-    def blocked(self) -> Blocked:
-        """Why the limits may not be put into force; empty where they may."""
-        if self.study is None or not self.study.found:
-            return "nothing"
-        if self.study.simulated:
-            return "simulated"
-        return "few" if self.study.people < FEWEST_PEOPLE else ""
-
-
-def plan_of(
-    people: Sequence[tuple[str, str, Sequence[SessionFigures]]],
-    exercise: str,
-    raters: Mapping[str, str],
-    today: date,
-) -> RetestPlan:
-    """Of (identity, pseudonym, figures of all sessions) each: the study of one exercise as it stands ``today``."""
-    own = {
-        patient_id: [replace(one, subject_id=patient_id) for one in figures if one.exercise.id == exercise]
-        for patient_id, _, figures in people
-    }
-    found = studies([one for figures in own.values() for one in figures], raters)
-    study = max(found, key=lambda one: one.sessions, default=None)
-    why = {left.session_id: left.reason for one in found for left in one.left_out}
-    rows = [
-        _person(patient_id, name, side, [one for one in own[patient_id] if one.side == side], raters, why, today)
-        for patient_id, name, _ in people
-        for side in sorted({one.side for one in own[patient_id]}) or (None,)
-    ]
-    return RetestPlan(exercise, tuple(rows), study if study is not None and study.people else None)
-
-
-def _person(
-    patient_id: str,
-    pseudonym: str,
-    side: Side | None,
-    figures: Sequence[SessionFigures],
-    raters: Mapping[str, str],
-    why: Mapping[str, str],
-    today: date,
-) -> Person:
-    mountings = tuple(
-        Mounting(
-            one.session_id,
-            one.when,
-            raters.get(one.session_id, ""),
-            "" if why.get(one.session_id) == "once" else why.get(one.session_id, ""),
-        )
-        for one in sorted(figures, key=lambda one: one.when)
-    )
-    counted = [one for one in mountings if not one.reason]
-    if not counted:
-        return Person(patient_id, pseudonym, side, mountings, "missing")
-    if len(counted) > 1:
-        return Person(patient_id, pseudonym, side, mountings, "complete")
-    by = counted[0].when.date() + timedelta(days=MOST_DAYS)
-    if today > by:
-        return Person(patient_id, pseudonym, side, mountings, "too_late")
-    return Person(patient_id, pseudonym, side, mountings, "due", by)
-
-
-@dataclass(frozen=True, slots=True)
-class Restated:
-    """One statement of a patient's progress from the ``first`` to the ``last`` session that compare: ``now`` by the
-    limits in force, ``then`` the verdict by the new ones."""
-
-    pseudonym: str
-    first: datetime
-    last: datetime
-    now: Comparison
-    then: Verdict
-
-    @property
-    def is_changed(self) -> bool:
-        return self.now.verdict != self.then
-
-
-def as_if_complete(study: RetestStudy) -> RetestStudy:
-    """The study with its figures of today, as if enough people had been measured for all of them."""
-    limits = tuple(replace(limit, people=max(limit.people, FEWEST_PEOPLE)) for limit in study.limits)
-    return replace(study, limits=limits)
-
-
-def restated(pseudonym: str, sessions: Sequence[SessionFigures], study: RetestStudy) -> tuple[Restated, ...]:
-    """All statements about one patient, either hand, that rest on figures of a study; none of simulated hands.
-
-    ``sessions`` of any kind, in any order, judged by today's limits.
-    """
-    kind = (study.protocol, study.exercise, study.angle_order)
-    alike = [one for one in sessions if (one.protocol, one.exercise.id, one.angle_order) == kind and not one.simulated]
-    limits = ErrorLimits((study,))
-    out: list[Restated] = []
-    for side in ("right", "left"):
-        own = [one for one in alike if one.side == side]
-        for keys in _keys(own, study):
-            today = progress(own, keys=keys)
-            then = progress([replace(one, error_limits=limits) for one in own], keys=keys)
-            if today.first is None or today.last is None:
-                continue
-            for now, new in zip(today.comparisons, then.comparisons, strict=True):
-                of = now.joint or WRIST_ANGLES[now.angle]
-                if now.verdict != "not_judged" and study.limit_deg(of, now.movement) is not None:
-                    out.append(Restated(pseudonym, today.first.when, today.last.when, now, new.verdict))
-    return tuple(out)
-
-
-def _keys(own: Sequence[SessionFigures], study: RetestStudy) -> tuple[tuple[RowKey, ...], ...]:
-    """What is followed: the wrist, then the joints of these sessions that the study has limits of."""
-    there = (row for one in own for row in one.joint_rows if study.limit_deg(row.joint, row.movement) is not None)
-    joints = tuple(dict.fromkeys(row.key for row in there))
-    return ((), joints) if joints else ((),)
-
-
-def changed_first(statements: Sequence[Restated]) -> tuple[Restated, ...]:
-    """Those that change before those that stay, each by name and day."""
-    return tuple(sorted(statements, key=lambda one: (not one.is_changed, one.pseudonym.casefold(), one.first)))

@@ -7,7 +7,7 @@ import json
 import math
 import random
 import time
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from datetime import UTC, date, datetime
 from typing import Any
 
@@ -136,15 +136,6 @@ class Patients:
     def archived(self) -> dict[str, datetime]:
         rows = self._store.rows(select(PATIENT).where(PATIENT.c.archived != ""))
         return {str(row.id): moment(row.archived, row.added_s) for row in rows}
-
-    def taking_part(self) -> Sequence[str]:
-        """Identities of those who take part in the clinic's test and retest."""
-        return [str(row[0]) for row in self._store.rows(select(PATIENT.c.id).where(PATIENT.c.takes_part == 1))]
-
-    def let_take_part(self, patient_ids: Sequence[str]) -> None:
-        """Let these take part from now on, and nobody else."""
-        before, now = set(self.taking_part()), set(patient_ids)
-        self._store.do([changed(PATIENT, one, takes_part=int(one in now)) for one in sorted(before ^ now)])
 
 
 def columns(entry: PatientEntry) -> dict[str, Any]:

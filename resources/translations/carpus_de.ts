@@ -3292,100 +3292,12 @@
         <translation>{pain} bei {time}</translation>
     </message>
     <message>
-        <source>Nobody takes part yet.</source>
-        <translation>Noch nimmt niemand teil.</translation>
-    </message>
-    <message>
-        <source>Choose volunteers or staff, never patients, by “People…”.</source>
-        <translation>Wählen Sie über „Personen…“ Freiwillige oder Personal, nie Patienten.</translation>
-    </message>
-    <message>
-        <source>These are simulated hands.</source>
-        <translation>Das sind simulierte Hände.</translation>
-    </message>
-    <message>
-        <source>Limits of a simulated hand are never put into force.</source>
-        <translation>Grenzen einer simulierten Hand treten nie in Kraft.</translation>
-    </message>
-    <message>
-        <source>1 person is measured twice.</source>
-        <translation>1 Person ist zweimal gemessen.</translation>
-    </message>
-    <message>
-        <source>{count} people are measured twice.</source>
-        <translation>{count} Personen sind zweimal gemessen.</translation>
-    </message>
-    <message>
-        <source>{count} more make it usable.</source>
-        <translation>Mit {count} weiteren wird es brauchbar.</translation>
-    </message>
-    <message>
-        <source>Until then progress and reports use the limits of before. {least} people are the least; 20 are better.</source>
-        <translation>Bis dahin gelten in Verlauf und Berichten die bisherigen Grenzen. {least} Personen sind das Mindeste; 20 sind besser.</translation>
-    </message>
-    <message>
-        <source>Limits of {day} with {count} people are in force. “Use these limits” puts these in their place.</source>
-        <translation>Grenzen vom {day} mit {count} Personen gelten. „Diese Grenzen verwenden“ ersetzt sie durch diese.</translation>
-    </message>
-    <message>
-        <source>“Use these limits” puts them into force in progress and reports. Reports already made keep theirs.</source>
-        <translation>„Diese Grenzen verwenden“ setzt sie in Verlauf und Berichten in Kraft. Fertige Berichte behalten ihre.</translation>
-    </message>
-    <message>
-        <source>{last}, {count} times</source>
-        <translation>{last}, {count}-mal</translation>
-    </message>
-    <message>
-        <source>due by {day}</source>
-        <translation>fällig bis {day}</translation>
-    </message>
-    <message>
-        <source>complete</source>
-        <translation>vollständig</translation>
-    </message>
-    <message>
         <source>more than 14 days later</source>
         <translation>mehr als 14 Tage später</translation>
     </message>
     <message>
-        <source>measure again: {reason}</source>
-        <translation>erneut messen: {reason}</translation>
-    </message>
-    <message>
-        <source>second due</source>
-        <translation>zweite fällig</translation>
-    </message>
-    <message>
-        <source>too late: measure both again</source>
-        <translation>zu spät: beide neu messen</translation>
-    </message>
-    <message>
         <source>missing</source>
         <translation>fehlt</translation>
-    </message>
-    <message>
-        <source>What changes in reports, once complete</source>
-        <translation>Was sich in Berichten ändert, sobald vollständig</translation>
-    </message>
-    <message>
-        <source>What would change in today&apos;s reports</source>
-        <translation>Was sich in heutigen Berichten ändern würde</translation>
-    </message>
-    <message>
-        <source>Looking at the sessions of {done} of {count} patients…</source>
-        <translation>Sitzungen von {done} von {count} Patienten werden durchgesehen…</translation>
-    </message>
-    <message>
-        <source>Nobody else has two sessions of this exercise that compare.</source>
-        <translation>Niemand sonst hat zwei vergleichbare Sitzungen dieser Übung.</translation>
-    </message>
-    <message>
-        <source>{changed} of {count} statements change. Reports already made keep theirs.</source>
-        <translation>{changed} von {count} Aussagen ändern sich. Fertige Berichte behalten ihre.</translation>
-    </message>
-    <message>
-        <source>{verdict}, as now</source>
-        <translation>{verdict}, wie jetzt</translation>
     </message>
     <message>
         <source>does not count: simulated</source>
@@ -6951,6 +6863,26 @@
         <source>The session files are not touched. Names and notes are in this file alone: keep it.</source>
         <translation>Die Sitzungsdateien sind unberührt. Namen und Notizen stehen nur in dieser Datei: behalten Sie sie.</translation>
     </message>
+    <message>
+        <source>People: {people}, sessions: {sessions}.</source>
+        <translation>Personen: {people}, Sitzungen: {sessions}.</translation>
+    </message>
+    <message>
+        <source>Limits of a simulated hand are never used.</source>
+        <translation>Grenzen einer simulierten Hand werden nie verwendet.</translation>
+    </message>
+    <message>
+        <source>Not usable yet: {count} people are the least, 20 are better.</source>
+        <translation>Noch nicht verwendbar: {count} Personen sind das Mindeste, 20 sind besser.</translation>
+    </message>
+    <message>
+        <source>Left out: {sessions}.</source>
+        <translation>Ausgelassen: {sessions}.</translation>
+    </message>
+    <message>
+        <source>measured once</source>
+        <translation>einmal gemessen</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -9846,33 +9778,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PeopleSheet</name>
-    <message>
-        <source>Who takes part?</source>
-        <translation>Wer nimmt teil?</translation>
-    </message>
-    <message>
-        <source>Volunteers or staff whose hands do not change, never patients. Add them under Patients, by a pseudonym such as P01. Each is measured twice or more within 14 days, all discs taken off and put on anew.</source>
-        <translation>Freiwillige oder Personal, deren Hände sich nicht ändern, nie Patienten. Fügen Sie sie unter Patienten hinzu, mit einem Pseudonym wie P01. Jede Person wird zweimal oder öfter innerhalb von 14 Tagen gemessen; dazwischen werden alle Punkte abgenommen und neu geklebt.</translation>
-    </message>
-    <message>
-        <source>These take part</source>
-        <translation>Diese nehmen teil</translation>
-    </message>
-    <message>
-        <source>1 session</source>
-        <translation>1 Sitzung</translation>
-    </message>
-    <message>
-        <source>{count} sessions</source>
-        <translation>{count} Sitzungen</translation>
-    </message>
-    <message>
-        <source>Nobody is in the list yet.</source>
-        <translation>Noch ist niemand in der Liste.</translation>
-    </message>
-</context>
-<context>
     <name>PictureView</name>
     <message>
         <source>Camera picture</source>
@@ -10719,148 +10624,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>RetestFlow</name>
-    <message>
-        <source>Test and retest</source>
-        <translation>Wiederholungstest</translation>
-    </message>
-    <message>
-        <source>Use these limits for {exercise}, from {count} people?</source>
-        <translation>Diese Grenzen für {exercise} verwenden, von {count} Personen?</translation>
-    </message>
-    <message>
-        <source>Sessions stay as they are; reports already made keep their limits.</source>
-        <translation>Sitzungen bleiben, wie sie sind; fertige Berichte behalten ihre Grenzen.</translation>
-    </message>
-    <message>
-        <source>From now on progress and reports judge by them, and name date and number of people.</source>
-        <translation>Von jetzt an urteilen Verlauf und Berichte danach und nennen Datum und Zahl der Personen.</translation>
-    </message>
-    <message>
-        <source>Use these limits</source>
-        <translation>Diese Grenzen verwenden</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>So lassen</translation>
-    </message>
-    <message>
-        <source>Save table</source>
-        <translation>Tabelle speichern</translation>
-    </message>
-</context>
-<context>
-    <name>RetestScreen</name>
-    <message>
-        <source>Exercise</source>
-        <translation>Übung</translation>
-    </message>
-    <message>
-        <source>&amp;People…</source>
-        <translation>&amp;Personen…</translation>
-    </message>
-    <message>
-        <source>Save table…</source>
-        <translation>Tabelle speichern…</translation>
-    </message>
-    <message>
-        <source>&amp;Use these limits…</source>
-        <translation>&amp;Diese Grenzen verwenden…</translation>
-    </message>
-    <message>
-        <source>Reading the sessions…</source>
-        <translation>Sitzungen werden gelesen…</translation>
-    </message>
-    <message>
-        <source>Nobody is due</source>
-        <translation>Niemand ist fällig</translation>
-    </message>
-    <message>
-        <source>Measure {name}, second time</source>
-        <translation>{name} messen, zweites Mal</translation>
-    </message>
-    <message>
-        <source>Measure {name}</source>
-        <translation>{name} messen</translation>
-    </message>
-    <message>
-        <source>People</source>
-        <translation>Personen</translation>
-    </message>
-    <message>
-        <source>all discs taken off and put on anew before each time, within 14 days</source>
-        <translation>vor jedem Mal alle Punkte abnehmen und neu kleben, innerhalb von 14 Tagen</translation>
-    </message>
-    <message>
-        <source>Person</source>
-        <translation>Person</translation>
-    </message>
-    <message>
-        <source>First time</source>
-        <translation>Erstes Mal</translation>
-    </message>
-    <message>
-        <source>Second time</source>
-        <translation>Zweites Mal</translation>
-    </message>
-    <message>
-        <source>Apart</source>
-        <translation>Abstand</translation>
-    </message>
-    <message>
-        <source>State</source>
-        <translation>Stand</translation>
-    </message>
-    <message>
-        <source>{days} d</source>
-        <translation>{days} T</translation>
-    </message>
-    <message>
-        <source>Smallest real change, so far</source>
-        <translation>Kleinste nachweisbare Veränderung, bisher</translation>
-    </message>
-    <message>
-        <source>There is nothing yet: two people measured twice give the first figures.</source>
-        <translation>Noch ist nichts da: Zwei zweimal gemessene Personen ergeben die ersten Werte.</translation>
-    </message>
-    <message>
-        <source>from {people} people, {sessions} sessions</source>
-        <translation>aus {people} Personen, {sessions} Sitzungen</translation>
-    </message>
-    <message>
-        <source>from {people} people, {sessions} sessions, {raters} raters</source>
-        <translation>aus {people} Personen, {sessions} Sitzungen, {raters} Untersuchenden</translation>
-    </message>
-    <message>
-        <source>from {people} people, {sessions} sessions, 1 rater</source>
-        <translation>aus {people} Personen, {sessions} Sitzungen, 1 untersuchenden Person</translation>
-    </message>
-    <message>
-        <source>Movement</source>
-        <translation>Bewegung</translation>
-    </message>
-    <message>
-        <source>SEM</source>
-        <translation>SEM</translation>
-    </message>
-    <message>
-        <source>Real change (MDC95), 95 % interval</source>
-        <translation>Nachweisbare Veränderung (MDC95), 95-%-Intervall</translation>
-    </message>
-    <message>
-        <source>Today</source>
-        <translation>Heute</translation>
-    </message>
-    <message>
-        <source>New limit</source>
-        <translation>Neue Grenze</translation>
-    </message>
-    <message>
-        <source>Grey = not yet usable. Reports then say whose limits they are, with date and number of people. A new camera, exercise or way of mounting needs its own study.</source>
-        <translation>Grau = noch nicht brauchbar. Berichte sagen dann, wessen Grenzen es sind, mit Datum und Zahl der Personen. Eine neue Kamera, Übung oder Art des Klebens braucht eine eigene Untersuchung.</translation>
-    </message>
-</context>
-<context>
     <name>ReviewCard</name>
     <message>
         <source>Range of motion</source>
@@ -11376,10 +11139,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Teile und ihre Lizenzen</translation>
     </message>
     <message>
-        <source>Measure the clinic’s own limits…</source>
-        <translation>Eigene Grenzen messen…</translation>
-    </message>
-    <message>
         <source>Camera</source>
         <translation>Kamera</translation>
     </message>
@@ -11422,6 +11181,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming. No value changes by it.</source>
         <translation>Zeigt, was der Alltag einer Klinik nicht braucht: Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Formate eines Exports, die Reihenfolge der Winkel, Streaming. Kein Wert ändert sich dadurch.</translation>
+    </message>
+    <message>
+        <source>Compute from test-retest sessions…</source>
+        <translation>Aus Test-Retest-Sitzungen berechnen…</translation>
+    </message>
+    <message>
+        <source>Reading the sessions…</source>
+        <translation>Sitzungen werden gelesen…</translation>
     </message>
 </context>
 <context>
@@ -11728,6 +11495,36 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
+    </message>
+</context>
+<context>
+    <name>RetestSheet</name>
+    <message>
+        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
+        <translation>Von Personen, die mehr als einmal gemessen wurden, dazwischen alle Punkte ab und neu geklebt: Standardmessfehler (SEM) und kleinste nachweisbare Veränderung (MDC95), mit 95-%-Intervallen.</translation>
+    </message>
+    <message>
+        <source>Limits from test-retest sessions</source>
+        <translation>Grenzen aus Test-Retest-Sitzungen</translation>
+    </message>
+    <message>
+        <source>&amp;Use these limits</source>
+        <translation>&amp;Diese Grenzen verwenden</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>So lassen</translation>
+    </message>
+    <message>
+        <source>Sessions that cannot be read: {count}</source>
+        <translation>Sitzungen, die nicht gelesen werden können: {count}</translation>
+    </message>
+</context>
+<context>
+    <name>SettingsFlow</name>
+    <message>
+        <source>Folder of the test-retest sessions</source>
+        <translation>Ordner der Test-Retest-Sitzungen</translation>
     </message>
 </context>
 </TS>

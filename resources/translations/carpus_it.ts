@@ -3292,100 +3292,12 @@
         <translation>{pain} a {time}</translation>
     </message>
     <message>
-        <source>Nobody takes part yet.</source>
-        <translation>Non partecipa ancora nessuno.</translation>
-    </message>
-    <message>
-        <source>Choose volunteers or staff, never patients, by “People…”.</source>
-        <translation>Scegliere volontari o personale, mai pazienti, con “Persone…”.</translation>
-    </message>
-    <message>
-        <source>These are simulated hands.</source>
-        <translation>Queste sono mani simulate.</translation>
-    </message>
-    <message>
-        <source>Limits of a simulated hand are never put into force.</source>
-        <translation>I limiti di una mano simulata non entrano mai in vigore.</translation>
-    </message>
-    <message>
-        <source>1 person is measured twice.</source>
-        <translation>1 persona è misurata due volte.</translation>
-    </message>
-    <message>
-        <source>{count} people are measured twice.</source>
-        <translation>{count} persone sono misurate due volte.</translation>
-    </message>
-    <message>
-        <source>{count} more make it usable.</source>
-        <translation>Ancora {count} per renderlo utilizzabile.</translation>
-    </message>
-    <message>
-        <source>Until then progress and reports use the limits of before. {least} people are the least; 20 are better.</source>
-        <translation>Fino ad allora andamento e relazioni usano i limiti di prima. Servono almeno {least} persone; meglio 20.</translation>
-    </message>
-    <message>
-        <source>Limits of {day} with {count} people are in force. “Use these limits” puts these in their place.</source>
-        <translation>Sono in vigore i limiti del {day} con {count} persone. “Usa questi limiti” li sostituisce con questi.</translation>
-    </message>
-    <message>
-        <source>“Use these limits” puts them into force in progress and reports. Reports already made keep theirs.</source>
-        <translation>“Usa questi limiti” li mette in vigore in andamento e relazioni. Le relazioni già fatte mantengono i loro.</translation>
-    </message>
-    <message>
-        <source>{last}, {count} times</source>
-        <translation>{last}, {count} volte</translation>
-    </message>
-    <message>
-        <source>due by {day}</source>
-        <translation>entro: {day}</translation>
-    </message>
-    <message>
-        <source>complete</source>
-        <translation>completo</translation>
-    </message>
-    <message>
         <source>more than 14 days later</source>
         <translation>dopo più di 14 giorni</translation>
     </message>
     <message>
-        <source>measure again: {reason}</source>
-        <translation>misurare di nuovo: {reason}</translation>
-    </message>
-    <message>
-        <source>second due</source>
-        <translation>seconda da fare</translation>
-    </message>
-    <message>
-        <source>too late: measure both again</source>
-        <translation>troppo tardi: rifare entrambe</translation>
-    </message>
-    <message>
         <source>missing</source>
         <translation>manca</translation>
-    </message>
-    <message>
-        <source>What changes in reports, once complete</source>
-        <translation>Che cosa cambia nelle relazioni, a studio completo</translation>
-    </message>
-    <message>
-        <source>What would change in today&apos;s reports</source>
-        <translation>Che cosa cambierebbe nelle relazioni di oggi</translation>
-    </message>
-    <message>
-        <source>Looking at the sessions of {done} of {count} patients…</source>
-        <translation>Lettura delle sedute: paziente {done} di {count}…</translation>
-    </message>
-    <message>
-        <source>Nobody else has two sessions of this exercise that compare.</source>
-        <translation>Nessun altro ha due sedute confrontabili di questo esercizio.</translation>
-    </message>
-    <message>
-        <source>{changed} of {count} statements change. Reports already made keep theirs.</source>
-        <translation>Giudizi cambiati: {changed} su {count}. Le relazioni già fatte mantengono i loro.</translation>
-    </message>
-    <message>
-        <source>{verdict}, as now</source>
-        <translation>{verdict}, come ora</translation>
     </message>
     <message>
         <source>does not count: simulated</source>
@@ -6951,6 +6863,26 @@
         <source>The session files are not touched. Names and notes are in this file alone: keep it.</source>
         <translation>I file delle sedute non sono stati toccati. Nomi e note sono solo in questo file: conservarlo.</translation>
     </message>
+    <message>
+        <source>People: {people}, sessions: {sessions}.</source>
+        <translation>Persone: {people}, sedute: {sessions}.</translation>
+    </message>
+    <message>
+        <source>Limits of a simulated hand are never used.</source>
+        <translation>I limiti di una mano simulata non vengono mai usati.</translation>
+    </message>
+    <message>
+        <source>Not usable yet: {count} people are the least, 20 are better.</source>
+        <translation>Non ancora utilizzabile: servono almeno {count} persone, meglio 20.</translation>
+    </message>
+    <message>
+        <source>Left out: {sessions}.</source>
+        <translation>Tralasciate: {sessions}.</translation>
+    </message>
+    <message>
+        <source>measured once</source>
+        <translation>misurata una volta</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -9846,33 +9778,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PeopleSheet</name>
-    <message>
-        <source>Who takes part?</source>
-        <translation>Chi partecipa?</translation>
-    </message>
-    <message>
-        <source>Volunteers or staff whose hands do not change, never patients. Add them under Patients, by a pseudonym such as P01. Each is measured twice or more within 14 days, all discs taken off and put on anew.</source>
-        <translation>Volontari o personale le cui mani non cambiano, mai pazienti. Aggiungerli in Pazienti con uno pseudonimo come P01. Ognuno è misurato due o più volte entro 14 giorni, togliendo e rimettendo ogni volta tutti i dischetti.</translation>
-    </message>
-    <message>
-        <source>These take part</source>
-        <translation>Partecipano questi</translation>
-    </message>
-    <message>
-        <source>1 session</source>
-        <translation>1 seduta</translation>
-    </message>
-    <message>
-        <source>{count} sessions</source>
-        <translation>{count} sedute</translation>
-    </message>
-    <message>
-        <source>Nobody is in the list yet.</source>
-        <translation>L’elenco è ancora vuoto.</translation>
-    </message>
-</context>
-<context>
     <name>PictureView</name>
     <message>
         <source>Camera picture</source>
@@ -10719,148 +10624,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>RetestFlow</name>
-    <message>
-        <source>Test and retest</source>
-        <translation>Test e retest</translation>
-    </message>
-    <message>
-        <source>Use these limits for {exercise}, from {count} people?</source>
-        <translation>Usare questi limiti per {exercise}, da {count} persone?</translation>
-    </message>
-    <message>
-        <source>Sessions stay as they are; reports already made keep their limits.</source>
-        <translation>Le sedute restano come sono; le relazioni già fatte mantengono i loro limiti.</translation>
-    </message>
-    <message>
-        <source>From now on progress and reports judge by them, and name date and number of people.</source>
-        <translation>D’ora in poi andamento e relazioni giudicano con questi, e indicano data e numero di persone.</translation>
-    </message>
-    <message>
-        <source>Use these limits</source>
-        <translation>Usa questi limiti</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
-    </message>
-    <message>
-        <source>Save table</source>
-        <translation>Salva la tabella</translation>
-    </message>
-</context>
-<context>
-    <name>RetestScreen</name>
-    <message>
-        <source>Exercise</source>
-        <translation>Esercizio</translation>
-    </message>
-    <message>
-        <source>&amp;People…</source>
-        <translation>&amp;Persone…</translation>
-    </message>
-    <message>
-        <source>Save table…</source>
-        <translation>Salva la tabella…</translation>
-    </message>
-    <message>
-        <source>&amp;Use these limits…</source>
-        <translation>&amp;Usa questi limiti…</translation>
-    </message>
-    <message>
-        <source>Reading the sessions…</source>
-        <translation>Lettura delle sedute…</translation>
-    </message>
-    <message>
-        <source>Nobody is due</source>
-        <translation>Nessuno da misurare</translation>
-    </message>
-    <message>
-        <source>Measure {name}, second time</source>
-        <translation>Misura {name}, seconda volta</translation>
-    </message>
-    <message>
-        <source>Measure {name}</source>
-        <translation>Misura {name}</translation>
-    </message>
-    <message>
-        <source>People</source>
-        <translation>Persone</translation>
-    </message>
-    <message>
-        <source>all discs taken off and put on anew before each time, within 14 days</source>
-        <translation>ogni volta tutti i dischetti tolti e rimessi, entro 14 giorni</translation>
-    </message>
-    <message>
-        <source>Person</source>
-        <translation>Persona</translation>
-    </message>
-    <message>
-        <source>First time</source>
-        <translation>Prima volta</translation>
-    </message>
-    <message>
-        <source>Second time</source>
-        <translation>Seconda volta</translation>
-    </message>
-    <message>
-        <source>Apart</source>
-        <translation>Distanza</translation>
-    </message>
-    <message>
-        <source>State</source>
-        <translation>Stato</translation>
-    </message>
-    <message>
-        <source>{days} d</source>
-        <translation>{days} g</translation>
-    </message>
-    <message>
-        <source>Smallest real change, so far</source>
-        <translation>Minima differenza rilevabile, finora</translation>
-    </message>
-    <message>
-        <source>There is nothing yet: two people measured twice give the first figures.</source>
-        <translation>Ancora nulla: due persone misurate due volte danno i primi valori.</translation>
-    </message>
-    <message>
-        <source>from {people} people, {sessions} sessions</source>
-        <translation>da {people} persone, {sessions} sedute</translation>
-    </message>
-    <message>
-        <source>from {people} people, {sessions} sessions, {raters} raters</source>
-        <translation>da {people} persone, {sessions} sedute, {raters} esaminatori</translation>
-    </message>
-    <message>
-        <source>from {people} people, {sessions} sessions, 1 rater</source>
-        <translation>da {people} persone, {sessions} sedute, 1 esaminatore</translation>
-    </message>
-    <message>
-        <source>Movement</source>
-        <translation>Movimento</translation>
-    </message>
-    <message>
-        <source>SEM</source>
-        <translation>SEM</translation>
-    </message>
-    <message>
-        <source>Real change (MDC95), 95 % interval</source>
-        <translation>Differenza rilevabile (MDC95), intervallo 95 %</translation>
-    </message>
-    <message>
-        <source>Today</source>
-        <translation>Oggi</translation>
-    </message>
-    <message>
-        <source>New limit</source>
-        <translation>Nuovo limite</translation>
-    </message>
-    <message>
-        <source>Grey = not yet usable. Reports then say whose limits they are, with date and number of people. A new camera, exercise or way of mounting needs its own study.</source>
-        <translation>Grigio = non ancora utilizzabile. Le relazioni dicono poi di chi sono i limiti, con data e numero di persone. Una nuova telecamera, un nuovo esercizio o un nuovo modo di applicare i dischetti richiede uno studio proprio.</translation>
-    </message>
-</context>
-<context>
     <name>ReviewCard</name>
     <message>
         <source>Range of motion</source>
@@ -11376,10 +11139,6 @@ Maiusc+F8 di lato</translation>
         <translation>Componenti e licenze</translation>
     </message>
     <message>
-        <source>Measure the clinic’s own limits…</source>
-        <translation>Misura i limiti del centro…</translation>
-    </message>
-    <message>
         <source>Camera</source>
         <translation>Telecamera</translation>
     </message>
@@ -11422,6 +11181,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming. No value changes by it.</source>
         <translation>Mostra ciò che la giornata di uno studio non richiede: percorso e assi, velocità, la pagina del movimento nei referti, tutti i formati di esportazione, l’ordine degli angoli, lo streaming. Nessun valore cambia per questo.</translation>
+    </message>
+    <message>
+        <source>Compute from test-retest sessions…</source>
+        <translation>Calcola da sedute di test e retest…</translation>
+    </message>
+    <message>
+        <source>Reading the sessions…</source>
+        <translation>Lettura delle sedute…</translation>
     </message>
 </context>
 <context>
@@ -11728,6 +11495,36 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
+    </message>
+</context>
+<context>
+    <name>RetestSheet</name>
+    <message>
+        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
+        <translation>Da persone misurate più di una volta, togliendo e rimettendo fra l’una e l’altra tutti i dischetti: errore standard di misura (SEM) e minima differenza rilevabile (MDC95), con intervalli al 95 %.</translation>
+    </message>
+    <message>
+        <source>Limits from test-retest sessions</source>
+        <translation>Limiti da sedute di test e retest</translation>
+    </message>
+    <message>
+        <source>&amp;Use these limits</source>
+        <translation>&amp;Usa questi limiti</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>Lascia così</translation>
+    </message>
+    <message>
+        <source>Sessions that cannot be read: {count}</source>
+        <translation>Sedute che non si possono leggere: {count}</translation>
+    </message>
+</context>
+<context>
+    <name>SettingsFlow</name>
+    <message>
+        <source>Folder of the test-retest sessions</source>
+        <translation>Cartella delle sedute di test e retest</translation>
     </message>
 </context>
 </TS>

@@ -5,37 +5,38 @@ from __future__ import annotations
 import csv
 import json
 import math
+import shutil
 import subprocess
 import uuid
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
 from carpus.core import so3
 from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, store_limits
-from carpus.core.agreement.retest import as_if_complete, plan_of, restated, retest, studies
+from carpus.core.agreement.retest import retest, studies
 from carpus.core.errors import SettingsInvalid
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import compare
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.types import TrackStatus
-from carpus.ui.controls.button import Button
 from carpus.ui.controls.text import Text
-from carpus.ui.settings.screen import SettingsScreen
 from tests.commands import Command
 from tests.moments import with_moment
-from tests.records.samples import kept
 from tests.session.samples import begun, make_calibration, make_frame
+
+if TYPE_CHECKING:
+    from carpus.ui.settings.flow import SettingsFlow
 
 FIRST = datetime(2026, 11, 2, 9, 0, tzinfo=UTC)
 
@@ -208,18 +209,6 @@ def test_a_change_is_judged_by_the_clinics_limit(measured: list[SessionFigures])
     other_order = replace(limits(6.6).studies[0], angle_order="isb")
     assert arc(ErrorLimits((other_order,))) == ("no_change", 14.1)
 
-    # What limits about to be put into force would change in what is said of this patient today.
-    def changes(study: RetestStudy) -> list[tuple[str, str, str]]:
-        found = restated("Otter 29", (after, before), as_if_complete(study))
-        return [(one.now.movement, one.now.verdict, one.then) for one in found if one.is_changed]
-
-    assert changes(limits(6.6).studies[0]) == [("arc", "no_change", "improved")]
-    assert changes(limits(6.6, people=3).studies[0]) == [("arc", "no_change", "improved")], "as if it were complete"
-    assert changes(limits(12.0).studies[0]) == []
-    assert len(restated("Otter 29", (after, before), limits(12.0).studies[0])) == 1, "said all the same, as now"
-    assert restated("Otter 29", (after, before), other_order) == ()
-    assert restated("Otter 29", (replace(after, simulated=True), before), limits(6.6).studies[0]) == ()
-
 
 def test_limits_are_read_as_stored_and_a_new_study_takes_the_place_of_its_like(tmp_path: Path) -> None:
     assert read_limits(tmp_path) == ErrorLimits()
@@ -247,68 +236,38 @@ def words_of(widget: QWidget) -> str:
     return " ".join(text.text() for text in widget.findChildren(Text) if not text.isHidden())
 
 
-def test_the_study_in_the_window_from_people_to_limits_in_force(
-    open_desktop: Callable[..., Desktop], qtbot: QtBot, folder: Path, measured: list[SessionFigures], tmp_path: Path
+def test_the_settings_compute_limits_from_a_folder_and_put_them_into_force(
+    open_desktop: Callable[..., Desktop], qtbot: QtBot, folder: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    for person in range(1, 13):
-        stored = sorted(folder.glob(f"P{person:02d}-*.h5"))
-        by = [(path, FIRST, "JS" if path.stem.endswith("2") else "MK") for path in stored]
-        kept(tmp_path / "data", PatientEntry(f"P{person:02d}", "right"), *by)
-    later = FIRST + timedelta(days=9)
-    otters = (written(tmp_path, 29, 0, FIRST, 40.0), FIRST, ""), (written(tmp_path, 29, 9, later, 46.0), later, "")
-    kept(tmp_path / "data", PatientEntry("Otter 29", "right"), *otters)
-    today = (FIRST + timedelta(days=12)).date()
-    desktop = open_desktop(today=today)
-    journey, screen = desktop.journey, desktop.journey.retest.screen
-    journey.way.show("settings")
-    settings_screen = desktop.shell.stage.currentWidget()
-    assert isinstance(settings_screen, SettingsScreen)
-    settings_screen.retest.click()
-    assert journey.place == "retest"
-    qtbot.waitUntil(lambda: not journey.background.busy)
-    assert "Nobody" in screen.answer.text()
-    screen.people_button.click()
-    for tick in journey.retest.sheet.ticks.values():
-        if "Otter" not in tick.text():
-            tick.click()
-    journey.retest.sheet.take.click()
-    qtbot.waitUntil(lambda: len(screen.plan.people) == 12)
-    states = [one.state for one in screen.plan.people]
-    assert states.count("complete") == 10
-    due = screen.plan.next_due
-    assert (due.pseudonym, due.state, due.due_by) == ("P11", "due", (FIRST + timedelta(days=14)).date())
-    assert "P11" in screen.measure_button.text()
-    assert screen.plan.people[-1].state == "missing"
-    assert (screen.plan.study.people, screen.plan.study.raters) == (10, 2)
-    same = studies(measured)[0].found
-    assert screen.plan.study.found[("flexion", "flexion")].mdc95 == pytest.approx(same[("flexion", "flexion")].mdc95)
+    study = tmp_path / "study"
+    shutil.copytree(folder, study)
+    (study / "damaged.h5").write_bytes(b"no session")
+    desktop = open_desktop(today=date(2026, 11, 27))
+    desktop.journey.way.show("settings", "measuring")
+    settings = cast("SettingsFlow", desktop.journey.way.flow("settings"))
+    answers = iter(["", str(study)])
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", staticmethod(lambda *_: next(answers)))
+    settings.screen.retest.click()
+    assert settings.screen.retest.isEnabled(), "the person thought better of it"
+    settings.screen.retest.click()
+    assert not settings.screen.retest.isEnabled()
+    qtbot.waitUntil(settings.retest.isVisible)
+    said = words_of(settings.retest)
+    for piece in (
+        "People: 10, sessions: 20.", "1 (measured once)", "1 (more than 14 days later)", "cannot be read: 1",
+    ):  # fmt: skip
+        assert piece in said
     assert read_limits(tmp_path / "data").studies == ()
-    qtbot.waitUntil(lambda: "3 of 3 statements change" in words_of(screen))
-    assert "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen)
-    assert words_of(screen).count("no change proven → improved") == 3
-    screen.use_button.click()
-    qtbot.waitUntil(lambda: journey.messages.busy)
-    (use,) = [one for one in desktop.shell.findChildren(Button) if one.text() == "Use these limits"]
-    use.click()
-    qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies) and not journey.background.busy)
-    (stored_study,) = read_limits(tmp_path / "data").studies
-    assert (stored_study.people, stored_study.made) == (10, today.isoformat())
-    said = " ".join(text.text() for text in settings_screen.findChildren(Text))
-    assert "On 14 Nov 2026 with 10 people in 20 sessions" in said
-    qtbot.waitUntil(lambda: "0 of 3 statements change" in words_of(screen))
-    screen.measure_button.click()
-    assert journey.now.patient.pseudonym == "P11"
+    settings.retest.take.click()
+    qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies))
+    (stored,) = read_limits(tmp_path / "data").studies
+    assert (stored.people, stored.made) == (10, "2026-11-27")
+    qtbot.waitUntil(lambda: "On 27 Nov 2026 with 10 people in 20 sessions" in words_of(settings.screen))
 
 
-def test_too_late_and_simulated_put_nothing_into_force(measured: list[SessionFigures]) -> None:
-    alone = [one for one in measured if one.subject_id == "P11"]
-    late = plan_of([("p11", "P11", alone)], "WRIST_FE", {}, (FIRST + timedelta(days=15)).date())
-    assert [(one.state, one.due_by) for one in late.people] == [("too_late", None)]
-    assert late.blocked == "nothing"
-    people = [(f"p{k}", f"P{k}", [one for one in measured if one.subject_id == f"P{k:02d}"]) for k in range(1, 11)]
-    today = (FIRST + timedelta(days=20)).date()
-    assert plan_of(people, "WRIST_FE", {}, today).blocked == ""
-    assert plan_of(people[:-1], "WRIST_FE", {}, today).blocked == "few"
-    assert plan_of(people, "WRIST_RU", {}, today).blocked == "nothing"
-    pretended = [(key, name, [replace(one, simulated=True) for one in found]) for key, name, found in people]
-    assert plan_of(pretended, "WRIST_FE", {}, today).blocked == "simulated"
+def test_few_and_simulated_people_give_no_limits(measured: list[SessionFigures]) -> None:
+    people = [one for one in measured if one.subject_id != "P11"]
+    assert [one.is_usable for one in studies(people)] == [True]
+    assert [one.is_usable for one in studies([one for one in people if one.subject_id != "P10"])] == [False]
+    assert [one.is_usable for one in studies([replace(one, simulated=True) for one in people])] == [False]
+    assert [one.is_usable for one in studies(people[:1])] == [False]

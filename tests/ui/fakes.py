@@ -8,14 +8,13 @@ from dataclasses import fields, replace
 from datetime import date, datetime, timedelta, timezone
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from carpus.core.agreement.retest import Mounting, Person, Restated, Retest, RetestPlan, StudyFigures
+from carpus.core.agreement.retest import LeftOut, Retest, StudyFigures
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
-from carpus.core.hand.exercises import Movement, exercise_named
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
@@ -23,7 +22,6 @@ from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import PatientEntry, SessionEntry
 from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.progress import Comparison
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
@@ -666,50 +664,22 @@ class FakeCorrections(Corrections):
         return self._sessions.picture(session_id, row) if self._pictures else None, spots
 
 
-def restated_statements() -> list[Restated]:
-    """One that changes among those that stay."""
-
-    def one(name: str, day: int, movement: Movement, gain: float, now: Any, then: Any) -> Restated:
-        first = datetime(2026, 10, day, 9, 0)
-        said = Comparison(movement, 1, 40.0, 40.0 + gain, gain, 10.0, now)
-        return Restated(name, first, first + timedelta(days=42), said, then)
-
-    return [
-        one("Linden 42", 2, "flexion", 18.0, "improved", "improved"),
-        one("Otter 29", 6, "extension", 9.0, "no_change", "improved"),
-        one("Heron 17", 1, "flexion", 2.0, "no_change", "no_change"),
-    ]
-
-
-def retest_plan(people: int = 9) -> RetestPlan:
-    """Volunteers measured twice, the last two of them once and not at all; a sure figure and an unsure one."""
-    first = datetime(2026, 11, 2, 9, 0)
-    rows = [
-        Person(
-            f"p{k}", f"P{k:02d}", "right",
-            (
-                Mounting(f"a{k}", first + timedelta(days=k // 2), "MK"),
-                Mounting(f"b{k}", first + timedelta(days=7 + k // 2), "JS" if k % 3 else "MK"),
-            ),
-            "complete",
-        )
-        for k in range(1, people + 1)
-    ]  # fmt: skip
-    once = Mounting("c", first + timedelta(days=11), "JS")
-    late = Mounting("d", first + timedelta(days=30), "JS", "too_late")
-    rows.append(Person("late", "P40", "right", (Mounting("e", first, "MK"), late), "too_late"))
-    rows.append(Person("due", "P41", "left", (once,), "due", date(2026, 11, 27)))
-    rows.append(Person("none", "P42", None, (), "missing"))
+def retest_studies() -> list[StudyFigures]:
+    """One of ten people, with a figure of which few are sure, and one of too few."""
     ends = {
         ("flexion", "flexion"): (2.4, 6.6), ("flexion", "extension"): (2.7, 7.5), ("flexion", "arc"): (3.1, 8.6),
     }  # fmt: skip
     found = {
         key: Retest(
-            people, 2 * people, 0.9, (0.7, 0.97), 0.92, (0.74, 0.98), sem, (0.7 * sem, 1.6 * sem), people - 1.0, mdc,
+            10, 20, 0.9, (0.7, 0.97), 0.92, (0.74, 0.98), sem, (0.7 * sem, 1.6 * sem), 9.0, mdc,
             (0.7 * mdc, 1.6 * mdc), math.nan, 0.2,
         )
         for key, (sem, mdc) in ends.items()
     }  # fmt: skip
+    few = {key: replace(one, people=3, readings=6) for key, one in found.items()}
     found["PIP3_flexion", "arc"] = replace(found["flexion", "arc"], people=2, mdc95_interval=(7.2, 86.0))
-    study = StudyFigures("wrist6", "WRIST_FE", "zyx", people, 2 * people, 2, False, found, ())
-    return RetestPlan("WRIST_FE", tuple(rows), study if people else None)
+    left = (LeftOut("a", "once"), LeftOut("b", "too_late"), LeftOut("c", "forearm_moved"))
+    return [
+        StudyFigures("wrist6", "WRIST_FE", "zyx", 10, 20, 2, False, found, left),
+        StudyFigures("wrist6", "WRIST_RU", "zyx", 3, 6, 0, False, few, ()),
+    ]

@@ -21,7 +21,6 @@ from PySide6.QtWidgets import QApplication, QWidget
 from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
-from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.records.corrections import Difference
 from carpus.core.records.set_up import USUAL_SETS
 from carpus.core.results.figures import session_figures
@@ -62,10 +61,9 @@ from carpus.ui.report.pages import Report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.report.sheets import HomeSheet, LetterSheet
-from carpus.ui.retest.flow import PeopleSheet
-from carpus.ui.retest.screen import RetestScreen
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.sessions.screen import SessionsScreen
+from carpus.ui.settings.retest import RetestSheet
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.exercise import ExerciseScreen
@@ -92,8 +90,7 @@ from tests.ui.fakes import (
     hand_values_today,
     home_report,
     picture,
-    restated_statements,
-    retest_plan,
+    retest_studies,
     session,
     set_up,
     with_other_spot,
@@ -634,18 +631,6 @@ class Gallery(GalleryWindow):
         screen = BesideScreen(self.theme, self.keys, never, self.sessions)
         self.show(screen, tab=1, camera="").begin(("session-1", "session-7"))
 
-    def retest(self) -> None:
-        screen = self.retest_empty()
-        screen.show_exercises(["WRIST_FE", "WRIST_RU"], "WRIST_FE")
-        screen.show_plan(retest_plan(), DEFAULT_LIMITS)
-        screen.show_restated(restated_statements(), 3, 3)
-        self.settle()
-
-    def retest_empty(self) -> RetestScreen:
-        return self.show(RetestScreen(self.theme, self.keys), where="")
-
-    retest_people = _under("retest", PeopleSheet, [(f"p{k}", f"P{k:02d}", k % 4) for k in range(1, 15)], ["p1", "p3"])
-
     def progress(self, store: FakeSessions | None = None, session_id: str = "session-7") -> None:
         screen = ProgressScreen(self.theme, self.keys, self.background, store or self.sessions)
         self.show(screen, tab=2, camera="").begin("linden", session_id)
@@ -708,6 +693,8 @@ class Gallery(GalleryWindow):
         )
         return self.show(SettingsScreen(self.theme, chosen, "1.0.0"), where="")
 
+    settings_measuring = _then("settings", lambda screen: screen.choose("measuring"))
+
     def settings_safe(self) -> None:
         screen = self.settings()
         backup, lock = BackupCard(self.theme, 18), LockCard(self.theme, 10, "Ctrl+L")
@@ -715,6 +702,8 @@ class Gallery(GalleryWindow):
         lock.show_pin(is_set=True)
         screen.add_cards("safety", backup, lock, RecordsCard(self.theme, 10, (0, 3, 5, 10, 15, 20, 30)))
         screen.choose("safety")
+
+    settings_retest = _under("settings_measuring", RetestSheet, retest_studies(), 1, TODAY)
 
     def settings_research(self) -> None:
         screen = self.settings()

@@ -46,14 +46,14 @@ from carpus.ui.records.erasing import EraseSheet
 from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
 from carpus.ui.report.sheets import HomeSheet, LetterSheet
-from carpus.ui.retest.flow import PeopleSheet
 from carpus.ui.review.hand_picture import HandPictureSheet
 from carpus.ui.review.screen import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
+from carpus.ui.settings.retest import RetestSheet
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
 from tests.sources import SOURCES, modules, nodes
-from tests.ui.fakes import NOW, FakeStore, home_report
+from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
 from tests.ui.gallery import ERASED_SESSION
 
 FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
@@ -107,7 +107,7 @@ SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     PinSheet: _opened(PinSheet, "Keep this PIN", is_set=True),
     HomeSheet: _home,
     LetterSheet: _opened(LetterSheet, "Show the letter", ["Dr A"], has_name=True),
-    PeopleSheet: _opened(PeopleSheet, "These take part", [("a", "P01", 2)], []),
+    RetestSheet: _opened(RetestSheet, "Leave it as it is", retest_studies(), 0, date(2026, 11, 27)),
     HandPictureSheet: _opened(HandPictureSheet, "Cancel"),
     ReasonSheet: _opened(ReasonSheet, "Keep it in", 3),
     SetAsideSheet: _opened(SetAsideSheet, "Let it count"),

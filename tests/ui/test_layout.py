@@ -30,7 +30,7 @@ LARGE, SMALL = ((1280, 800), 1.5), ((1024, 700), 1.0)
 screen, and of what is gone before it, it costs nothing."""
 MAIN = (
     "patients", "patients_welcome", "exercise_hand", "camera", "markers_clicking", "markers_ready", "markers_proposed",
-    "live", "live_hand", "live_marker_hidden", "review", "review_hand", "correct", "retest", "progress",
+    "live", "live_hand", "live_marker_hidden", "review", "review_hand", "correct", "progress",
     "progress_hand", "report", "report_hand", "settings", "sessions_list", "help",
     "board_showing", "board_result", "card",
 )  # fmt: skip

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from PySide6.QtWidgets import QDialog, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QDialog, QFileDialog, QPlainTextEdit, QWidget
 
 from carpus.core.about import licence_texts, newest_version
-from carpus.core.measures.change import ErrorLimits
+from carpus.core.agreement.limits_file import store_limits
+from carpus.core.agreement.retest import StudyFigures, studies
+from carpus.core.errors import CarpusFault
+from carpus.core.measures.change import RetestStudy
+from carpus.core.results.figures import SessionFigures
 from carpus.ui.background import Background
 from carpus.ui.controls.layouts import in_column
 from carpus.ui.controls.text import Text
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.ports import Preferences
+from carpus.ui.settings.retest import RetestSheet
 from carpus.ui.settings.screen import PartName, SettingsScreen
 from carpus.ui.theme import MARGIN_PX, Theme
+
+ReadFigures = Callable[[Sequence[Path], Callable[[CarpusFault], object]], tuple[list[SessionFigures], dict[str, str]]]
+"""Reads sessions of files and folders; hears of those that cannot be read."""
 
 
 class SettingsFlow(Flow):
@@ -23,9 +32,13 @@ class SettingsFlow(Flow):
     place, guide = "settings", "data"
     screen: SettingsScreen
 
-    def __init__(self, context: ScreenContext, chosen: Preferences, measured: ErrorLimits, updates: str) -> None:
+    def __init__(self, context: ScreenContext, chosen: Preferences, updates: str, read_figures: ReadFigures) -> None:
+        measured = context.library.error_limits
         super().__init__(context, SettingsScreen(context.theme, chosen, context.version, measured))
-        self._updates, self._background = updates, Background()
+        self._updates, self._background, self._read_figures = updates, Background(), read_figures
+        self.retest = RetestSheet(context.shell, context.theme)
+        self.retest.accepted.connect(self._use_limits)
+        self.screen.retest.clicked.connect(self._ask_sessions)
         self.screen.back.clicked.connect(context.way.back)
         self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, context.theme, licence_texts()).exec())
 
@@ -46,6 +59,38 @@ class SettingsFlow(Flow):
                 lambda _: screen.show_newest(folder, None),
                 screen,
             )
+
+    def _ask_sessions(self) -> None:
+        """Compute error limits from the sessions of a folder, beside the window."""
+        places, shell = self.context.places, self.context.shell
+        title = self.tr("Folder of the test-retest sessions")
+        folder = QFileDialog.getExistingDirectory(shell, title, places.folder("exports"))
+        if not folder:
+            return
+        self.screen.show_computing(on=True)
+        unreadable: list[CarpusFault] = []
+
+        def work() -> list[StudyFigures]:
+            return studies(*self._read_figures([Path(folder)], unreadable.append))
+
+        def done(found: list[StudyFigures]) -> None:
+            self.screen.show_computing(on=False)
+            self.retest.begin(found, len(unreadable), self.context.today())
+
+        def failed(fault: Exception) -> None:
+            self.screen.show_computing(on=False)
+            self.context.messages.fault(fault)
+
+        self._background.run(work, done, failed, self.screen)
+
+    def _use_limits(self, studies: Sequence[RetestStudy]) -> None:
+        library = self.context.library
+
+        def work() -> None:
+            store_limits(library.folder, studies)
+            library.limits_changed()
+
+        self.run(work, lambda _: self.screen.show_limits(library.error_limits))
 
 
 class LicencesWindow(QDialog):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from datetime import date
 
+from PySide6.QtWidgets import QWidget
+
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import (
     ARC_LIMIT_FACTOR,
@@ -17,7 +19,7 @@ from carpus.core.measures.change import (
 )
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import fill, in_grid
+from carpus.ui.controls.layouts import fill, in_column, in_grid
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.figures import figure_of
 from carpus.ui.theme import Theme
@@ -41,24 +43,24 @@ def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
     grid.setColumnStretch(2, 1)
     card.body.addLayout(grid)
     for study in measured.studies:
-        fill(
-            card.body,
-            8,
-            Text(theme, study_title(study), 16, SEMIBOLD),
-            Text(theme, study_words(study), 14, REGULAR, "text2", wrap=True),
-        )
-        table = in_grid(24, 6)
-        for place, cells in enumerate(study_lines(study)):
-            for column, cell in enumerate(cells):
-                table.addWidget(Text(theme, cell, 14, MEDIUM if column == len(cells) - 1 else REGULAR), place, column)
-        table.setColumnStretch(0, 1)
-        card.body.addLayout(table)
+        fill(card.body, 8, study_view(theme, study, study_words(study)))
     return card
 
 
-def study_title(study: RetestStudy) -> str:
-    """``Measured by this clinic: Wrist flexion/extension``."""
-    return tr("Measured by this clinic: {exercise}").format(exercise=terms.exercise_name(study.exercise))
+def study_view(theme: Theme, study: RetestStudy, words: str) -> QWidget:
+    """A study with each of its limits, below what is said of it."""
+    title = tr("Measured by this clinic: {exercise}").format(exercise=terms.exercise_name(study.exercise))
+    table = in_grid(24, 6)
+    for place, cells in enumerate(study_lines(study)):
+        for column, cell in enumerate(cells):
+            table.addWidget(Text(theme, cell, 14, MEDIUM if column == len(cells) - 1 else REGULAR), place, column)
+    table.setColumnStretch(0, 1)
+    view = QWidget()
+    in_column(
+        Text(theme, title, 16, SEMIBOLD), Text(theme, words, 14, REGULAR, "text2", wrap=True), table,
+        margins=(0, 0, 0, 0), within=view,
+    )  # fmt: skip
+    return view
 
 
 def study_words(study: RetestStudy) -> str:

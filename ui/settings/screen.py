@@ -96,7 +96,7 @@ class SettingsScreen(QWidget):
         self.therapist.setMaximumWidth(theme.px(220))
         self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
         self._limits.set_colors("canvas", "canvas")
-        self.retest = Button(theme, self.tr("Measure the clinic’s own limits…"), height_px=40)
+        self.retest = Button(theme, self.tr("Compute from test-retest sessions…"), height_px=40)
         self.show_limits(self._measured)
         self._pages: dict[PartName, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(PartName)}
         cards: dict[PartName, tuple[QWidget, ...]] = {
@@ -241,6 +241,12 @@ class SettingsScreen(QWidget):
         card = limits_card(self._theme, measured)
         fill(card.body, 8, (self.retest, 0, Qt.AlignmentFlag.AlignLeft))
         self._limits.body.addWidget(card)
+
+    def show_computing(self, *, on: bool) -> None:
+        """The sessions of a study are being read, which takes a second each."""
+        self.retest.setEnabled(not on)
+        words = self.tr("Reading the sessions…") if on else self.tr("Compute from test-retest sessions…")
+        self.retest.set_face(words)
 
     def keep_language(self, code: str, why: str) -> None:
         """The language cannot be changed now: the old one stays chosen, and why is said."""
