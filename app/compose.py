@@ -86,7 +86,7 @@ def compose(
         return made
 
     day = date.today if today is None else lambda: today
-    parts = Parts(library, lambda *given: sources().open(*given), CareCameras(settings, speed), settings, is_demo, day)
+    parts = Parts(library, lambda *given: sources().open(*given), CareCameras(settings), settings, is_demo, day)
     shell = Shell(theme)
     journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
     keeper = PreferenceKeeper(
@@ -125,10 +125,13 @@ def _connect_settings(screen: SettingsScreen, journey: Journey, theme: Theme) ->
 
     way, camera = journey.way, journey.camera_state
     card = CameraCard(theme)
-    card.calibrate_button.clicked.connect(lambda: way.show("board"))
-    card.check_button.clicked.connect(lambda: way.show("card"))
-    camera.changed.connect(lambda: card.show_status(*camera_words(camera.status)))
-    card.show_status(*camera_words(camera.status))
+    if journey.is_demo:
+        card.show_demo()
+    else:
+        card.calibrate_button.clicked.connect(lambda: way.show("board"))
+        card.check_button.clicked.connect(lambda: way.show("card"))
+        camera.changed.connect(lambda: card.show_status(*camera_words(camera.status)))
+        card.show_status(*camera_words(camera.status))
     screen.add_cards("camera", card)
     screen.add_cards("report", journey.report.forms.card)
 

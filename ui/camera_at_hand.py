@@ -150,8 +150,6 @@ class AtCameraFlow(Flow):
     def __init__(self, context: ScreenContext, screen: QWidget, name_sheet: CameraNameSheet) -> None:
         super().__init__(context, screen)
         self._name_sheet = name_sheet
-        self.practice = context.is_demo
-        """Whether the simulated camera is meant."""
         self._kind, self._now, self._said = "", "", ""
         self._known = threading.Event()
         self.hand = CameraAtHand(self)
@@ -192,7 +190,7 @@ class AtCameraFlow(Flow):
             self._name_sheet.begin(self._now)
 
     def _take_name(self, name: str) -> None:
-        kind, known, practice, cameras = self._kind, self._known, self.practice, self.context.cameras
+        kind, known, cameras = self._kind, self._known, self.context.cameras
         if name == self._now:
             known.set()
             return
@@ -202,7 +200,7 @@ class AtCameraFlow(Flow):
                 self._said = as_kept if as_kept == name else ""  # another than was typed is shown before it is used
                 self.begin()
 
-        self.run(lambda: cameras.keep_name(kind, name, practice=practice), kept, self._failed)
+        self.run(lambda: cameras.keep_name(kind, name), kept, self._failed)
 
     def save_page(self, name: str, title: str, write: Callable[[Path], Path]) -> None:
         path = self.ask_where_to_save("reports", name, title, "PDF (*.pdf)")

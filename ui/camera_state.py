@@ -9,7 +9,6 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from carpus.core.calibration.camera.board import Board
 from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.pipeline.live import LiveSession
 from carpus.ui.background import Background
@@ -18,14 +17,13 @@ LOOK_EVERY_MS = 2000
 
 
 class Cameras(Protocol):
-    """What opens cameras, which no window does, and where what is known of them is kept. ``practice``: the simulated
-    one, which is kept apart."""
+    """What opens cameras, which no window does, and where what is known of them is kept."""
 
     def name(self) -> str | None:
         """Of the camera that would be opened, empty where the system does not tell; None where none is there."""
         ...
 
-    def for_board(self, board: Board, *, practice: bool) -> LiveSession:
+    def for_board(self) -> LiveSession:
         """The camera that looks at the board, as it says itself, without what was calibrated before."""
         ...
 
@@ -33,23 +31,15 @@ class Cameras(Protocol):
         """The camera that looks at the card, as a session would have it."""
         ...
 
-    def folder(self, *, practice: bool) -> Path:
+    def folder(self) -> Path:
         """Where what is known of it is kept."""
-        ...
-
-    def serial(self, *, practice: bool) -> str:
-        """The number of the camera, as far as it is known before one is opened; empty where it is not."""
         ...
 
     def met(self, serial: str) -> None:
         """The number of the camera that is there."""
         ...
 
-    def calibrated(self, serial: str, *, practice: bool) -> datetime | None:
-        """When it was calibrated last."""
-        ...
-
-    def keep_name(self, kind: str, name: str, *, practice: bool) -> str:
+    def keep_name(self, kind: str, name: str) -> str:
         """What cameras of a kind that tell no number are called from now on: the name as it is kept."""
         ...
 

@@ -124,6 +124,8 @@ def _boards(arguments: argparse.Namespace) -> list[Board]:
 
 def _gather(source: FrameSource, gathering: Gathering, *, is_live: bool) -> None:
     """Look at the frames: all of a recording; of a camera until it is enough, or until Ctrl+C."""
+    from carpus.core.calibration.camera.views import ASKED_VIEWS
+
     said = ""
     if is_live:
         print("Hold the board in the picture, still for a moment in each place. Ctrl+C ends.", file=sys.stderr)
@@ -134,8 +136,9 @@ def _gather(source: FrameSource, gathering: Gathering, *, is_live: bool) -> None
             if not is_live or not kept:
                 continue
             judgement = gathering.judgement
-            if judgement.next_step != said:
-                said = judgement.next_step
-                print(f"{judgement.views} pictures, {judgement.fields} of 24 fields. {said}", file=sys.stderr)
-            if not judgement.missing:
+            step = judgement.next_step(ASKED_VIEWS[gathering.views[0].found.board.pattern])
+            if step is None:
                 break
+            if step != said:
+                said = step
+                print(f"{judgement.views} pictures, {judgement.fields} of 24 fields. {said}.", file=sys.stderr)

@@ -416,44 +416,16 @@
         <translation>Tafel ins Feld {place}</translation>
     </message>
     <message>
-        <source>Into the dashed outline, then hold still.</source>
-        <translation>In den gestrichelten Umriss, dann stillhalten.</translation>
-    </message>
-    <message>
-        <source>Into the dashed outline, its {side} nearer to the camera; then hold still.</source>
-        <translation>In den gestrichelten Umriss, {side} näher zur Kamera; dann stillhalten.</translation>
-    </message>
-    <message>
         <source>Tilt the board: {side} nearer</source>
         <translation>Tafel neigen: {side} näher</translation>
-    </message>
-    <message>
-        <source>Nearly half-way to upright, then hold still.</source>
-        <translation>Fast halb aufrichten, dann stillhalten.</translation>
     </message>
     <message>
         <source>Bring the board nearer</source>
         <translation>Tafel näher heran</translation>
     </message>
     <message>
-        <source>About 45 cm from the camera, then hold still.</source>
-        <translation>Etwa 45 cm vor die Kamera, dann stillhalten.</translation>
-    </message>
-    <message>
         <source>Take the board farther away</source>
         <translation>Tafel weiter weg</translation>
-    </message>
-    <message>
-        <source>About 85 cm from the camera, then hold still.</source>
-        <translation>Etwa 85 cm vor die Kamera, dann stillhalten.</translation>
-    </message>
-    <message>
-        <source>That is enough</source>
-        <translation>Das genügt</translation>
-    </message>
-    <message>
-        <source>Press “Work out”, or show more: it only gets better.</source>
-        <translation>Drücken Sie „Berechnen“, oder zeigen Sie mehr: Es wird nur besser.</translation>
     </message>
     <message>
         <source>More light: the picture is too dark.</source>
@@ -480,80 +452,8 @@
         <translation>Aufgenommen. Jetzt eine andere Stelle.</translation>
     </message>
     <message>
-        <source>all four sides</source>
-        <translation>alle vier Seiten</translation>
-    </message>
-    <message>
-        <source>{side} missing</source>
-        <translation>{side} fehlt</translation>
-    </message>
-    <message>
-        <source>{count} sides</source>
-        <translation>{count} Seiten</translation>
-    </message>
-    <message>
-        <source>{near}–{far} cm</source>
-        <translation>{near}–{far} cm</translation>
-    </message>
-    <message>
-        <source>Places</source>
-        <translation>Stellen</translation>
-    </message>
-    <message>
-        <source>{count} fields</source>
-        <translation>{count} Felder</translation>
-    </message>
-    <message>
-        <source>{least} of {all} or more</source>
-        <translation>{least} von {all} oder mehr</translation>
-    </message>
-    <message>
-        <source>Tilts</source>
-        <translation>Neigungen</translation>
-    </message>
-    <message>
-        <source>{least} sides, over {tilt}°</source>
-        <translation>{least} Seiten, über {tilt}°</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Abstand</translation>
-    </message>
-    <message>
-        <source>near and far</source>
-        <translation>nah und fern</translation>
-    </message>
-    <message>
-        <source>Sharpness</source>
-        <translation>Schärfe</translation>
-    </message>
-    <message>
-        <source>sharp</source>
-        <translation>scharf</translation>
-    </message>
-    <message>
-        <source>not sharp</source>
-        <translation>unscharf</translation>
-    </message>
-    <message>
-        <source>edges below {most} px</source>
-        <translation>Kanten unter {most} px</translation>
-    </message>
-    <message>
-        <source>Still</source>
-        <translation>Ruhe</translation>
-    </message>
-    <message>
-        <source>still</source>
-        <translation>ruhig</translation>
-    </message>
-    <message>
-        <source>moving</source>
-        <translation>bewegt</translation>
-    </message>
-    <message>
-        <source>below {most} px/picture</source>
-        <translation>unter {most} px je Bild</translation>
     </message>
     <message>
         <source>Work out · show the board</source>
@@ -600,10 +500,6 @@
         <translation>Die Kamera ist kalibriert. {depth}</translation>
     </message>
     <message>
-        <source>{land} A hand of {hand} mm read {more} before; it is put right from now on.</source>
-        <translation>{land} Eine Hand von {hand} mm maß vorher {more}; ab jetzt ist das berichtigt.</translation>
-    </message>
-    <message>
         <source>Its depth was not checked.</source>
         <translation>Ihre Tiefe wurde nicht geprüft.</translation>
     </message>
@@ -618,14 +514,6 @@
     <message>
         <source>Depth read {share} % too short.</source>
         <translation>Die Tiefe war {share} % zu kurz.</translation>
-    </message>
-    <message>
-        <source>{size} mm too long</source>
-        <translation>{size} mm zu lang</translation>
-    </message>
-    <message>
-        <source>{size} mm too short</source>
-        <translation>{size} mm zu kurz</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -648,38 +536,6 @@
         <translation>Brennweite</translation>
     </message>
     <message>
-        <source>{share} % off before</source>
-        <translation>vorher {share} % daneben</translation>
-    </message>
-    <message>
-        <source>as before</source>
-        <translation>wie vorher</translation>
-    </message>
-    <message>
-        <source>Middle of the picture</source>
-        <translation>Bildmitte</translation>
-    </message>
-    <message>
-        <source>{away} px to the side</source>
-        <translation>{away} px zur Seite</translation>
-    </message>
-    <message>
-        <source>Lens bends lines by</source>
-        <translation>Objektiv biegt Linien um</translation>
-    </message>
-    <message>
-        <source>not known</source>
-        <translation>nicht bekannt</translation>
-    </message>
-    <message>
-        <source>known</source>
-        <translation>bekannt</translation>
-    </message>
-    <message>
-        <source>{bend} px at most</source>
-        <translation>höchstens {bend} px</translation>
-    </message>
-    <message>
         <source>put right</source>
         <translation>berichtigt</translation>
     </message>
@@ -694,34 +550,6 @@
     <message>
         <source>Depth scale</source>
         <translation>Maßstab der Tiefe</translation>
-    </message>
-    <message>
-        <source>small; put right</source>
-        <translation>klein; berichtigt</translation>
-    </message>
-    <message>
-        <source>Depth shift</source>
-        <translation>Versatz der Tiefe</translation>
-    </message>
-    <message>
-        <source>none sure</source>
-        <translation>keiner gesichert</translation>
-    </message>
-    <message>
-        <source>within the scale’s error</source>
-        <translation>im Fehler des Maßstabs</translation>
-    </message>
-    <message>
-        <source>Board flat in depth</source>
-        <translation>Tafel flach in der Tiefe</translation>
-    </message>
-    <message>
-        <source>good: within {most} mm</source>
-        <translation>gut: bis {most} mm</translation>
-    </message>
-    <message>
-        <source>noisy: keep 50 to 80 cm</source>
-        <translation>verrauscht: 50 bis 80 cm einhalten</translation>
     </message>
     <message>
         <source>Colour on depth</source>
@@ -740,56 +568,8 @@
         <translation>Deckung ist aus</translation>
     </message>
     <message>
-        <source>1 field empty</source>
-        <translation>1 Feld leer</translation>
-    </message>
-    <message>
-        <source>{count} fields empty</source>
-        <translation>{count} Felder leer</translation>
-    </message>
-    <message>
-        <source>Edge of the picture</source>
-        <translation>Bildrand</translation>
-    </message>
-    <message>
-        <source>keep the hand inside</source>
-        <translation>Hand nicht bis an den Rand</translation>
-    </message>
-    <message>
-        <source>{size}° less</source>
-        <translation>{size}° weniger</translation>
-    </message>
-    <message>
-        <source>{size}° more</source>
-        <translation>{size}° mehr</translation>
-    </message>
-    <message>
-        <source>Wrist flexion of {angle}°, read before</source>
-        <translation>Flexion des Handgelenks von {angle}°, las sich vorher</translation>
-    </message>
-    <message>
-        <source>Hand of {length} mm, read before</source>
-        <translation>Hand von {length} mm, las sich vorher</translation>
-    </message>
-    <message>
-        <source>A simulated camera: kept apart, for practice with the check card; no real session uses it.</source>
-        <translation>Eine simulierte Kamera: getrennt aufbewahrt, zum Üben mit der Prüfkarte; keine echte Sitzung benutzt sie.</translation>
-    </message>
-    <message>
         <source>This camera does not say its number, so nothing can be kept for it. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
         <translation>Diese Kamera nennt ihre Nummer nicht, darum kann für sie nichts aufbewahrt werden. „carpus calibrate-camera --output“ schreibt eine Kameradatei, die die Einstellungen nennen können.</translation>
-    </message>
-    <message>
-        <source>the one of {day}</source>
-        <translation>der Werte vom {day}</translation>
-    </message>
-    <message>
-        <source>the maker’s values</source>
-        <translation>der Werte des Herstellers</translation>
-    </message>
-    <message>
-        <source>Kept for this camera, number {serial}, instead of {before}. Sessions measured before keep their values and say so.</source>
-        <translation>Aufbewahrt für diese Kamera, Nummer {serial}, anstelle {before}. Früher gemessene Sitzungen behalten ihre Werte und sagen es.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -2280,48 +2060,16 @@
         <translation>{count} Paare einer Sitzung, gegen {kind}</translation>
     </message>
     <message>
-        <source>Carpus camera calibration</source>
-        <translation>Kamerakalibrierung für Carpus</translation>
-    </message>
-    <message>
         <source>Camera</source>
         <translation>Kamera</translation>
-    </message>
-    <message>
-        <source>Board</source>
-        <translation>Tafel</translation>
     </message>
     <message>
         <source>Pictures</source>
         <translation>Bilder</translation>
     </message>
     <message>
-        <source>Before ({day})</source>
-        <translation>Vorher ({day})</translation>
-    </message>
-    <message>
-        <source>Before (maker)</source>
-        <translation>Vorher (Hersteller)</translation>
-    </message>
-    <message>
-        <source>What</source>
-        <translation>Was</translation>
-    </message>
-    <message>
-        <source>Now</source>
-        <translation>Jetzt</translation>
-    </message>
-    <message>
         <source>In words</source>
         <translation>In Worten</translation>
-    </message>
-    <message>
-        <source>What this means for a hand</source>
-        <translation>Was das für eine Hand bedeutet</translation>
-    </message>
-    <message>
-        <source>Estimated from the change of the camera’s values, not measured on hands.</source>
-        <translation>Aus der Änderung der Kamerawerte geschätzt, nicht an Händen gemessen.</translation>
     </message>
     <message>
         <source>ext.</source>
@@ -6883,6 +6631,38 @@
         <source>measured once</source>
         <translation>einmal gemessen</translation>
     </message>
+    <message>
+        <source>Kept for this camera, number {serial}. Sessions measured before keep their values and say so.</source>
+        <translation>Wird für diese Kamera mit der Nummer {serial} aufbewahrt. Früher gemessene Sitzungen behalten ihre Werte und sagen es.</translation>
+    </message>
+    <message>
+        <source>Distance: near and far missing</source>
+        <translation>Abstand: nah und fern fehlt</translation>
+    </message>
+    <message>
+        <source>Places: {count} of {all} fields, {least} or more</source>
+        <translation>Orte: {count} von {all} Feldern, mindestens {least}</translation>
+    </message>
+    <message>
+        <source>Tilts: {side} missing</source>
+        <translation>Neigungen: {side} fehlt</translation>
+    </message>
+    <message>
+        <source>Tilts: all sides</source>
+        <translation>Neigungen: alle Seiten</translation>
+    </message>
+    <message>
+        <source>Distance: {near}–{far} cm</source>
+        <translation>Abstand: {near}–{far} cm</translation>
+    </message>
+    <message>
+        <source>{px} px before</source>
+        <translation>vorher {px} px</translation>
+    </message>
+    <message>
+        <source>Show it in other places, tilted other ways</source>
+        <translation>Zeigen Sie die Tafel an anderen Orten, anders geneigt</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -7181,14 +6961,6 @@
         <translation>Das gedruckte Lineal misst</translation>
     </message>
     <message>
-        <source>The camera</source>
-        <translation>Die Kamera</translation>
-    </message>
-    <message>
-        <source>Simulated camera, to practise</source>
-        <translation>Simulierte Kamera, zum Üben</translation>
-    </message>
-    <message>
         <source>Begin</source>
         <translation>Beginnen</translation>
     </message>
@@ -7213,18 +6985,6 @@
         <translation>2  Der Kamera zeigen</translation>
     </message>
     <message>
-        <source>Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves when it is still, sharp and in a new place. Nothing is changed before you say so.</source>
-        <translation>Gleichmäßiges Licht, keine Spiegelungen. Der Bildschirm sagt, wohin die Tafel gehört; Bilder entstehen von selbst, wenn sie ruhig, scharf und an neuer Stelle ist. Nichts wird geändert, bevor Sie es sagen.</translation>
-    </message>
-    <message>
-        <source>No picture of the board is stored.</source>
-        <translation>Kein Bild der Tafel wird gespeichert.</translation>
-    </message>
-    <message>
-        <source>A simulated board before a simulated camera, both clearly marked; kept apart from real ones.</source>
-        <translation>Eine simulierte Tafel vor einer simulierten Kamera, beide deutlich gekennzeichnet; von echten getrennt aufbewahrt.</translation>
-    </message>
-    <message>
         <source>It is plugged in.</source>
         <translation>Sie ist angeschlossen.</translation>
     </message>
@@ -7235,6 +6995,10 @@
     <message>
         <source>Begin · plug the camera in</source>
         <translation>Beginnen · Kamera anschließen</translation>
+    </message>
+    <message>
+        <source>Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves when it is still, sharp and in a new place. No picture of the board is stored, and nothing is changed before you say so.</source>
+        <translation>Gleichmäßiges Licht, keine Spiegelungen. Der Bildschirm sagt, wohin die Tafel gehört; Bilder entstehen von selbst, wenn sie ruhig, scharf und an neuer Stelle ist. Kein Bild der Tafel wird gespeichert, und nichts wird geändert, bevor Sie es sagen.</translation>
     </message>
 </context>
 <context>
@@ -7248,16 +7012,8 @@
         <translation>Tafel zum Drucken speichern</translation>
     </message>
     <message>
-        <source>Save one page</source>
-        <translation>Eine Seite speichern</translation>
-    </message>
-    <message>
         <source>Show it some more, tilted more and nearer: {why}.</source>
         <translation>Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
-    </message>
-    <message>
-        <source>Simulated camera: nothing here is of a real one.</source>
-        <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
     </message>
 </context>
 <context>
@@ -7267,56 +7023,12 @@
         <translation>&amp;Neu aufnehmen</translation>
     </message>
     <message>
-        <source>One page…</source>
-        <translation>Eine Seite…</translation>
-    </message>
-    <message>
         <source>Use this calibration</source>
         <translation>Diese Kalibrierung verwenden</translation>
-    </message>
-    <message>
-        <source>Where lines land, enlarged 50 times</source>
-        <translation>Wo Linien liegen, 50-fach vergrößert</translation>
-    </message>
-    <message>
-        <source>Next: 30 seconds with the check card show it on known angles.</source>
-        <translation>Als Nächstes: 30 Sekunden mit der Prüfkarte zeigen sie an bekannten Winkeln.</translation>
-    </message>
-    <message>
-        <source>Before ({day})</source>
-        <translation>Vorher ({day})</translation>
-    </message>
-    <message>
-        <source>Before (maker)</source>
-        <translation>Vorher (Hersteller)</translation>
-    </message>
-    <message>
-        <source>What</source>
-        <translation>Was</translation>
-    </message>
-    <message>
-        <source>Now</source>
-        <translation>Jetzt</translation>
-    </message>
-    <message>
-        <source>In words</source>
-        <translation>In Worten</translation>
-    </message>
-    <message>
-        <source>What this means for a hand</source>
-        <translation>Was das für eine Hand bedeutet</translation>
-    </message>
-    <message>
-        <source>Estimated from the change of the camera’s values, not measured on hands.</source>
-        <translation>Aus der Änderung der Kamerawerte geschätzt, nicht an Händen gemessen.</translation>
     </message>
 </context>
 <context>
     <name>BoardShowing</name>
-    <message>
-        <source>Undo</source>
-        <translation>Zurücknehmen</translation>
-    </message>
     <message>
         <source>Stop</source>
         <translation>Stopp</translation>
@@ -7330,20 +7042,8 @@
         <translation>Wie weit es ist</translation>
     </message>
     <message>
-        <source>take this picture</source>
-        <translation>dieses Bild nehmen</translation>
-    </message>
-    <message>
-        <source>undo</source>
-        <translation>zurück</translation>
-    </message>
-    <message>
         <source>Pictures are taken by themselves when the board is still, sharp and in a new place.</source>
         <translation>Bilder entstehen von selbst, wenn die Tafel ruhig, scharf und an neuer Stelle ist.</translation>
-    </message>
-    <message>
-        <source>Where the board has been</source>
-        <translation>Wo die Tafel war</translation>
     </message>
     <message>
         <source>The camera is being opened.</source>
@@ -7386,24 +7086,16 @@
         <translation>Einige Sekunden; legen Sie die Tafel ab.</translation>
     </message>
     <message>
-        <source>{count} of {all}</source>
-        <translation>{count} von {all}</translation>
+        <source>That is enough</source>
+        <translation>Das genügt</translation>
     </message>
     <message>
-        <source>Simulated camera and board</source>
-        <translation>Simulierte Kamera und Tafel</translation>
+        <source>Press “Work out”, or show more: it only gets better.</source>
+        <translation>Drücken Sie „Berechnen“, oder zeigen Sie mehr: Es wird nur besser.</translation>
     </message>
     <message>
-        <source>Hold it here</source>
-        <translation>Hierher halten</translation>
-    </message>
-    <message>
-        <source>Hold it here, {side} nearer</source>
-        <translation>Hierher, {side} näher</translation>
-    </message>
-    <message>
-        <source>{count} of {all} corners found</source>
-        <translation>{count} von {all} Ecken gefunden</translation>
+        <source>Then hold still.</source>
+        <translation>Dann ruhig halten.</translation>
     </message>
 </context>
 <context>
@@ -7544,6 +7236,10 @@
     <message>
         <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right.</source>
         <translation>Eine gedruckte Tafel zeigt, wie die Kamera sieht und wie weit ihre Tiefe daneben liegt; eine gedruckte Karte zeigt in 30 Sekunden, ob sie noch richtig misst.</translation>
+    </message>
+    <message>
+        <source>In the demo the camera is simulated: there is nothing to calibrate.</source>
+        <translation>In der Demo ist die Kamera simuliert: Es gibt nichts zu kalibrieren.</translation>
     </message>
 </context>
 <context>
@@ -8384,13 +8080,6 @@
     </message>
 </context>
 <context>
-    <name>FieldMap</name>
-    <message>
-        <source>Where the board has been</source>
-        <translation>Wo die Tafel war</translation>
-    </message>
-</context>
-<context>
     <name>FingerCurves</name>
     <message>
         <source>Joint angles of the last ten seconds, by finger</source>
@@ -8720,21 +8409,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>{key} already does: {action}.</source>
         <translation>{key} tut schon: {action}.</translation>
-    </message>
-</context>
-<context>
-    <name>LandingMap</name>
-    <message>
-        <source>Where lines land</source>
-        <translation>Wo Linien liegen</translation>
-    </message>
-    <message>
-        <source>hatched: no pictures there</source>
-        <translation>schraffiert: dort keine Bilder</translation>
-    </message>
-    <message>
-        <source>0.5 px</source>
-        <translation>0,5 px</translation>
     </message>
 </context>
 <context>

@@ -416,44 +416,16 @@
         <translation>Portare la tavola {place}</translation>
     </message>
     <message>
-        <source>Into the dashed outline, then hold still.</source>
-        <translation>Dentro il contorno tratteggiato, poi tenere ferma.</translation>
-    </message>
-    <message>
-        <source>Into the dashed outline, its {side} nearer to the camera; then hold still.</source>
-        <translation>Dentro il contorno tratteggiato, {side} più vicino alla telecamera; poi tenere ferma.</translation>
-    </message>
-    <message>
         <source>Tilt the board: {side} nearer</source>
         <translation>Inclinare la tavola: {side} più vicino</translation>
-    </message>
-    <message>
-        <source>Nearly half-way to upright, then hold still.</source>
-        <translation>Quasi a metà verso la verticale, poi tenere ferma.</translation>
     </message>
     <message>
         <source>Bring the board nearer</source>
         <translation>Avvicinare la tavola</translation>
     </message>
     <message>
-        <source>About 45 cm from the camera, then hold still.</source>
-        <translation>A circa 45 cm dalla telecamera, poi tenere ferma.</translation>
-    </message>
-    <message>
         <source>Take the board farther away</source>
         <translation>Allontanare la tavola</translation>
-    </message>
-    <message>
-        <source>About 85 cm from the camera, then hold still.</source>
-        <translation>A circa 85 cm dalla telecamera, poi tenere ferma.</translation>
-    </message>
-    <message>
-        <source>That is enough</source>
-        <translation>Basta così</translation>
-    </message>
-    <message>
-        <source>Press “Work out”, or show more: it only gets better.</source>
-        <translation>Premere “Calcola”, o mostrarla ancora: può solo migliorare.</translation>
     </message>
     <message>
         <source>More light: the picture is too dark.</source>
@@ -480,80 +452,8 @@
         <translation>Presa. Ora un altro posto.</translation>
     </message>
     <message>
-        <source>all four sides</source>
-        <translation>tutti e quattro i lati</translation>
-    </message>
-    <message>
-        <source>{side} missing</source>
-        <translation>manca: {side}</translation>
-    </message>
-    <message>
-        <source>{count} sides</source>
-        <translation>{count} lati</translation>
-    </message>
-    <message>
-        <source>{near}–{far} cm</source>
-        <translation>{near}–{far} cm</translation>
-    </message>
-    <message>
-        <source>Places</source>
-        <translation>Posizioni</translation>
-    </message>
-    <message>
-        <source>{count} fields</source>
-        <translation>{count} campi</translation>
-    </message>
-    <message>
-        <source>{least} of {all} or more</source>
-        <translation>{least} su {all} o più</translation>
-    </message>
-    <message>
-        <source>Tilts</source>
-        <translation>Inclinazioni</translation>
-    </message>
-    <message>
-        <source>{least} sides, over {tilt}°</source>
-        <translation>{least} lati, oltre {tilt}°</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Distanza</translation>
-    </message>
-    <message>
-        <source>near and far</source>
-        <translation>vicino e lontano</translation>
-    </message>
-    <message>
-        <source>Sharpness</source>
-        <translation>Nitidezza</translation>
-    </message>
-    <message>
-        <source>sharp</source>
-        <translation>nitida</translation>
-    </message>
-    <message>
-        <source>not sharp</source>
-        <translation>non nitida</translation>
-    </message>
-    <message>
-        <source>edges below {most} px</source>
-        <translation>bordi sotto {most} px</translation>
-    </message>
-    <message>
-        <source>Still</source>
-        <translation>Ferma</translation>
-    </message>
-    <message>
-        <source>still</source>
-        <translation>ferma</translation>
-    </message>
-    <message>
-        <source>moving</source>
-        <translation>in movimento</translation>
-    </message>
-    <message>
-        <source>below {most} px/picture</source>
-        <translation>sotto {most} px/immagine</translation>
     </message>
     <message>
         <source>Work out · show the board</source>
@@ -600,10 +500,6 @@
         <translation>La telecamera è calibrata. {depth}</translation>
     </message>
     <message>
-        <source>{land} A hand of {hand} mm read {more} before; it is put right from now on.</source>
-        <translation>{land} Una mano di {hand} mm risultava {more}; d’ora in poi è corretto.</translation>
-    </message>
-    <message>
         <source>Its depth was not checked.</source>
         <translation>La profondità non è stata controllata.</translation>
     </message>
@@ -618,14 +514,6 @@
     <message>
         <source>Depth read {share} % too short.</source>
         <translation>La profondità risultava minore del {share} %.</translation>
-    </message>
-    <message>
-        <source>{size} mm too long</source>
-        <translation>più lunga di {size} mm</translation>
-    </message>
-    <message>
-        <source>{size} mm too short</source>
-        <translation>più corta di {size} mm</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -648,38 +536,6 @@
         <translation>Distanza focale</translation>
     </message>
     <message>
-        <source>{share} % off before</source>
-        <translation>prima errata del {share} %</translation>
-    </message>
-    <message>
-        <source>as before</source>
-        <translation>come prima</translation>
-    </message>
-    <message>
-        <source>Middle of the picture</source>
-        <translation>Centro dell’immagine</translation>
-    </message>
-    <message>
-        <source>{away} px to the side</source>
-        <translation>{away} px di lato</translation>
-    </message>
-    <message>
-        <source>Lens bends lines by</source>
-        <translation>L’obiettivo curva di</translation>
-    </message>
-    <message>
-        <source>not known</source>
-        <translation>non noto</translation>
-    </message>
-    <message>
-        <source>known</source>
-        <translation>noto</translation>
-    </message>
-    <message>
-        <source>{bend} px at most</source>
-        <translation>al massimo {bend} px</translation>
-    </message>
-    <message>
         <source>put right</source>
         <translation>corretto</translation>
     </message>
@@ -694,34 +550,6 @@
     <message>
         <source>Depth scale</source>
         <translation>Scala della profondità</translation>
-    </message>
-    <message>
-        <source>small; put right</source>
-        <translation>piccola; corretta</translation>
-    </message>
-    <message>
-        <source>Depth shift</source>
-        <translation>Profondità spostata di</translation>
-    </message>
-    <message>
-        <source>none sure</source>
-        <translation>nessuno sicuro</translation>
-    </message>
-    <message>
-        <source>within the scale’s error</source>
-        <translation>entro l’errore della scala</translation>
-    </message>
-    <message>
-        <source>Board flat in depth</source>
-        <translation>Tavola piana in profondità</translation>
-    </message>
-    <message>
-        <source>good: within {most} mm</source>
-        <translation>buona: entro {most} mm</translation>
-    </message>
-    <message>
-        <source>noisy: keep 50 to 80 cm</source>
-        <translation>rumore: restare fra 50 e 80 cm</translation>
     </message>
     <message>
         <source>Colour on depth</source>
@@ -740,56 +568,8 @@
         <translation>registrazione non attiva</translation>
     </message>
     <message>
-        <source>1 field empty</source>
-        <translation>1 campo vuoto</translation>
-    </message>
-    <message>
-        <source>{count} fields empty</source>
-        <translation>{count} campi vuoti</translation>
-    </message>
-    <message>
-        <source>Edge of the picture</source>
-        <translation>Bordo dell’immagine</translation>
-    </message>
-    <message>
-        <source>keep the hand inside</source>
-        <translation>tenere la mano più all’interno</translation>
-    </message>
-    <message>
-        <source>{size}° less</source>
-        <translation>{size}° in meno</translation>
-    </message>
-    <message>
-        <source>{size}° more</source>
-        <translation>{size}° in più</translation>
-    </message>
-    <message>
-        <source>Wrist flexion of {angle}°, read before</source>
-        <translation>Flessione del polso di {angle}°, letta prima</translation>
-    </message>
-    <message>
-        <source>Hand of {length} mm, read before</source>
-        <translation>Mano di {length} mm, letta prima</translation>
-    </message>
-    <message>
-        <source>A simulated camera: kept apart, for practice with the check card; no real session uses it.</source>
-        <translation>Telecamera simulata: tenuta separata, per esercitarsi con il cartoncino di controllo; nessuna seduta vera la usa.</translation>
-    </message>
-    <message>
         <source>This camera does not say its number, so nothing can be kept for it. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
         <translation>Questa telecamera non comunica il suo numero, quindi per lei non si può salvare nulla. “carpus calibrate-camera --output” scrive un file della telecamera da indicare nelle impostazioni.</translation>
-    </message>
-    <message>
-        <source>the one of {day}</source>
-        <translation>quella del {day}</translation>
-    </message>
-    <message>
-        <source>the maker’s values</source>
-        <translation>i valori del produttore</translation>
-    </message>
-    <message>
-        <source>Kept for this camera, number {serial}, instead of {before}. Sessions measured before keep their values and say so.</source>
-        <translation>Salvata per questa telecamera, numero {serial}, al posto di: {before}. Le sedute misurate prima mantengono i loro valori e lo dicono.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -2280,48 +2060,16 @@
         <translation>{count} coppie di una seduta, rispetto a: {kind}</translation>
     </message>
     <message>
-        <source>Carpus camera calibration</source>
-        <translation>Calibrazione della telecamera di Carpus</translation>
-    </message>
-    <message>
         <source>Camera</source>
         <translation>Telecamera</translation>
-    </message>
-    <message>
-        <source>Board</source>
-        <translation>Tavola</translation>
     </message>
     <message>
         <source>Pictures</source>
         <translation>Immagini</translation>
     </message>
     <message>
-        <source>Before ({day})</source>
-        <translation>Prima ({day})</translation>
-    </message>
-    <message>
-        <source>Before (maker)</source>
-        <translation>Prima (produttore)</translation>
-    </message>
-    <message>
-        <source>What</source>
-        <translation>Che cosa</translation>
-    </message>
-    <message>
-        <source>Now</source>
-        <translation>Ora</translation>
-    </message>
-    <message>
         <source>In words</source>
         <translation>In parole</translation>
-    </message>
-    <message>
-        <source>What this means for a hand</source>
-        <translation>Che cosa significa per una mano</translation>
-    </message>
-    <message>
-        <source>Estimated from the change of the camera’s values, not measured on hands.</source>
-        <translation>Stima dalla variazione dei valori della telecamera, non misurata su mani.</translation>
     </message>
     <message>
         <source>ext.</source>
@@ -6883,6 +6631,38 @@
         <source>measured once</source>
         <translation>misurata una volta</translation>
     </message>
+    <message>
+        <source>Kept for this camera, number {serial}. Sessions measured before keep their values and say so.</source>
+        <translation>Viene salvata per questa telecamera, numero {serial}. Le sedute misurate prima mantengono i loro valori e lo dicono.</translation>
+    </message>
+    <message>
+        <source>Distance: near and far missing</source>
+        <translation>Distanza: mancano vicino e lontano</translation>
+    </message>
+    <message>
+        <source>Places: {count} of {all} fields, {least} or more</source>
+        <translation>Posizioni: {count} riquadri su {all}, almeno {least}</translation>
+    </message>
+    <message>
+        <source>Tilts: {side} missing</source>
+        <translation>Inclinazioni: manca {side}</translation>
+    </message>
+    <message>
+        <source>Tilts: all sides</source>
+        <translation>Inclinazioni: tutti i lati</translation>
+    </message>
+    <message>
+        <source>Distance: {near}–{far} cm</source>
+        <translation>Distanza: {near}–{far} cm</translation>
+    </message>
+    <message>
+        <source>{px} px before</source>
+        <translation>prima {px} px</translation>
+    </message>
+    <message>
+        <source>Show it in other places, tilted other ways</source>
+        <translation>Mostrare la tavola in altri punti, inclinata in altro modo</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -7181,14 +6961,6 @@
         <translation>Il righello stampato misura</translation>
     </message>
     <message>
-        <source>The camera</source>
-        <translation>La telecamera</translation>
-    </message>
-    <message>
-        <source>Simulated camera, to practise</source>
-        <translation>Telecamera simulata, per esercitarsi</translation>
-    </message>
-    <message>
         <source>Begin</source>
         <translation>Inizia</translation>
     </message>
@@ -7213,18 +6985,6 @@
         <translation>2  Mostrarla alla telecamera</translation>
     </message>
     <message>
-        <source>Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves when it is still, sharp and in a new place. Nothing is changed before you say so.</source>
-        <translation>Luce uniforme, nessun riflesso. Lo schermo dice dove tenere la tavola; le immagini si scattano da sole quando è ferma, nitida e in un posto nuovo. Nulla cambia senza conferma.</translation>
-    </message>
-    <message>
-        <source>No picture of the board is stored.</source>
-        <translation>Nessuna immagine della tavola viene salvata.</translation>
-    </message>
-    <message>
-        <source>A simulated board before a simulated camera, both clearly marked; kept apart from real ones.</source>
-        <translation>Una tavola simulata davanti a una telecamera simulata, entrambe ben segnate; tenute separate da quelle vere.</translation>
-    </message>
-    <message>
         <source>It is plugged in.</source>
         <translation>È collegata.</translation>
     </message>
@@ -7235,6 +6995,10 @@
     <message>
         <source>Begin · plug the camera in</source>
         <translation>Inizia · collegare la telecamera</translation>
+    </message>
+    <message>
+        <source>Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves when it is still, sharp and in a new place. No picture of the board is stored, and nothing is changed before you say so.</source>
+        <translation>Luce uniforme, nessun riflesso. Lo schermo dice dove tenere la tavola; le immagini si scattano da sole quando è ferma, nitida e in un posto nuovo. Nessuna immagine della tavola viene conservata, e nulla cambia prima che lo si dica.</translation>
     </message>
 </context>
 <context>
@@ -7248,16 +7012,8 @@
         <translation>Salva la tavola da stampare</translation>
     </message>
     <message>
-        <source>Save one page</source>
-        <translation>Salva una pagina</translation>
-    </message>
-    <message>
         <source>Show it some more, tilted more and nearer: {why}.</source>
         <translation>Mostrarla ancora, più inclinata e più vicina: {why}.</translation>
-    </message>
-    <message>
-        <source>Simulated camera: nothing here is of a real one.</source>
-        <translation>Telecamera simulata: qui non c’è nulla di una vera.</translation>
     </message>
 </context>
 <context>
@@ -7267,56 +7023,12 @@
         <translation>&amp;Rifai</translation>
     </message>
     <message>
-        <source>One page…</source>
-        <translation>Una pagina…</translation>
-    </message>
-    <message>
         <source>Use this calibration</source>
         <translation>Usa questa calibrazione</translation>
-    </message>
-    <message>
-        <source>Where lines land, enlarged 50 times</source>
-        <translation>Dove cadono le linee, ingrandito 50 volte</translation>
-    </message>
-    <message>
-        <source>Next: 30 seconds with the check card show it on known angles.</source>
-        <translation>Poi: 30 secondi con il cartoncino di controllo lo mostrano su angoli noti.</translation>
-    </message>
-    <message>
-        <source>Before ({day})</source>
-        <translation>Prima ({day})</translation>
-    </message>
-    <message>
-        <source>Before (maker)</source>
-        <translation>Prima (produttore)</translation>
-    </message>
-    <message>
-        <source>What</source>
-        <translation>Che cosa</translation>
-    </message>
-    <message>
-        <source>Now</source>
-        <translation>Ora</translation>
-    </message>
-    <message>
-        <source>In words</source>
-        <translation>In parole</translation>
-    </message>
-    <message>
-        <source>What this means for a hand</source>
-        <translation>Che cosa significa per una mano</translation>
-    </message>
-    <message>
-        <source>Estimated from the change of the camera’s values, not measured on hands.</source>
-        <translation>Stima dalla variazione dei valori della telecamera, non misurata su mani.</translation>
     </message>
 </context>
 <context>
     <name>BoardShowing</name>
-    <message>
-        <source>Undo</source>
-        <translation>Annulla</translation>
-    </message>
     <message>
         <source>Stop</source>
         <translation>Ferma</translation>
@@ -7330,20 +7042,8 @@
         <translation>Avanzamento</translation>
     </message>
     <message>
-        <source>take this picture</source>
-        <translation>scatta questa immagine</translation>
-    </message>
-    <message>
-        <source>undo</source>
-        <translation>annulla</translation>
-    </message>
-    <message>
         <source>Pictures are taken by themselves when the board is still, sharp and in a new place.</source>
         <translation>Le immagini si scattano da sole quando la tavola è ferma, nitida e in un posto nuovo.</translation>
-    </message>
-    <message>
-        <source>Where the board has been</source>
-        <translation>Dove è stata la tavola</translation>
     </message>
     <message>
         <source>The camera is being opened.</source>
@@ -7386,24 +7086,16 @@
         <translation>Alcuni secondi; posare la tavola.</translation>
     </message>
     <message>
-        <source>{count} of {all}</source>
-        <translation>{count} su {all}</translation>
+        <source>That is enough</source>
+        <translation>Basta così</translation>
     </message>
     <message>
-        <source>Simulated camera and board</source>
-        <translation>Telecamera e tavola simulate</translation>
+        <source>Press “Work out”, or show more: it only gets better.</source>
+        <translation>Premere “Calcola”, o mostrarne altre: può solo migliorare.</translation>
     </message>
     <message>
-        <source>Hold it here</source>
-        <translation>Tenere qui</translation>
-    </message>
-    <message>
-        <source>Hold it here, {side} nearer</source>
-        <translation>Tenere qui, {side} più vicino</translation>
-    </message>
-    <message>
-        <source>{count} of {all} corners found</source>
-        <translation>trovati {count} angoli su {all}</translation>
+        <source>Then hold still.</source>
+        <translation>Poi tenere ferma.</translation>
     </message>
 </context>
 <context>
@@ -7544,6 +7236,10 @@
     <message>
         <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right.</source>
         <translation>Una tavola stampata mostra come vede la telecamera e di quanto sbaglia la profondità; un cartoncino stampato mostra in 30 secondi se misura ancora bene.</translation>
+    </message>
+    <message>
+        <source>In the demo the camera is simulated: there is nothing to calibrate.</source>
+        <translation>Nella demo la telecamera è simulata: non c’è nulla da calibrare.</translation>
     </message>
 </context>
 <context>
@@ -8384,13 +8080,6 @@
     </message>
 </context>
 <context>
-    <name>FieldMap</name>
-    <message>
-        <source>Where the board has been</source>
-        <translation>Dove è stata la tavola</translation>
-    </message>
-</context>
-<context>
     <name>FingerCurves</name>
     <message>
         <source>Joint angles of the last ten seconds, by finger</source>
@@ -8720,21 +8409,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>{key} already does: {action}.</source>
         <translation>{key} fa già: {action}.</translation>
-    </message>
-</context>
-<context>
-    <name>LandingMap</name>
-    <message>
-        <source>Where lines land</source>
-        <translation>Dove cadono le linee</translation>
-    </message>
-    <message>
-        <source>hatched: no pictures there</source>
-        <translation>righe: nessuna immagine lì</translation>
-    </message>
-    <message>
-        <source>0.5 px</source>
-        <translation>0,5 px</translation>
     </message>
 </context>
 <context>

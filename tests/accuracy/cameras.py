@@ -18,10 +18,10 @@ from carpus.core.capture.calibrated import correction_table
 from carpus.core.capture.camera_info import StoredCalibration
 from carpus.core.depth_sensor import AZURE_KINECT, D435
 from carpus.core.errors import BoardViewsAlike
-from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import FloatArray, Frame
 from tests.accuracy.pages import aligned, ruled
+from tests.studio import LENS, Studio, card_scene, poses, texture_of
 
 FOCAL_SHARE, DEPTH_SHARE = 0.003, 0.002
 """What was promised."""

@@ -11,9 +11,9 @@ import numpy as np
 from carpus.core.calibration.card.card import CHECK_S, CardReading
 from carpus.core.calibration.card.measure import LOOK_EVERY_S, measure_card
 from carpus.core.depth_sensor import SENSORS
-from carpus.core.simulation.practice_camera import LENS, Studio, card_scene
 from tests.accuracy.cameras import OFF_SHARE, most_of
 from tests.accuracy.pages import aligned, ruled
+from tests.studio import LENS, Studio, card_scene
 
 SEED = 7600
 FEWER = 10

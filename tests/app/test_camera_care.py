@@ -17,16 +17,17 @@ from pytestqt.qtbot import QtBot
 from carpus.app.desktop import care_cameras
 from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.camera import views
+from carpus.core.calibration.camera.board import CHESSBOARD
 from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.checks import add_check, checks_path, read_checks
 from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import stored_calibration
 from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.errors import CameraLost
-from carpus.core.simulation import practice_camera
 from carpus.ui.camera_calibration import flow
 from carpus.ui.messages.messages import StopCard
 from carpus.ui.settings.camera_card import CameraCard
+from tests import studio
 from tests.ui.camera_fakes import board_result, checked
 
 FEW = 12
@@ -48,10 +49,10 @@ def desktop(open_desktop: Callable[..., Desktop]) -> Desktop:
 def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each picture of the board another pose and long after the last, so that none must be still; few are asked for.
     A busy computer misses pictures: then two of the card will do, whatever lies between them."""
-    monkeypatch.setattr(practice_camera, "FPS", 1.0)
-    monkeypatch.setattr(practice_camera, "_STILL_FRAMES", 1)
-    monkeypatch.setattr(practice_camera, "_MOST_PICTURES", 6)
-    monkeypatch.setattr(practice_camera, "_between", lambda one, other: other)
+    monkeypatch.setattr(studio, "FPS", 1.0)
+    monkeypatch.setattr(studio, "_STILL_FRAMES", 1)
+    monkeypatch.setattr(studio, "_MOST_PICTURES", 6)
+    monkeypatch.setattr(studio, "_between", lambda one, other: other)
     monkeypatch.setitem(views.ASKED_VIEWS, "chessboard", FEW)
     monkeypatch.setattr(measure, "CHECK_S", 6.0)
     monkeypatch.setattr(measure, "_LONGEST_GAP_S", 1e9)
@@ -64,47 +65,33 @@ def press(qtbot: QtBot, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.Keyboard
     qtbot.keyClick(at, key, modifier)
 
 
-def test_from_the_settings_over_the_board_to_its_page(
+def test_from_the_settings_over_the_board_to_the_card(
     qtbot: QtBot, desktop: Desktop, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     journey, board = desktop.journey, desktop.journey.board.screen
-    practice = data / "practice"
-
-    def saved_as(name: str) -> Path:
-        path = tmp_path / name
-        monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
-        return path
-
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "board.pdf"), ""))
+    monkeypatch.setattr(care_cameras, "open_camera", lambda *_, **__: studio.board_camera(CHESSBOARD, 20.0))
     journey.way.show("settings")
-    settings_card = desktop.shell.findChild(CameraCard)
-    settings_card.calibrate_button.click()
+    desktop.shell.findChild(CameraCard).calibrate_button.click()
     assert journey.place == "board"
     assert not board.beginning.begin_button.isEnabled(), "no camera is plugged in here"
-    pdf = saved_as("board.pdf")
     board.beginning.print_button.click()
-    qtbot.waitUntil(pdf.exists)
-    board.beginning.camera.buttons()[1].click()
+    qtbot.waitUntil((tmp_path / "board.pdf").exists)
+    monkeypatch.setattr(journey.context.cameras, "name", lambda: "Xtion PRO LIVE")
+    journey.camera_state.look()
     board.beginning.begin_button.click()
     assert not board.showing.primary.isEnabled()
     qtbot.waitUntil(lambda: board.showing.progress is not None)
-    assert "nothing here is of a real one" in desktop.shell.sign.text
     press(qtbot, Qt.Key.Key_Escape)
     assert board.is_beginning, "left half-way"
     board.beginning.begin_button.click()
     qtbot.waitUntil(board.showing.primary.isEnabled, timeout=240_000)
     board.showing.primary.click()
     qtbot.waitUntil(lambda: board.result.result is not None)
-    result = board.result.result
-    assert result.simulated
     assert "The camera is calibrated" in board.result.answer.text()
-    page = saved_as("calibration.pdf")
-    press(qtbot, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
-    qtbot.waitUntil(page.exists)
     board.result.use_button.click()
     qtbot.waitUntil(lambda: journey.place == "card")
-    kept = stored_calibration(practice, practice_camera.PRACTICE_SERIAL)
-    assert kept is not None
-    assert not (data / "cameras").exists(), "a simulated camera is never kept among real ones"
+    assert stored_calibration(data, studio.SERIAL) is not None
     desktop.close()
 
 
@@ -131,7 +118,7 @@ def card_camera(desktop: Desktop, monkeypatch: pytest.MonkeyPatch) -> list[Notic
 
     def opened(_uri: str, *, camera: Camera | None = None, notice: Notice) -> FrameSource:
         heard.append(notice)
-        made = practice_camera.card_camera(20.0)
+        made = studio.card_camera(20.0)
         made.info = replace(made.info, name="Xtion", settings={})
         return made
 

@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.window import Desktop
 from carpus.core.records.library import Library
+from carpus.ui.settings.camera_card import CameraCard
 from tests.records.samples import HERON, LINDEN, T0, record
 
 
@@ -53,10 +54,11 @@ def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], De
     assert journey.camera.screen.sources.value() == "practice"
     assert journey.camera.screen.primary.isEnabled()
     looks_well()
-    journey.patients.show()
-    for show in (journey.card.show, journey.board.show):
-        show()
-        looks_well()
+    journey.way.show("settings")
+    card = desktop.shell.findChild(CameraCard)
+    assert not card.check_button.isVisible()
+    assert not card.calibrate_button.isVisible()
+    looks_well()
 
 
 def test_who_was_measured_last_is_chosen_at_the_next_start(demo: Callable[[], Desktop], tmp_path: Path) -> None:

@@ -756,16 +756,17 @@ class Gallery(GalleryWindow):
 
     def board(self) -> None:
         screen = self._board()
-        screen.beginning.show_standing(camera_words(checked())[1], camera_there=True)
+        screen.beginning.show_status(camera_words(checked())[1])
+        screen.beginning.set_camera_there(True)
         screen.show_beginning()
 
     def board_showing(self) -> None:
         screen = self._board()
-        screen.show_showing(simulated=False)
+        screen.show_showing()
         screen.showing.opened()
         frame, progress = board_progress()
         screen.showing.show_progress(progress)
-        screen.showing.show_frame(frame)
+        screen.showing.show_frame(frame.color_rgb)
 
     board_result = _then("_board", lambda screen: screen.show_result(board_result()))
     board_poor = _then("_board", lambda screen: screen.show_result(board_result(poor=True)))

@@ -1,120 +1,63 @@
-"""The board is shown: large picture, one instruction, where the board has been, what is there and what is missing."""
+"""The board is shown: large picture, one instruction, what is there and what is missing."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QGridLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
 
-from carpus.core.types import Frame
-from carpus.ui.camera_calibration.maps import FieldMap
-from carpus.ui.camera_calibration.overlay import paint_corners, paint_target
+from carpus.core.types import ByteImage
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, KeyCaps, Line
-from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line, scrolled
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.layouts import STRETCH, Fitted, in_column, in_line, scrolled
 from carpus.ui.controls.progress_bar import ThinBar
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
-from carpus.ui.keys import Keys, bind
-from carpus.ui.picture.photo import label_size, paint_label
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.picture.view import PictureView
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
-from carpus.ui.words.camera_calibration import (
-    BoardProgress,
-    Row,
-    check_rows,
-    lack_words,
-    side_name,
-    step_words,
-    to_go_words,
-)
+from carpus.ui.translate import say
+from carpus.ui.words.camera_calibration import BoardProgress, lack_words, there_rows, to_go_words
 
 COLUMN_PX = 376
-EMPTY: Row = ("open", "", "", "")
-RINGS_LAST_S = 0.6
-"""A picture that was looked at longer ago gives way to the newest one, without rings: the search for corners takes its
-time where there are none."""
-CHECKS = 5
-"""Rows of what is there and what is missing."""
 
 
 class BoardShowing(Fitted):
-    """``take`` a picture by hand, ``undo`` the last one."""
+    """What its buttons do is the flow's affair."""
 
-    take = Signal()
-    undo = Signal()
-
-    def __init__(self, theme: Theme, keys: Keys) -> None:
+    def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self._theme = theme
+        self._theme, self._note = theme, ""
         self.progress: BoardProgress | None = None
-        self.simulated = False
-        self.has_rings = False
-        self._note = ""
         self.picture = PictureView(theme, (832, 624))
         self.picture.show_whole(True)
-        self.picture.overlay = self._paint_over
         self.picture.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.count = StateText(theme)
         self.what = Text(theme, "", 28, SEMIBOLD, wrap=True)
         self.how = Text(theme, "", 16, REGULAR, "text2", wrap=True)
-        self.fields = FieldMap(theme)
-        self._field_count = Text(theme, "", 14, SEMIBOLD)
-        self._grid = QGridLayout()
+        self._there = [StateText(theme) for _ in range(3)]
         self.primary = Button(theme, "", "primary")
-        self.undo_button = Button(theme, self.tr("Undo"), "quiet", hint=keys["undo"], height_px=40)
         self.leave_button = Button(theme, self.tr("Stop"), "quiet", hint=self.tr("Esc"), height_px=40)
         self.bar = ThinBar(theme, self.tr("How far it is"))
-        self._keys = KeyCaps(theme, [(keys["accept"], self.tr("take this picture")), (keys["undo"], self.tr("undo"))])
-        self._lay_out()
-        self.undo_button.clicked.connect(self.undo)
-        bind(self.picture, keys, "accept", self.take.emit)
-        bind(self, keys, "undo", self.undo.emit)
+        words = self.tr("Pictures are taken by themselves when the board is still, sharp and in a new place.")
+        there = Card(theme)
+        in_there = in_column(*self._there, gap=8)
+        there.body.addLayout(in_there)
+        column = in_column(self.count, self.what, self.how, there, gap=12)
+        column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        column.addStretch(1)
+        self._right = QWidget()
+        foot = in_line(STRETCH, self.leave_button)
+        margins = (0, 0, 0, 0)
+        in_column((scrolled(column), 1), self.bar, self.primary, foot, gap=12, margins=margins, within=self._right)
+        margins = (MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
+        in_line((self.picture, 1), self._right, gap=MARGIN_PX, margins=margins, within=self)
         theme.changed.connect(self._fit)
         self.begin()
-
-    def _lay_out(self) -> None:
-        theme = self._theme
-        words = self.tr("Pictures are taken by themselves when the board is still, sharp and in a new place.")
-        self._by_itself = Text(theme, words, 14, REGULAR, "text2", wrap=True)
-        foot = in_line(self._keys, STRETCH, self.undo_button, self.leave_button, gap=12)
-        left = in_column((self.picture, 1), foot, self._by_itself, gap=8)
-        been = Card(theme)
-        title = Text(theme, self.tr("Where the board has been"), 16, SEMIBOLD, wrap=True)
-        fill(been.body, in_line((title, 1), self._field_count), self.fields)
-        checks = Card(theme)
-        self._fill_grid()
-        checks.body.addLayout(self._grid)
-        column = in_column(self.count, self.what, self.how, been, checks, STRETCH, gap=12)
-        self._right = QWidget()
-        in_column((scrolled(column), 1), self.bar, self.primary, gap=12, margins=(0, 0, 0, 0), within=self._right)
-        margins = (MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        in_line((left, 1), self._right, gap=MARGIN_PX, margins=margins, within=self)
-
-    def _fill_grid(self) -> None:
-        theme = self._theme
-        self._grid.setHorizontalSpacing(10)
-        self._grid.setVerticalSpacing(4)
-        for column, stretch in enumerate((0, 30, 36, 34)):
-            self._grid.setColumnStretch(column, stretch)
-        self._cells: list[tuple[StateText, Text, Text, Text]] = []
-        for number in range(CHECKS):
-            cells = (
-                StateText(theme), Text(theme, "", 14, REGULAR, wrap=True), Text(theme, "", 14, MEDIUM, wrap=True),
-                caption(theme, "", wrap=True),
-            )  # fmt: skip
-            if number:
-                self._grid.addWidget(Line(theme), 2 * number, 0, 1, 4)
-            for place, cell in enumerate(cells):
-                self._grid.addWidget(cell, 2 * number + 1, place)
-            self._cells.append(cells)
 
     def _fit(self) -> None:
         """Large text must leave the picture its half."""
         self._right.setFixedWidth(min(self._theme.px(COLUMN_PX), round(0.44 * max(self.width(), 640))))
 
-    # --- states -------------------------------------------------------------------------------------------
-    def begin(self, *, simulated: bool = False) -> None:
-        self.progress, self._note, self.simulated = None, "", simulated
+    def begin(self) -> None:
+        self.progress, self._note = None, ""
         self.picture.clear(self.tr("The camera is being opened."))
         self.what.setText(self.tr("One moment"))
         self.how.setText(self.tr("The camera is being opened."))
@@ -123,7 +66,8 @@ class BoardShowing(Fitted):
         self.primary.setEnabled(False)
         self.primary.set_face(to_go_words(None))
         self.count.show_state("open", self.tr("No picture yet"))
-        self._fill()
+        for line in self._there:
+            line.show_state("none", "")
 
     def opened(self) -> None:
         self.bar.hide()
@@ -131,14 +75,8 @@ class BoardShowing(Fitted):
         self.how.setText(self.tr("All of it, flat towards the camera, about 60 cm away."))
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def show_frame(self, newest: Frame) -> None:
-        """The newest picture; while the board is found, the one that it was found in, so that rings lie on corners."""
-        now = self.progress
-        shown = newest
-        if now is not None and now.look.found is not None and newest.timestamp_s - now.frame.timestamp_s < RINGS_LAST_S:
-            shown = now.frame
-        self.has_rings = now is not None and now.look.found is not None and shown is now.frame
-        self.picture.show_frame(shown.color_rgb)
+    def show_frame(self, color_rgb: ByteImage) -> None:
+        self.picture.show_frame(color_rgb)
 
     def show_lost(self, words: str) -> None:
         """The camera sends nothing: why, and what to do; what was taken stays."""
@@ -148,19 +86,18 @@ class BoardShowing(Fitted):
 
     def show_progress(self, now: BoardProgress) -> None:
         self.progress = now
-        judged = now.judgement
-        what, how = step_words(now.step)
-        lack = lack_words(now.look.lack)
-        self.what.setText(what)
-        self.how.setText(self._note or (lack if now.look.lack in ("dark", "too_tilted", "blurred") else how))
-        words = self.tr("1 picture") if judged.views == 1 else self.tr("{count} pictures")
-        self.count.show_state("good" if now.step.kind == "done" else "partly", words.format(count=judged.views))
+        views = now.judgement.views
+        self.what.setText(say(now.step) if now.step else self.tr("That is enough"))
+        done = self.tr("Press “Work out”, or show more: it only gets better.")
+        self.how.setText(self._note or lack_words(now.lack) or (self.tr("Then hold still.") if now.step else done))
+        words = self.tr("1 picture") if views == 1 else self.tr("{count} pictures")
+        self.count.show_state("partly" if now.step else "good", words.format(count=views))
         self.primary.set_face(to_go_words(now))
-        self.primary.setEnabled(judged.views >= now.asked and not judged.missing)
-        if now.look.kept:
+        self.primary.setEnabled(views >= now.asked and not now.judgement.missing)
+        if not now.lack:  # this picture counts
             self._note = ""
-        self._fill()
-        self.picture.update()
+        for line, row in zip(self._there, there_rows(now.judgement), strict=True):
+            line.show_state(*row)
 
     def work(self) -> None:
         self.what.setText(self.tr("Working it out"))
@@ -176,43 +113,3 @@ class BoardShowing(Fitted):
         self._note = words
         self.how.setText(words)
         self.primary.setEnabled(True)
-
-    def _fill(self) -> None:
-        now = self.progress
-        if now is None:
-            self._field_count.setText("")
-            self.fields.show_corners(self.fields.nothing, None)
-        else:
-            corners = now.judgement.corners_in_field
-            self._field_count.setText(self.tr("{count} of {all}").format(count=now.judgement.fields, all=corners.size))
-            self.fields.show_corners(corners, now.step.field)
-        rows = [] if now is None else check_rows(now)
-        for (sign, name, value, limit), row in zip(self._cells, rows or [EMPTY] * CHECKS, strict=True):
-            sign.show_state(row[0], "")
-            for text, said in zip((name, value, limit), row[1:], strict=True):
-                text.setText(said)
-
-    # --- over the picture ---------------------------------------------------------------------------------
-    def _paint_over(self, painter: QPainter, view: PictureView) -> None:
-        top = 12.0
-        if self.simulated:
-            words = self.tr("Simulated camera and board")
-            size = label_size(self._theme, words)
-            left, low = view.width() - size.width() - 12.0, view.height() - size.height() - 12.0
-            paint_label(painter, self._theme, words, left, low)
-        now = self.progress
-        if now is None:
-            return
-        found = now.look.found if self.has_rings else None
-        if now.target is not None:
-            side = now.step.side if now.step.kind in ("place", "tilt") else None
-            words = self.tr("Hold it here")
-            if side is not None:
-                words = self.tr("Hold it here, {side} nearer").format(side=side_name(side))
-            paint_target(painter, view, self._theme, now.target, found, words)
-        seen = lack_words(now.look.lack)
-        if found is not None:  # what is lacking stands beside the picture
-            paint_corners(painter, view, found.pixel)
-            seen = self.tr("{count} of {all} corners found").format(count=len(found.pixel), all=now.corner_count)
-        if seen:
-            paint_label(painter, self._theme, seen, 12.0, top)

@@ -28,7 +28,6 @@ class CardFlow(AtCameraFlow):
     def __init__(self, context: ScreenContext) -> None:
         screen, camera = CardScreen(context.theme), context.camera
         super().__init__(context, screen, screen.name_sheet)
-        screen.turned.connect(context.way.changed)
         self._newest: Newest[CardProgress] = Newest()
         self._measured: tuple[LiveSession, CardWatch] | None = None
         self.hand.opened.connect(self._opened)
@@ -104,7 +103,7 @@ class CardFlow(AtCameraFlow):
 
     def _keep(self, session: LiveSession, watch: CardWatch) -> None:
         info, when, camera = session.info, iso(datetime.now().astimezone()), self.context.camera
-        path = checks_path(self.context.cameras.folder(practice=False), info.serial)
+        path = checks_path(self.context.cameras.folder(), info.serial)
 
         def keep() -> None:
             reading = watch.reading(info.name)

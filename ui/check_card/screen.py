@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPainter
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
-from carpus.core.calibration.card.card import CHECK_S
+from carpus.core.calibration.card.card import CHECK_S, DISCS
 from carpus.core.types import ByteImage
-from carpus.ui.camera_calibration.overlay import paint_discs
 from carpus.ui.camera_name_sheet import CameraNameSheet
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.field import Choices
@@ -18,8 +17,9 @@ from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.icons import State
+from carpus.ui.picture.photo import paint_label
 from carpus.ui.picture.view import PictureView
-from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.theme import GAP_PX, MARGIN_PX, ON_PICTURE_PROPOSED, Theme
 from carpus.ui.words.camera_check import CardProgress, card_hint, check_words
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
@@ -29,9 +29,7 @@ COLUMN_PX = 372
 
 
 class CardScreen(Fitted):
-    """What its buttons do is the flow's affair; ``turned`` when a check begins or ends."""
-
-    turned = Signal()
+    """What its buttons do is the flow's affair."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -115,7 +113,6 @@ class CardScreen(Fitted):
         self.progress = None
         if self.isVisible():
             self.first().setFocus(Qt.FocusReason.OtherFocusReason)
-        self.turned.emit()
 
     def show_frame(self, color_rgb: ByteImage) -> None:
         self.picture.show_frame(color_rgb)
@@ -139,5 +136,13 @@ class CardScreen(Fitted):
         return self.check_button if self.check_button.isEnabled() else self.print_button
 
     def _paint_over(self, painter: QPainter, view: PictureView) -> None:
-        if self.progress is not None and self.progress.pixel is not None:
-            paint_discs(painter, view, self._theme, self.progress.pixel)
+        """A ring and a letter at each disc."""
+        if self.progress is None or self.progress.pixel is None:
+            return
+        for letter, (u, v) in zip(DISCS, self.progress.pixel.tolist(), strict=True):
+            at = view.to_screen(u, v)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            for color, width in ((QColor(0, 0, 0, 150), 4.0), (QColor(ON_PICTURE_PROPOSED), 2.0)):
+                painter.setPen(QPen(color, width))
+                painter.drawEllipse(at, 12.0, 12.0)
+            paint_label(painter, self._theme, letter, at.x() + 12.0, at.y() - 26.0)

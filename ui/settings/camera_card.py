@@ -40,3 +40,9 @@ class CameraCard(Card):
         self._sign.deleteLater()
         self._sign = sign
         self._state.setText(words)
+
+    def show_demo(self) -> None:
+        """No camera is there to be calibrated or checked."""
+        for button in (self.check_button, self.calibrate_button):
+            button.hide()
+        self.show_status("none", self.tr("In the demo the camera is simulated: there is nothing to calibrate."))

@@ -13,6 +13,7 @@ import numpy as np
 
 from carpus.core.calibration.camera.board import BOARDS, MOST_EDGE_PX, Board, FoundBoard, Pattern, edge_px, find_board
 from carpus.core.camera import Camera
+from carpus.core.phrase import Phrase, phrase
 from carpus.core.types import ByteImage, DepthImage, FloatArray, Frame
 
 FEWEST_VIEWS = 12
@@ -79,21 +80,38 @@ class Judgement:
             return f"tilted by {LEAST_TILT_DEG:g}° with these sides nearer: {tilted}; {FEWEST_SIDES} sides needed"
         return ""
 
-    @property
-    def next_step(self) -> str:
-        """What to do next with the board in the hand; empty when all is there."""
-        if not self.missing:
-            return ""
-        if len(self.sides) < FEWEST_SIDES and self.views >= FEWEST_VIEWS // 2:
-            side = next(side for side in SIDES if side not in self.sides)
-            return f"Tilt the board: {side} edge nearer to the camera."
+    def next_step(self, asked: int) -> Phrase | None:
+        """What to do next with the board in the hand, until there are ``asked`` pictures; None when all is there."""
         empty = np.argwhere(self.corners_in_field == 0)
         if len(empty) and self.fields < FEWEST_FIELDS:
-            down, across = empty[0]
-            vertical = ("top", "upper part", "lower part", "bottom")[int(down)]
-            horizontal = "left" if across < FIELDS[0] // 3 else "right" if across >= 2 * FIELDS[0] // 3 else "middle"
-            return f"Move the board to the {vertical}, {horizontal}."
-        return "Move the board to another place, tilt it another way, nearer or farther."
+            return phrase("Move the board to the {place}", place=_place_name(*empty[0].tolist()))
+        if len(self.sides) < FEWEST_SIDES:
+            side = next(side for side in SIDES if side not in self.sides)
+            return phrase("Tilt the board: {side} nearer", side=side_name(side))
+        if not self.is_near_and_far:
+            near = self.nearest_m <= NEAR_M or self.nearest_m * NEAR_FAR_RATIO < FAR_M
+            return phrase("Take the board farther away") if near else phrase("Bring the board nearer")
+        return phrase("Show it in other places, tilted other ways") if self.views < asked else None
+
+
+def side_name(side: Side) -> Phrase:
+    """An edge of the board as a person holds it."""
+    return {
+        "left": phrase("left edge"), "right": phrase("right edge"), "top": phrase("upper edge"),
+        "bottom": phrase("lower edge"),
+    }[side]  # fmt: skip
+
+
+def _place_name(down: int, across: int) -> Phrase:
+    """Where in the picture a field lies."""
+    columns = {(True, False): 0, (False, True): 2}
+    column = columns.get((across < FIELDS[0] // 3, across >= FIELDS[0] - FIELDS[0] // 3), 1)
+    row = columns.get((down == 0, down == FIELDS[1] - 1), 1)
+    return (
+        (phrase("top left"), phrase("top"), phrase("top right")),
+        (phrase("left"), phrase("centre"), phrase("right")),
+        (phrase("bottom left"), phrase("bottom"), phrase("bottom right")),
+    )[row][column]
 
 
 def board_pose(found: FoundBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
@@ -168,108 +186,22 @@ DARK = 70.0
 ASKED_VIEWS: dict[Pattern, int] = {"chessboard": 30, "charuco": 44}
 """So many are asked for before a live camera: more than must be, since each costs a person three seconds, and with them
 the focal length is known to 0.1 %. A ChArUco board has half the corners."""
-WORKING_M, NEAR_M, FAR_M = 0.6, 0.48, 0.85
-"""Where the board is best held: usually, near and far."""
-ASKED_TILT_DEG = 36.0
-_MARGIN_PX = 14.0
+NEAR_M, FAR_M = 0.55, 0.85
+"""A board that has been nearer than this, or would go beyond it, is to be shown farther away next."""
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What one picture shows of the board. ``edge_px`` width of its edges, ``motion_px`` from one picture of the
-    camera to the next, ``tilt_deg`` and ``distance_m``: NaN where not known. ``kept``: this picture counts."""
+    """What one picture shows of the board; ``kept``: it counts."""
 
     found: FoundBoard | None
     lack: Lack
-    edge_px: float = math.nan
-    motion_px: float = math.nan
-    tilt_deg: float = math.nan
-    distance_m: float = math.nan
     kept: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class GuidanceStep:
-    """What to do next: hold the board at a ``field`` (down, across) of the picture, tilt it with a ``side`` nearer, go
-    ``near`` or ``far``; ``done`` when all is there."""
-
-    kind: Literal["place", "tilt", "near", "far", "done"]
-    field: tuple[int, int] | None = None
-    side: Side | None = None
 
 
 def is_dark(color_rgb: ByteImage) -> bool:
     """Whether a picture has too little light to find a board in it."""
     return float(np.percentile(color_rgb[::8, ::8].max(axis=2), 90)) < DARK
-
-
-def next_step(
-    judgement: Judgement,
-    last: FoundBoard | None = None,
-    size_px: tuple[int, int] = (640, 480),
-    asked: int = ASKED_VIEWS["chessboard"],
-) -> GuidanceStep:
-    """Whole area first, then the tilts, then near and far, then ``asked`` pictures in all; near places come first."""
-    empty, side = np.argwhere(judgement.corners_in_field == 0), _missing_side(judgement)
-    if judgement.fields < FEWEST_FIELDS:
-        return GuidanceStep("place", _nearest(empty, last, size_px), side)
-    if len(judgement.sides) < FEWEST_SIDES:
-        return GuidanceStep("tilt", side=side)
-    if not judgement.is_near_and_far:
-        near = judgement.nearest_m <= 1.15 * NEAR_M or judgement.nearest_m * NEAR_FAR_RATIO < FAR_M
-        return GuidanceStep("far" if near else "near")
-    if judgement.views >= asked:
-        return GuidanceStep("done")
-    thin = empty if len(empty) else np.argwhere(judgement.corners_in_field == judgement.corners_in_field.min())
-    # In a place where it has been before, the board must at least be tilted another way to say something new.
-    return GuidanceStep("place", _nearest(thin, last, size_px), side or SIDES[judgement.views % len(SIDES)])
-
-
-def _nearest(fields: np.ndarray, last: FoundBoard | None, size_px: tuple[int, int]) -> tuple[int, int]:
-    """The field (down, across) of these that is nearest to where the board is."""
-    here = _field_of(last, size_px)
-    down, across = min(fields.tolist(), key=lambda one: (math.hypot(one[0] - here[0], one[1] - here[1]), one))
-    return int(down), int(across)
-
-
-def _field_of(found: FoundBoard | None, size_px: tuple[int, int]) -> tuple[float, float]:
-    """Where the board is among the fields; the middle where it is not seen."""
-    if found is None:
-        return (0.5 * (FIELDS[1] - 1), 0.5 * (FIELDS[0] - 1))
-    u, v = found.pixel.mean(axis=0)
-    return (float(v) * FIELDS[1] / size_px[1] - 0.5, float(u) * FIELDS[0] / size_px[0] - 0.5)
-
-
-def _missing_side(judgement: Judgement) -> Side | None:
-    return next((side for side in SIDES if side not in judgement.sides), None)
-
-
-def target_outline(step: GuidanceStep, board: Board, camera: Camera) -> FloatArray | None:
-    """Corners (4, 2) in the picture of the board as the step wants it held, all of it in the picture; None for none."""
-    if step.kind == "done":
-        return None
-    away_m = {"near": NEAR_M, "far": FAR_M}.get(step.kind, WORKING_M)
-    rotation = _tilted(step.side) if step.kind in ("place", "tilt") else np.eye(3)
-    flat = board.outline_m - board.outline_m.mean(axis=0)
-    middle = np.array([0.5 * camera.width_px, 0.5 * camera.height_px])
-    if step.field is not None:
-        down, across = step.field
-        middle = np.array([(across + 0.5) * camera.width_px / FIELDS[0], (down + 0.5) * camera.height_px / FIELDS[1]])
-    pixel = camera.project(flat @ rotation.T + camera.back_project(middle, np.asarray(away_m)))
-    for _ in range(3):  # moved until all of it is in the picture; perspective changes its size only a little
-        low, high = pixel.min(axis=0), pixel.max(axis=0)
-        size = np.array([camera.width_px, camera.height_px], dtype=np.float64)
-        middle = middle + np.maximum(_MARGIN_PX - low, 0.0) - np.maximum(high - size + _MARGIN_PX, 0.0)
-        pixel = camera.project(flat @ rotation.T + camera.back_project(middle, np.asarray(away_m)))
-    return np.asarray(pixel)
-
-
-def _tilted(side: Side | None) -> FloatArray:
-    """Rotation (3, 3) of a board whose ``side`` is nearer."""
-    angle = math.radians(ASKED_TILT_DEG)
-    turn = {"left": (0.0, -angle, 0.0), "right": (0.0, angle, 0.0), "top": (angle, 0.0, 0.0),
-            "bottom": (-angle, 0.0, 0.0)}.get(side or "", (0.0, 0.0, 0.0))  # fmt: skip
-    return np.asarray(cv2.Rodrigues(np.array(turn))[0], dtype=np.float64)
 
 
 LOOK_EVERY_S = 0.12
@@ -292,7 +224,6 @@ class Gathering:
         self._last: tuple[float, FoundBoard] | None = None
         self._looked_s = float("-inf")
         self.looked, self.seen = 0, 0
-        self._by_hand, self._undone = False, 0
 
     @property
     def views(self) -> Sequence[BoardView]:
@@ -309,7 +240,6 @@ class Gathering:
 
     def look(self, frame: Frame) -> Look | None:
         """Look at a frame and say what it lacks; None where it comes too soon after the last one."""
-        self._obey()
         if frame.timestamp_s - self._looked_s < LOOK_EVERY_S or len(self._views) >= MOST_VIEWS:
             return None
         self._looked_s = frame.timestamp_s
@@ -326,24 +256,9 @@ class Gathering:
         edge, motion = edge_px(frame.color_rgb, found), _motion_px(found, frame.timestamp_s, before)
         lack: Lack = "blurred" if edge > MOST_EDGE_PX else "" if is_new(found, self._views) else "known"
         lack = "moving" if motion > MOST_MOTION_PX else lack
-        kept = not lack or (self._by_hand and lack != "known")
-        if kept:
+        if not lack:
             self._views.append(view)
-            self._by_hand, lack = False, ""
-        return Look(found, lack, edge, motion, view.tilt_deg, view.distance_m, kept)
-
-    def take(self) -> None:
-        """Keep the next picture of the board even if it moves or is blurred; may be called from another thread."""
-        self._by_hand = True
-
-    def undo(self) -> None:
-        """Leave out the picture that was kept last; may be called from another thread, and counts at the next look."""
-        self._undone += 1
-
-    def _obey(self) -> None:
-        while self._undone:
-            self._undone -= 1
-            del self._views[-1:]
+        return Look(found, lack, kept=not lack)
 
 
 def _motion_px(found: FoundBoard, now_s: float, before: tuple[float, FoundBoard] | None) -> float:

@@ -7,9 +7,9 @@ import pytest
 from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
 from carpus.core.calibration.camera.views import Gathering
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.simulation.practice_camera import Studio, poses, texture_of
 from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets
+from tests.studio import Studio, poses, texture_of
 
 
 @pytest.fixture(scope="package")

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from carpus.core.camera import Camera
 from carpus.core.capture.source import SourceInfo
-from carpus.core.simulation.practice_camera import Placed, Studio
 from carpus.core.types import Frame
+from tests.studio import Placed, Studio
 
 
 class ShownSheets:

@@ -21,24 +21,22 @@ from carpus.core.calibration.camera.board import (
     find_board,
 )
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, calibration_lines
-from carpus.core.calibration.camera.effect import HAND_LENGTH_M, effect_of
 from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
 from carpus.core.calibration.camera.views import (
     ASKED_VIEWS,
     FEWEST_VIEWS,
-    SIDES,
     BoardView,
     Gathering,
-    GuidanceStep,
     is_new,
     judge,
-    next_step,
-    target_outline,
     view_of,
 )
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike, CarpusFault
-from carpus.core.simulation.practice_camera import (
+from carpus.core.simulation.sensor import depth_scale
+from carpus.core.types import FloatArray, Frame
+from tests.calibration.camera.printed import ShownSheets
+from tests.studio import (
     BOARD_DISTANCES_M,
     DIFFERENT,
     LENS,
@@ -48,9 +46,6 @@ from carpus.core.simulation.practice_camera import (
     poses,
     texture_of,
 )
-from carpus.core.simulation.sensor import depth_scale
-from carpus.core.types import FloatArray, Frame
-from tests.calibration.camera.printed import ShownSheets
 
 
 @pytest.fixture(scope="package")
@@ -147,24 +142,6 @@ def test_pictures_that_are_not_enough_are_refused(case: str, gathered: Gathering
         calibrate_camera(change(gathered.views), DEFAULT_CAMERA, "studio")
 
 
-def test_what_to_do_next_is_where_nothing_has_been_and_all_of_the_board_fits_there(gathered: Gathering) -> None:
-    first = next_step(judge([], 640, 480))
-    assert first.kind == "place"
-    for judgement in (judge(gathered.views[:1], 640, 480), judge(gathered.views[:6], 640, 480)):
-        step = next_step(judgement, gathered.views[0].found)
-        if step.field is not None:
-            assert judgement.corners_in_field[step.field] == judgement.corners_in_field.min()
-    for field in ((0, 0), (0, 5), (3, 0), (3, 5), (1, 2)):
-        for side in SIDES:
-            outline = target_outline(GuidanceStep("place", field, side), CHESSBOARD, DEFAULT_CAMERA)
-            assert outline is not None
-            assert outline.min() > 0.0
-            assert (outline.max(axis=0) < [640, 480]).all()
-    upright = replace(judge(gathered.views, 640, 480), sides=frozenset({"left"}))
-    assert next_step(upright) == GuidanceStep("tilt", side="right")
-    assert next_step(replace(judge(gathered.views, 640, 480), views=ASKED_VIEWS["chessboard"])).kind == "done"
-
-
 def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
     def look(*frames: Frame) -> list[str]:
         gathering = Gathering(DEFAULT_CAMERA)
@@ -183,53 +160,17 @@ def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
     assert look(shown[0], shown[0], shown[1]) == ["", "known", "moving"]
     assert look(blurred) == ["blurred"]
     assert look(with_color(dark, np.zeros_like(dark.color_rgb))) == ["dark"]
-    gathering = Gathering(DEFAULT_CAMERA)
-    gathering.take()
-    assert gathering.add(blurred), "by hand it counts"
-    gathering.undo()
-    gathering.add(replace(shown[1], timestamp_s=shown[0].timestamp_s + 9.0))
-    assert len(gathering.views) == 1
 
 
-def test_the_map_has_every_corner_that_the_guidance_counted(made: CameraCalibration, gathered: Gathering) -> None:
-    """Also of pictures that were left out of the fit in the end."""
-    fit = made.intrinsics
-    few = replace(fit, used=fit.used[:2], board_turn=fit.board_turn[:2], board_shift_m=fit.board_shift_m[:2])
-    effect = effect_of(replace(made, intrinsics=few), gathered.views)
-    pixel = np.concatenate([view.found.pixel for view in gathered.views])
-    across = (pixel[:, 0] * 13 / made.before.width_px).astype(int).clip(0, 12)
-    down = (pixel[:, 1] * 9 / made.before.height_px).astype(int).clip(0, 8)
-    there = np.zeros((9, 13), dtype=bool)
-    there[down, across] = True
-    np.testing.assert_array_equal(np.isfinite(effect.map_px).all(axis=-1), there)
-
-
-def test_the_effect_on_a_hand_is_told(made: CameraCalibration, gathered: Gathering, studio: Studio) -> None:
-    effect = effect_of(made, gathered.views)
-    assert np.nanmax(np.abs(effect.map_px)) < 0.5
-    assert effect.before_px > made.intrinsics.error_px
-    # Focal length too short and depth too long both make a hand too long, by their shares together.
-    long = HAND_LENGTH_M * 1e3 * (depth_scale(studio.spec) * LENS.fy_px / DEFAULT_CAMERA.fy_px - 1.0)
-    assert effect.length_more_mm == pytest.approx(long, abs=0.6)
-    assert abs(effect.angle_more_deg) < 1.5
-    assert made.is_usable
-    lens = replace(made.before, distortion=(0.15, -0.1, 0.002, 0.0, 0.0), distortion_model="inverse_brown_conrady")
-    views = []
-    for view in gathered.views:
-        board = view.found.board
-        flat = board.corners_m[view.found.corner] - board.outline_m.mean(axis=0)
-        pixel = lens.distort(lens.project(flat + np.array([0.02, 0.0, 0.7])))
-        views.append(replace(view, found=replace(view.found, pixel=pixel)))
-    assert effect_of(replace(made, before=lens), views).before_px < 1e-2, "its own lens explains its pictures"
-
-
-def test_the_next_step_names_what_is_missing(gathered: Gathering) -> None:
-    assert judge([], 640, 480).next_step
-    without = [view for view in gathered.views if view.nearer != "left" and view.nearer != "right"]
-    few = judge(without, 640, 480)
-    assert few.sides <= {"top", "bottom"}
-    assert "Tilt the board: left edge nearer" in few.next_step
-    assert gathered.judgement.next_step == ""
+def test_next_step_names_what_is_missing_until_all_is_there(gathered: Gathering) -> None:
+    asked, whole = ASKED_VIEWS["chessboard"], gathered.judgement
+    assert judge([], 640, 480).next_step(asked) == "Move the board to the top left"
+    upright = [view for view in gathered.views if view.nearer != "left" and view.nearer != "right"]
+    assert replace(whole, sides=judge(upright, 640, 480).sides).next_step(asked) == "Tilt the board: left edge nearer"
+    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_step(asked) == "Take the board farther away"
+    assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_step(asked) == "Bring the board nearer"
+    assert replace(whole, views=asked - 1).next_step(asked) == "Show it in other places, tilted other ways"
+    assert replace(whole, views=asked).next_step(asked) is None
 
 
 def test_the_nearer_side_is_the_nearer_side(studio: Studio) -> None:

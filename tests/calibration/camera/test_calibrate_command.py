@@ -31,11 +31,11 @@ from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CameraFileUnreadable
 from carpus.core.pipeline.track import source_facts
-from carpus.core.simulation.practice_camera import LENS, Studio
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets
 from tests.capture.oni_writer import write_oni
+from tests.studio import LENS, Studio
 
 SERIAL = "1206-77"
 

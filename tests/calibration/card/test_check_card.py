@@ -37,8 +37,8 @@ from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CardMissing
-from carpus.core.simulation.practice_camera import LENS, Studio, card_scene
 from carpus.core.types import Frame
+from tests.studio import LENS, Studio, card_scene
 
 NOW = datetime(2026, 11, 20, 9, tzinfo=UTC)
 

@@ -1,4 +1,4 @@
-"""A simulated camera before which a printed board is shown, or a check card lies: to try both without a camera."""
+"""A simulated camera before which a printed board is shown, or a check card lies."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ from carpus.core.calibration.card.card import (
     wedge_sheet,
 )
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.source import SERIAL, SourceInfo
+from carpus.core.capture.source import SERIAL as SAID_SERIAL
+from carpus.core.capture.source import SourceInfo
 from carpus.core.simulation.appearance import appearance_of, linear
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor, depth_pictures
@@ -196,7 +197,7 @@ def _ridge_m(low_edge_m: FloatArray) -> FloatArray:
     return low_edge_m + np.array([0.0, SLOPE_MM * math.cos(slope), -SLOPE_MM * math.sin(slope)]) / 1e3
 
 
-PRACTICE_SERIAL = "practice"
+SERIAL = "studio"
 NAME = "Simulated camera"
 FPS = 5.0
 _STILL_FRAMES = 8
@@ -209,12 +210,12 @@ _MOST_PICTURES = 24
 """Different pictures of the card; then they come again, as nothing moves."""
 
 
-class PracticeCamera:
+class StudioCamera:
     """Frames without end, each some time after the one before, as a person holds still for as long as it takes;
     ``speed`` 2 waits half as long. Ends by :meth:`close`."""
 
     def __init__(self, pictures: Iterator[Frame], speed: float = 1.0) -> None:
-        settings = {SERIAL: PRACTICE_SERIAL, SIMULATED: "yes"}
+        settings = {SAID_SERIAL: SERIAL, SIMULATED: "yes"}
         self.info = SourceInfo(NAME, DEFAULT_CAMERA, True, None, FPS, settings)
         self._pictures = pictures
         self._pause_s = 1.0 / (FPS * speed)
@@ -231,14 +232,14 @@ class PracticeCamera:
         self._closed.set()
 
 
-def board_camera(board: Board, speed: float = 1.0) -> PracticeCamera:
+def board_camera(board: Board, speed: float = 1.0) -> StudioCamera:
     """The board as a person shows it who does what is asked: everywhere, tilted to all sides, near and far."""
-    return PracticeCamera(_board_frames(board), speed)
+    return StudioCamera(_board_frames(board), speed)
 
 
-def card_camera(speed: float = 1.0) -> PracticeCamera:
+def card_camera(speed: float = 1.0) -> StudioCamera:
     """The check card as it lies under the camera."""
-    return PracticeCamera(_card_frames(), speed)
+    return StudioCamera(_card_frames(), speed)
 
 
 def _board_frames(board: Board) -> Iterator[Frame]:
