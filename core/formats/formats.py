@@ -180,6 +180,7 @@ def _nobody(sessions: Iterable[Wanted]) -> Deidentification:
 
 def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version: str) -> Take:
     session, choices = one.read()
+    camera = session.camera
     # Before anybody's days are moved.
     day = session.header.when.date()
     name = one.path.stem
@@ -199,7 +200,7 @@ def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version
     by_hand = of_session(one.by_hand, figures.side, day)
     if nobody is not None:  # day, place and initials are a person's own
         by_hand = tuple(replace(value, day=date.min, where="", by="", entered=None) for value in by_hand)
-    return Take(session, figures, name, said, by_hand)
+    return Take(session, figures, name, said, by_hand, camera)
 
 
 def _readme(formats: Sequence[str], deidentified: bool) -> str:

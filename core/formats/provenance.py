@@ -10,9 +10,13 @@ from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from typing import Any
 
+import numpy as np
+
 from carpus.core import provenance as made_by
+from carpus.core.camera import Camera
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.session.values import SET_UP, Event, Session, SessionHeader, SessionOutline
+from carpus.core.types import FloatArray
 
 LEGAL = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
@@ -23,6 +27,8 @@ OF_NO_ONE = (
     "driver",
 )  # fmt: skip
 """What a de-identified export says of the source: nothing that names a device, a file or a day."""
+FOCAL_STEP = 25.0 / 640.0
+"""Of the picture's width: units of one kind differ by less."""
 
 
 def provenance(session: Session, software_version: str, deidentified: bool = False) -> dict[str, Any]:
@@ -63,6 +69,31 @@ def provenance(session: Session, software_version: str, deidentified: bool = Fal
     return out
 
 
+def round_camera(camera: Camera) -> Camera:
+    """A camera of this kind that could be any unit: no lens errors, the middle of the picture, a rounded focal length.
+
+    >>> camera = round_camera(Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.0, 0.001, 0.0)))
+    >>> camera.fx_px, camera.fy_px, camera.cx_px, camera.is_distorted
+    (525.0, 525.0, 319.5, False)
+    """
+    step_px = FOCAL_STEP * camera.width_px
+    focal_px = step_px * round((camera.fx_px + camera.fy_px) / 2.0 / step_px)
+    sensor = replace(camera.sensor, focal_px=step_px * round(camera.sensor.focal_px / step_px))
+    return Camera(
+        focal_px, focal_px, (camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0, camera.width_px,
+        camera.height_px, origin=camera.origin, sensor=sensor,
+    )  # fmt: skip
+
+
+def move_pixels(pixel: FloatArray, old: Camera, new: Camera) -> FloatArray:
+    """Pixels (..., 2) of one camera as another one at its place sees them; NaN stays."""
+    out = np.asarray(pixel, dtype=np.float64).reshape(-1, 2).copy()
+    known = np.isfinite(out).all(axis=1)
+    ideal = old.undistort(out[known])
+    out[known] = new.distort(new.project(old.back_project(ideal, np.ones(len(ideal)))))
+    return out.reshape(np.shape(pixel))
+
+
 DAY_NOUGHT = datetime(1900, 1, 1, tzinfo=UTC)
 """Day of a patient's first session; BIDS marks a shifted date by a year before 1925."""
 _SET_UP_KEPT = ("targets_deg", "repetitions", "ends_free")
@@ -86,10 +117,27 @@ class Deidentification:
             self._first_day[header.subject_id] = min(day, self._first_day.get(header.subject_id, day))
 
     def session(self, session: Session) -> Session:
-        """The same movement of nobody: times from nought, no text that a person wrote, nothing of the device."""
+        """The same movement of nobody: times from nought, no text that a person wrote, nothing of the device.
+
+        The camera is a rounded one, and every pixel lies where that one would see it: from exact pixels and places the
+        exact camera could be worked out, which is the same in every export of a clinic.
+        """
         start_s = float(session.timestamp_s[0]) if len(session) else 0.0
+        old, new = session.camera, round_camera(session.camera)
+        clicks, verdict = session.calibration.clicks, session.calibration.verdict
+        findings = tuple(
+            replace(one, spot_px=tuple(move_pixels(np.array(one.spot_px), old, new))) if one.spot_px else one
+            for one in verdict.findings
+        )
         return replace(
             session,
+            camera=new,
+            calibration=replace(
+                session.calibration,
+                clicks=replace(clicks, pixel=move_pixels(clicks.pixel, old, new)),
+                verdict=replace(verdict, findings=findings),
+            ),
+            markers=replace(session.markers, measured_px=move_pixels(session.markers.measured_px, old, new)),
             header=self._header(session.header, start_s),
             timestamp_s=session.timestamp_s - start_s,
             events=tuple(

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from carpus.core.camera import Camera
+from carpus.core.formats.provenance import move_pixels
 from carpus.core.formats.take import Take
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session import recovery
 from carpus.core.session.disk import part_path
 from carpus.core.session.reader import read_detections
-from carpus.core.session.values import Session, moments_of
+from carpus.core.session.values import DetectionTable, moments_of
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackedFrame, TrackStatus
 
@@ -25,7 +28,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     recovery.take_away(part_path(path, session.header.session_id))  # of a program that was killed
     writer = SessionWriter.create(path, session.header, session.camera, session.calibration)
     try:
-        for frame in _frames(session):
+        for frame in _frames(take):
             writer.append(frame)
         for event in session.events:
             writer.add_event(event.time_s, event.kind, event.text)
@@ -40,9 +43,12 @@ def write(take: Take, folder: Path) -> list[Path]:
     return [path]
 
 
-def _frames(session: Session) -> Iterator[TrackedFrame]:
+def _frames(take: Take) -> Iterator[TrackedFrame]:
+    session = take.session
     markers, quality = session.markers, session.quality
     table = read_detections(session.path)
+    if take.recorded_by is not None and take.recorded_by != session.camera:
+        table = _moved(table, take.recorded_by, session.camera)
     count = len(session.header.protocol.markers)
     no_pixel, no_cov = np.full((count, 2), np.nan), np.full((count, 2, 2), np.nan)
     for row, moment in enumerate(moments_of(session.motion)):
@@ -63,3 +69,10 @@ def _frames(session: Session) -> Iterator[TrackedFrame]:
             nis_dof=int(quality.nis_dof[row]),
             doubted=markers.doubted[row],
         )
+
+
+def _moved(table: DetectionTable, old: Camera, new: Camera) -> DetectionTable:
+    """What was detected as the camera of the copy sees it."""
+    surface, fingers = ((move_pixels(pixel, old, new), depth) for pixel, depth in (table.surface, table.fingers))
+    blobs = replace(table.blobs, pixel=move_pixels(table.blobs.pixel, old, new))
+    return DetectionTable(table.frame, blobs, surface, fingers)

@@ -11,9 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from carpus.core.camera import Camera
 from carpus.core.errors import OutputExists, OutputNotWritable, SessionUnreadable
 from carpus.core.formats import formats
 from carpus.core.formats.formats import FORMATS, Wanted
+from carpus.core.formats.provenance import Deidentification, move_pixels
 from carpus.core.hand.protocols import HAND21
 from carpus.core.results.figures import session_figures
 from carpus.core.session.disk import part_path
@@ -36,7 +38,10 @@ def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bo
     assert np.allclose(new.timestamp_s, old.timestamp_s - start_s, atol=1e-6)
     for name in ("angles_rad", "joint_angles_rad", "joint_angles_sd_rad", "rotation_w2_w0", "joint_position_m"):
         assert np.array_equal(getattr(new.motion, name), getattr(old.motion, name), equal_nan=True)
-    assert np.array_equal(read_detections(copy).blobs.pixel, read_detections(path).blobs.pixel)
+    seen = read_detections(path).blobs.pixel
+    if deidentified:
+        seen = move_pixels(seen, old.camera, new.camera)
+    assert np.allclose(read_detections(copy).blobs.pixel, seen, atol=1e-3)
     mine, theirs = session_figures(old), session_figures(new)
     for one, other in zip((*mine.rows, *mine.joint_rows), (*theirs.rows, *theirs.joint_rows), strict=True):
         assert (one.key, one.count) == (other.key, other.count)
@@ -82,6 +87,27 @@ def test_nobody_is_found_in_what_was_deidentified(tmp_path: Path) -> None:
         for text in secret:
             assert text.encode() not in content, (file.name, text)
             assert text not in str(file.relative_to(tmp_path / "out"))
+
+
+def test_a_deidentified_export_tells_no_camera_from_another_of_its_kind(tmp_path: Path) -> None:
+    cameras = (
+        Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.001, 0.002, 0.0)),
+        Camera(523.9, 526.1, 325.7, 236.4, distortion=(0.05, -0.2, 0.0, 0.001, 0.1)),
+    )
+    path = stored(tmp_path)
+    session, said = read_session(path), []
+    place = session.markers.position_cam_m[0]
+    for camera in cameras:
+        said.append(Deidentification().session(replace(session, camera=camera)).camera)
+        moved = move_pixels(camera.distort(camera.project(place)), camera, said[-1])
+        assert np.allclose(moved, said[-1].project(place), atol=0.05)
+    assert said[0] == said[1]
+    export_sessions([Wanted.stored(path)], tmp_path / "out", ["h5", "json"], deidentified=True)
+    (copy,) = (tmp_path / "out").glob("*.h5")
+    camera = read_session(copy).camera
+    assert (camera.fx_px, camera.cx_px, camera.is_distorted) == (575.0, 319.5, False)
+    (text,) = (tmp_path / "out").glob("*.json")
+    assert f"{session.camera.fx_px}" not in text.read_text(encoding="utf-8")
 
 
 def test_one_patient_stays_one_and_days_count_from_the_first(tmp_path: Path) -> None:
