@@ -125,11 +125,16 @@ class CommandParser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """End with one line on stderr."""
         said = " ".join(message.removeprefix("argument ").split()).rstrip(".")
-        self.exit(2, f"{self.prog}: {said}. “{self.prog} --help” shows how.\n")
+        ends = "" if said.endswith("?") else "."
+        self.exit(2, f"{self.prog}: {said}{ends} “{self.prog} --help” shows how.\n")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             names = [str(name) for name in action.choices]
+            if action.dest == "command":
+                meant = nearest(str(value), names)
+                also = f". Did you mean “{meant}”?" if meant else f"; {known_names(str(value), names)}"
+                raise argparse.ArgumentError(None, f"Unknown command “{value}”{also}")
             raise argparse.ArgumentError(action, f"no “{value}” is known; {known_names(str(value), names)}")
 
     def refuse(self, extra: Sequence[str]) -> NoReturn:

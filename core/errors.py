@@ -181,6 +181,12 @@ class SessionUnreadable(CarpusFault):
     do = phrase("Check that it is a session of this or an older Carpus, or take it from a backup.")
 
 
+class SessionMissing(SessionUnreadable):
+    happened = phrase("File not found: {subject}.")
+    safe = _UNCHANGED
+    do = phrase("Check the path.")
+
+
 class SessionChanged(CarpusFault):
     happened = phrase("This session was changed after it was finished: {subject}.")
     safe = phrase("It can still be read; its seal does not fit what it holds now.")

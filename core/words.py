@@ -75,9 +75,9 @@ def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) 
 
 
 def one_sentence(fault: CarpusFault) -> str:
-    """One line for the command line: what happened, with which file, and what to do."""
+    """One line for the command line: what happened, with which file, whether data are safe, and what to do."""
     words = words_of(fault, marker_names=True)
-    return on_one_line(words.happened, words.do)
+    return " ".join(part for part in (words.happened, words.safe, words.do) if part)
 
 
 def marker_in_words(marker: str, say: Say = str) -> str:

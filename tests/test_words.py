@@ -99,8 +99,8 @@ def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -
 def test_a_file_and_its_line_are_named() -> None:
     fault = errors.RecordingUnreadable("/take/rgb.txt", "line 7 is not a time and a file name: 'x'")
     assert one_sentence(fault) == (
-        "The recording cannot be read: /take/rgb.txt (line 7 is not a time and a file name: 'x'); "
-        "copy the recording again from where it was made, or correct the list."
+        "The recording cannot be read: /take/rgb.txt (line 7 is not a time and a file name: 'x'). The recording was "
+        "not changed. Copy the recording again from where it was made, or correct the list."
     )
 
 

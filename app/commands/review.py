@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from carpus.app.commands import desktop
-from carpus.core.errors import SessionUnreadable
+from carpus.core.errors import SessionMissing
 
 EXAMPLE = "carpus review session.h5"
 
@@ -19,5 +19,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     path = arguments.session.absolute()
     if not path.is_file():  # whatever else is wrong with it, the window tells
-        raise SessionUnreadable(str(arguments.session), "there is no such file")
+        raise SessionMissing(arguments.session)
     return desktop.open_window(arguments.data_folder, is_demo=False, session=path)

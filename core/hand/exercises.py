@@ -93,7 +93,7 @@ EXERCISES = (
     Exercise(
         "WRIST_FE", FLEXION, 10, 10.0, True,
         name=phrase("Wrist flexion–extension"),
-        asked=phrase("Lift the back of the hand up, then let it drop as far as comfortable."),
+        asked=phrase("Bend the wrist up, then down, as far as is comfortable. Keep the forearm still."),
         position=phrase("Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed."),
         adult=(phrase("Bend your hand down"), phrase("Lift your hand up")), child=(phrase("Down"), phrase("Up")),
         motion="flexion",
@@ -101,9 +101,9 @@ EXERCISES = (
     Exercise(
         "WRIST_RU", DEVIATION, 10, 10.0, True,
         name=phrase("Wrist side to side"),
-        asked=phrase("Slide the hand to the thumb side, then to the little-finger side. Keep it flat."),
+        asked=phrase("Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still."),
         position=phrase("Palm flat on a smooth sheet, forearm strapped."),
-        adult=(phrase("Slide your hand to the thumb side"), phrase("Slide your hand to the little finger side")),
+        adult=(phrase("Tilt your hand towards your thumb"), phrase("Tilt your hand towards your little finger")),
         child=(phrase("To the thumb"), phrase("To the little finger")),
         motion="deviation",
     ),
@@ -137,7 +137,7 @@ EXERCISES = (
     Exercise(
         "FIST_HOOK", None, 10, math.nan, False, _FINGERS, "PIP3_flexion",
         name=phrase("Hook fist"),
-        asked=phrase("Keep the knuckles straight, bend only the end joints like a hook, then open."),
+        asked=phrase("Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten."),
         position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
         unseen=phrase(
             "About half-way the middle joints go out of the camera's sight: repetitions are counted all the "

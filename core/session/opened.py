@@ -16,7 +16,14 @@ from carpus.core.calibration.result import Calibration, CalibrationFinding, Clic
 from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.dates import iso, time_of_day
 from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, sensor_of
-from carpus.core.errors import CarpusFault, ProtocolUnknown, SessionChanged, SessionUnfinished, SessionUnreadable
+from carpus.core.errors import (
+    CarpusFault,
+    ProtocolUnknown,
+    SessionChanged,
+    SessionMissing,
+    SessionUnfinished,
+    SessionUnreadable,
+)
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase
@@ -133,7 +140,9 @@ def read_raw_color(path: Path, row: int) -> bytes:
 def open_session(path: Path) -> Iterator[h5py.File]:
     """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""
     if not path.is_file():
-        raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("there is no such file"))
+        if not path.exists():
+            raise SessionMissing(path)
+        raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("not a file"))
     try:
         with h5py.File(path, "r") as file:
             check_plain(path, file)

@@ -20,7 +20,7 @@ from typing import Any, cast
 
 from carpus.core import errors
 from carpus.core.child_process import ChildProcess
-from carpus.core.errors import CarpusFault, SessionUnreadable
+from carpus.core.errors import CarpusFault, SessionMissing, SessionUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.session.values import DetectionTable, RawPictures, Session, SessionOutline, Verified
 
@@ -159,11 +159,13 @@ READING = ReadingProcess()
 
 def _ask(name: str, path: Path, *arguments: object) -> Any:
     try:
-        is_there, is_folder = path.is_file(), path.is_dir()
+        is_there, is_file, is_folder = path.exists(), path.is_file(), path.is_dir()
     except (OSError, ValueError):
-        is_there = is_folder = False
-    if not is_there:  # neither a folder nor a pipe is handed to HDF5, which would wait for the pipe
-        raise SessionUnreadable(path, phrase("a folder") if is_folder else phrase("there is no such file"))
+        is_there = is_file = is_folder = False
+    if not is_there:
+        raise SessionMissing(path)
+    if not is_file:  # neither a folder nor a pipe is handed to HDF5, which would wait for the pipe
+        raise SessionUnreadable(path, phrase("a folder") if is_folder else phrase("not a file"))
     return READING.ask(name, path, *arguments)
 
 

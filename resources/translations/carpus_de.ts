@@ -1124,10 +1124,6 @@
         <translation>Warten auf das erste Bild</translation>
     </message>
     <message>
-        <source>Hand lost</source>
-        <translation>Hand verloren</translation>
-    </message>
-    <message>
         <source>Hold the hand flat under the camera</source>
         <translation>Hand flach unter die Kamera halten</translation>
     </message>
@@ -1552,10 +1548,6 @@
         <translation>Gut gemacht.</translation>
     </message>
     <message>
-        <source>Lie still</source>
-        <translation>Ruhig liegen</translation>
-    </message>
-    <message>
         <source>Let your hand lie still</source>
         <translation>Lassen Sie die Hand ruhig liegen</translation>
     </message>
@@ -1622,14 +1614,6 @@
     <message>
         <source>Up</source>
         <translation>Hoch</translation>
-    </message>
-    <message>
-        <source>Slide your hand to the thumb side</source>
-        <translation>Schieben Sie die Hand zur Daumenseite</translation>
-    </message>
-    <message>
-        <source>Slide your hand to the little finger side</source>
-        <translation>Schieben Sie die Hand zur Kleinfingerseite</translation>
     </message>
     <message>
         <source>To the thumb</source>
@@ -3212,14 +3196,6 @@
         <translation>verletzt am {day}</translation>
     </message>
     <message>
-        <source>Lift the back of the hand up, then let it drop as far as comfortable.</source>
-        <translation>Den Handrücken nach oben heben, dann so weit sinken lassen, wie es angenehm ist.</translation>
-    </message>
-    <message>
-        <source>Slide the hand to the thumb side, then to the little-finger side. Keep it flat.</source>
-        <translation>Die Hand zur Daumenseite schieben, dann zur Kleinfingerseite. Sie bleibt flach.</translation>
-    </message>
-    <message>
         <source>Turn the palm up as far as the markers stay visible, then back.</source>
         <translation>Die Handfläche nach oben drehen, solange die Marker zu sehen sind, dann zurück.</translation>
     </message>
@@ -3230,10 +3206,6 @@
     <message>
         <source>Close all fingers into a full fist, then open flat.</source>
         <translation>Alle Finger zur Faust schließen, dann flach öffnen.</translation>
-    </message>
-    <message>
-        <source>Keep the knuckles straight, bend only the end joints like a hook, then open.</source>
-        <translation>Die Grundgelenke gestreckt halten, nur Mittel- und Endgelenke wie einen Haken beugen, dann öffnen.</translation>
     </message>
     <message>
         <source>Spread the fingers wide, then close them.</source>
@@ -5496,10 +5468,6 @@
         <translation>Letzte Sicherung: {day}.</translation>
     </message>
     <message>
-        <source>Together</source>
-        <translation>Zusammen</translation>
-    </message>
-    <message>
         <source>± is the spread between repetitions.</source>
         <translation>± ist die Streuung zwischen Wiederholungen.</translation>
     </message>
@@ -6188,10 +6156,6 @@
         <translation>{name}: {active} von selbst, {passive} mit Hilfe. Die {gap} dazwischen sind mehr als der Fehler.</translation>
     </message>
     <message>
-        <source>When helped it goes no further than the error of measurement.</source>
-        <translation>Mit Hilfe geht es nicht weiter als der Messfehler.</translation>
-    </message>
-    <message>
         <source>Active and passive are shown, not judged: {why}.</source>
         <translation>Aktiv und passiv werden gezeigt, nicht beurteilt: {why}.</translation>
     </message>
@@ -6662,6 +6626,50 @@
     <message>
         <source>Show it in other places, tilted other ways</source>
         <translation>Zeigen Sie die Tafel an anderen Orten, anders geneigt</translation>
+    </message>
+    <message>
+        <source>Hand not visible</source>
+        <translation>Hand nicht sichtbar</translation>
+    </message>
+    <message>
+        <source>Hold still</source>
+        <translation>Stillhalten</translation>
+    </message>
+    <message>
+        <source>Bend the wrist up, then down, as far as is comfortable. Keep the forearm still.</source>
+        <translation>Das Handgelenk nach oben, dann nach unten beugen, so weit es angenehm ist. Der Unterarm bleibt still.</translation>
+    </message>
+    <message>
+        <source>Check the path.</source>
+        <translation>Den Pfad prüfen.</translation>
+    </message>
+    <message>
+        <source>File not found: {subject}.</source>
+        <translation>Datei nicht gefunden: {subject}.</translation>
+    </message>
+    <message>
+        <source>Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten.</source>
+        <translation>Die Grundgelenke (MCP) bleiben gestreckt. Die PIP- und DIP-Gelenke zum Haken beugen, dann strecken.</translation>
+    </message>
+    <message>
+        <source>Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still.</source>
+        <translation>Die Hand zum Daumen neigen, dann zum Kleinfinger. Der Unterarm bleibt still.</translation>
+    </message>
+    <message>
+        <source>Tilt your hand towards your little finger</source>
+        <translation>Neigen Sie die Hand zum Kleinfinger</translation>
+    </message>
+    <message>
+        <source>Tilt your hand towards your thumb</source>
+        <translation>Neigen Sie die Hand zum Daumen</translation>
+    </message>
+    <message>
+        <source>not a file</source>
+        <translation>keine Datei</translation>
+    </message>
+    <message>
+        <source>Passive range does not exceed active range by more than the measurement error.</source>
+        <translation>Der passive Umfang übertrifft den aktiven nicht um mehr als den Messfehler.</translation>
     </message>
 </context>
 <context>
@@ -8729,12 +8737,12 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>Locking</name>
     <message>
-        <source>The PIN until now is another one.</source>
-        <translation>Die bisherige PIN ist eine andere.</translation>
-    </message>
-    <message>
         <source>Too many tries. The next one in {seconds} s.</source>
         <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
+    </message>
+    <message>
+        <source>The current PIN is not right.</source>
+        <translation>Die aktuelle PIN stimmt nicht.</translation>
     </message>
 </context>
 <context>
@@ -9469,28 +9477,12 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>PinSheet</name>
     <message>
-        <source>&amp;PIN until now</source>
-        <translation>&amp;Bisherige PIN</translation>
-    </message>
-    <message>
-        <source>Keep this PIN</source>
-        <translation>Diese PIN behalten</translation>
-    </message>
-    <message>
-        <source>&amp;Take the PIN away</source>
-        <translation>PIN &amp;entfernen</translation>
-    </message>
-    <message>
         <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
         <translation>Mindestens vier Zeichen, Ziffern oder Buchstaben. Sie verbirgt Namen und Bilder vor Vorbeigehenden; Dateien bleiben lesbar für alle, die das Konto dieses Computers oder den Datenträger haben.</translation>
     </message>
     <message>
         <source>&amp;New PIN</source>
         <translation>&amp;Neue PIN</translation>
-    </message>
-    <message>
-        <source>The same &amp;again</source>
-        <translation>Dieselbe no&amp;ch einmal</translation>
     </message>
     <message>
         <source>Change the PIN</source>
@@ -9507,6 +9499,22 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>The two are not the same.</source>
         <translation>Die beiden sind nicht gleich.</translation>
+    </message>
+    <message>
+        <source>&amp;Current PIN</source>
+        <translation>&amp;Aktuelle PIN</translation>
+    </message>
+    <message>
+        <source>Set PIN</source>
+        <translation>PIN setzen</translation>
+    </message>
+    <message>
+        <source>&amp;Remove PIN</source>
+        <translation>PIN ent&amp;fernen</translation>
+    </message>
+    <message>
+        <source>Repeat new &amp;PIN</source>
+        <translation>Neue PIN &amp;wiederholen</translation>
     </message>
 </context>
 <context>

@@ -1124,10 +1124,6 @@
         <translation>In attesa della prima immagine</translation>
     </message>
     <message>
-        <source>Hand lost</source>
-        <translation>Mano persa</translation>
-    </message>
-    <message>
         <source>Hold the hand flat under the camera</source>
         <translation>Tenere la mano piatta sotto la telecamera</translation>
     </message>
@@ -1552,10 +1548,6 @@
         <translation>Molto bene.</translation>
     </message>
     <message>
-        <source>Lie still</source>
-        <translation>Ferma</translation>
-    </message>
-    <message>
         <source>Let your hand lie still</source>
         <translation>Tenga ferma la mano</translation>
     </message>
@@ -1622,14 +1614,6 @@
     <message>
         <source>Up</source>
         <translation>Su</translation>
-    </message>
-    <message>
-        <source>Slide your hand to the thumb side</source>
-        <translation>Sposti la mano verso il pollice</translation>
-    </message>
-    <message>
-        <source>Slide your hand to the little finger side</source>
-        <translation>Sposti la mano verso il mignolo</translation>
     </message>
     <message>
         <source>To the thumb</source>
@@ -3212,14 +3196,6 @@
         <translation>lesione del {day}</translation>
     </message>
     <message>
-        <source>Lift the back of the hand up, then let it drop as far as comfortable.</source>
-        <translation>Sollevare il dorso della mano, poi lasciarla scendere fin dove è comodo.</translation>
-    </message>
-    <message>
-        <source>Slide the hand to the thumb side, then to the little-finger side. Keep it flat.</source>
-        <translation>Far scivolare la mano verso il pollice, poi verso il mignolo. Tenerla piatta.</translation>
-    </message>
-    <message>
         <source>Turn the palm up as far as the markers stay visible, then back.</source>
         <translation>Girare il palmo in su finché i marcatori restano visibili, poi tornare.</translation>
     </message>
@@ -3230,10 +3206,6 @@
     <message>
         <source>Close all fingers into a full fist, then open flat.</source>
         <translation>Chiudere tutte le dita in un pugno completo, poi aprire la mano.</translation>
-    </message>
-    <message>
-        <source>Keep the knuckles straight, bend only the end joints like a hook, then open.</source>
-        <translation>Tenere dritte le nocche, piegare a uncino solo le articolazioni delle dita, poi aprire.</translation>
     </message>
     <message>
         <source>Spread the fingers wide, then close them.</source>
@@ -5484,10 +5456,6 @@
         <translation>L’ultima copia è del {day}.</translation>
     </message>
     <message>
-        <source>Together</source>
-        <translation>Insieme</translation>
-    </message>
-    <message>
         <source>± is the spread between repetitions.</source>
         <translation>± è la dispersione fra ripetizioni.</translation>
     </message>
@@ -6188,10 +6156,6 @@
         <translation>{name}: {active} da solo, {passive} con aiuto. I {gap} di differenza superano l’errore.</translation>
     </message>
     <message>
-        <source>When helped it goes no further than the error of measurement.</source>
-        <translation>Con aiuto non va oltre l’errore di misura.</translation>
-    </message>
-    <message>
         <source>Active and passive are shown, not judged: {why}.</source>
         <translation>Attivo e passivo sono mostrati, non giudicati: {why}.</translation>
     </message>
@@ -6662,6 +6626,50 @@
     <message>
         <source>Show it in other places, tilted other ways</source>
         <translation>Mostrare la tavola in altri punti, inclinata in altro modo</translation>
+    </message>
+    <message>
+        <source>Hand not visible</source>
+        <translation>Mano non visibile</translation>
+    </message>
+    <message>
+        <source>Hold still</source>
+        <translation>Tieni ferma la mano</translation>
+    </message>
+    <message>
+        <source>Bend the wrist up, then down, as far as is comfortable. Keep the forearm still.</source>
+        <translation>Piegare il polso in su, poi in giù, fin dove è comodo. L’avambraccio resta fermo.</translation>
+    </message>
+    <message>
+        <source>Check the path.</source>
+        <translation>Controllare il percorso.</translation>
+    </message>
+    <message>
+        <source>File not found: {subject}.</source>
+        <translation>File non trovato: {subject}.</translation>
+    </message>
+    <message>
+        <source>Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten.</source>
+        <translation>Tenere distese le articolazioni MCP. Piegare le PIP e le DIP a uncino, poi distenderle.</translation>
+    </message>
+    <message>
+        <source>Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still.</source>
+        <translation>Inclinare la mano verso il pollice, poi verso il mignolo. L’avambraccio resta fermo.</translation>
+    </message>
+    <message>
+        <source>Tilt your hand towards your little finger</source>
+        <translation>Inclini la mano verso il mignolo</translation>
+    </message>
+    <message>
+        <source>Tilt your hand towards your thumb</source>
+        <translation>Inclini la mano verso il pollice</translation>
+    </message>
+    <message>
+        <source>not a file</source>
+        <translation>non è un file</translation>
+    </message>
+    <message>
+        <source>Passive range does not exceed active range by more than the measurement error.</source>
+        <translation>L’escursione passiva non supera quella attiva di più dell’errore di misura.</translation>
     </message>
 </context>
 <context>
@@ -8729,12 +8737,12 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>Locking</name>
     <message>
-        <source>The PIN until now is another one.</source>
-        <translation>Il PIN attuale è un altro.</translation>
-    </message>
-    <message>
         <source>Too many tries. The next one in {seconds} s.</source>
         <translation>Troppi tentativi. Il prossimo fra {seconds} s.</translation>
+    </message>
+    <message>
+        <source>The current PIN is not right.</source>
+        <translation>Il PIN attuale non è giusto.</translation>
     </message>
 </context>
 <context>
@@ -9469,28 +9477,12 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>PinSheet</name>
     <message>
-        <source>&amp;PIN until now</source>
-        <translation>&amp;PIN attuale</translation>
-    </message>
-    <message>
-        <source>Keep this PIN</source>
-        <translation>Salva questo PIN</translation>
-    </message>
-    <message>
-        <source>&amp;Take the PIN away</source>
-        <translation>&amp;Togli il PIN</translation>
-    </message>
-    <message>
         <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
         <translation>Quattro segni o più, cifre o lettere. Nasconde nomi e immagini a chi passa; i file restano leggibili per chi ha l’account o il disco di questo computer.</translation>
     </message>
     <message>
         <source>&amp;New PIN</source>
         <translation>&amp;Nuovo PIN</translation>
-    </message>
-    <message>
-        <source>The same &amp;again</source>
-        <translation>&amp;Di nuovo lo stesso</translation>
     </message>
     <message>
         <source>Change the PIN</source>
@@ -9507,6 +9499,22 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>The two are not the same.</source>
         <translation>I due non sono uguali.</translation>
+    </message>
+    <message>
+        <source>&amp;Current PIN</source>
+        <translation>PIN &amp;attuale</translation>
+    </message>
+    <message>
+        <source>Set PIN</source>
+        <translation>Imposta il PIN</translation>
+    </message>
+    <message>
+        <source>&amp;Remove PIN</source>
+        <translation>&amp;Rimuovi il PIN</translation>
+    </message>
+    <message>
+        <source>Repeat new &amp;PIN</source>
+        <translation>Ripetere il nuovo &amp;PIN</translation>
     </message>
 </context>
 <context>

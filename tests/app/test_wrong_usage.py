@@ -285,8 +285,8 @@ def test_options_say_what_they_are_and_what_they_take_in_the_same_words(name: st
 def test_an_unknown_command_is_told_with_what_was_meant(command: Command) -> None:
     done = command("trak", "recording")
     assert (done.code, done.err.count("\n")) == (2, 1)
-    assert "did you mean “track”" in done.err
-    assert all(name in done.err for name in COMMANDS)
+    assert "Unknown command “trak”. Did you mean “track”?" in done.err
+    assert all(name in command("qwertz").err for name in COMMANDS)
 
 
 @pytest.mark.usefixtures("data")
@@ -302,7 +302,7 @@ def test_a_list_of_patients_that_another_program_holds_is_left_where_it_is(
     finally:
         holding.close()
     assert (done.code, done.err.count("\n")) == (1, 1)
-    assert "close Carpus first" in done.err
+    assert "Close Carpus first" in done.err
     assert "move" not in done.err
 
 

@@ -88,8 +88,8 @@ def test_the_command_says_it_and_writes_a_table(tmp_path: Path, command: Command
 
 
 NOTHING_THERE = (
-    "carpus: There is nothing of Carpus in the folder {}; name the folder that holds the patients; "
-    "carpus doctor says which it is.\n"
+    "carpus: There is nothing of Carpus in the folder {}. Nothing has been changed. "
+    "Name the folder that holds the patients; carpus doctor says which it is.\n"
 )
 
 

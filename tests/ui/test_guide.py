@@ -17,7 +17,7 @@ from carpus.ui.help import guide
 from carpus.ui.help.cards import write_cards
 from carpus.ui.help.screen import HelpScreen
 from carpus.ui.keys import Keys
-from carpus.ui.language import LANGUAGES, speaking
+from carpus.ui.language import LANGUAGES, speaking, texts_of
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
 from tests.ui.printed import pages_of, words_of
@@ -47,6 +47,38 @@ def test_the_guide_in_each_language_has_the_same_parts() -> None:
             said[code] = {guide.title(page) for page in guide.PAGES}
     assert not said["en"] & said["de"]
     assert not said["en"] & said["it"]
+
+
+QUOTED = {"en": "“([^“”]+)”", "de": "„([^„“]+)“", "it": "“([^“”]+)”|«([^«»]+)»"}
+NO_TEXT_OF_THE_WINDOW = {
+    "carpus doctor",
+    "actual size", "Originalgröße", "dimensioni effettive",
+    "at least", "mindestens", "almeno",
+    "no change", "unverändert", "nessun cambiamento",
+    "entered by hand", "inseriti a mano",
+}  # fmt: skip
+"""A command, a printer's word, and what figures are said to mean."""
+
+
+@pytest.mark.parametrize("code", LANGUAGES)
+def test_what_the_guide_quotes_is_what_the_window_says(code: str) -> None:
+    pairs = texts_of(next(one for one in LANGUAGES if one != "en") if code == "en" else code).items()
+    texts = {source if code == "en" else said for (_, source), said in pairs}
+    names = re.compile(r"\{[^}]*\}")
+    known = [
+        re.compile(".+".join(map(re.escape, names.split(_bare(text.replace("&", ""))))))
+        for text in texts
+        if len(re.sub(r"\W", "", names.sub("", text))) > 2
+    ]
+    for path in (GUIDE / code).glob("*.md"):
+        for found in re.finditer(QUOTED[code], path.read_text("utf-8")):
+            said = next(filter(None, found.groups()))
+            if said not in NO_TEXT_OF_THE_WINDOW:
+                assert any(one.fullmatch(_bare(said)) for one in known), (path.name, said)
+
+
+def _bare(text: str) -> str:
+    return text.rstrip("….:, ").strip()
 
 
 def _english(page: str) -> str:

@@ -39,7 +39,7 @@ def lamp_for(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: 
     if frame is None:
         return Lamp("idle", tr("Waiting for the first picture"), "")
     if frame.status == TrackStatus.LOST:
-        return Lamp("bad", tr("Hand lost"), tr("Hold the hand flat under the camera"))
+        return Lamp("bad", tr("Hand not visible"), tr("Hold the hand flat under the camera"))
     hidden = [
         name for name, pixel in zip(markers, frame.marker_measured_px, strict=True) if not math.isfinite(pixel[0])
     ]
@@ -96,7 +96,7 @@ def hand_lamp(frame: TrackedFrame | None, seen: Mapping[str, Seen]) -> Lamp:
     if frame is None:
         return Lamp("idle", tr("Waiting for the first picture"), "")
     if frame.status == TrackStatus.LOST:
-        return Lamp("bad", tr("Hand lost"), tr("Hold the hand flat under the camera"))
+        return Lamp("bad", tr("Hand not visible"), tr("Hold the hand flat under the camera"))
     hidden = [name for name, state in seen.items() if state == "hidden"]
     partly = [name for name, state in seen.items() if state == "partly"]
     palm = sum(name in PALM_MARKERS for name in hidden)

@@ -36,7 +36,7 @@ def said(exercise_id: str, scene: GuideScene, audience: Audience) -> Said:
     if scene.phase == "rest":
         return Said("" if child else tr("Let your hand rest."), tr("Well done."))
     if scene.starts_s:
-        return Said(tr("Lie still") if child else tr("Let your hand lie still"), f"{scene.starts_s} …")
+        return Said(tr("Hold still") if child else tr("Let your hand lie still"), f"{scene.starts_s} …")
     if scene.phase == "free":
         return Said(_task(exercise_id, 1, child), tr("Just try it.") if scene.tries else "")
     back = _back(exercise_id, child)

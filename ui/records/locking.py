@@ -144,7 +144,7 @@ class Locking(QObject):
                 tried = self.pin.try_it(old)
                 if not tried.opened:
                     self._library.notes.program("pin_refused", left=tried.left)
-                    words = self.tr("The PIN until now is another one.")
+                    words = self.tr("The current PIN is not right.")
                     wait = self.tr("Too many tries. The next one in {seconds} s.").format(seconds=round(tried.pause_s))
                     self.pin_sheet.said.say(wait if tried.pause_s else words)
                     return
@@ -233,13 +233,13 @@ class PinSheet(Sheet):
         for line in (self.old, self.new, self.again):
             line.setEchoMode(QLineEdit.EchoMode.Password)
             line.setMaxLength(MOST_SIGNS)
-        self._old_row = Labelled(theme, self.tr("&PIN until now"), self.old)
+        self._old_row = Labelled(theme, self.tr("&Current PIN"), self.old)
         self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.keep = Button(theme, self.tr("Keep this PIN"), "primary")
-        self.remove = Button(theme, self.tr("&Take the PIN away"), "plain", height_px=52)
+        self.keep = Button(theme, self.tr("Set PIN"), "primary")
+        self.remove = Button(theme, self.tr("&Remove PIN"), "plain", height_px=52)
         self.keep.clicked.connect(self._keep)
         self.remove.clicked.connect(lambda: self.chosen.emit(self.old.text(), ""))
-        new, again = (self.tr("&New PIN"), self.new), (self.tr("The same &again"), self.again)
+        new, again = (self.tr("&New PIN"), self.new), (self.tr("Repeat new &PIN"), self.again)
         fill(self.card.body, self._old_row, Labelled(theme, *new), Labelled(theme, *again), self.said)
         self.answer_row(self.keep, self.remove, gap=None)
 

@@ -89,7 +89,7 @@ def _of_fingers(figures: SessionFigures, by_hand: Sequence[HandValue]) -> tuple[
     heads = [tr("Finger")]
     for name in (tr("Knuckle"), tr("Middle joint"), tr("End joint")):
         heads += [f"{name}\n{words}" for words in (tr("active"), tr("passive"), BY_HAND)]
-    heads += [f"{tr('Together')}\n{words}" for words in (tr("active"), tr("passive"))] if has_totals(figures) else []
+    heads += [f"TAM\n{tr('active')}", f"TPM\n{tr('passive')}"] if has_totals(figures) else []
     rows = []
     for finger in FINGERS:
         cells = [finger_name(str(finger))]
@@ -152,6 +152,6 @@ def _sentence(figures: SessionFigures) -> str:
             gap=numbers.degrees(most.shown_difference_deg),
         )  # fmt: skip
     if any(item.verdict != "not_judged" for item in gaps):
-        return tr("When helped it goes no further than the error of measurement.")
+        return tr("Passive range does not exceed active range by more than the measurement error.")
     why = reason_words([reason for item in gaps for reason in item.reasons])
     return tr("Active and passive are shown, not judged: {why}.").format(why=inside(why)) if why else ""
