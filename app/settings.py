@@ -19,6 +19,7 @@ from functools import cached_property
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from urllib.parse import urlsplit
 
 import platformdirs
 
@@ -85,6 +86,14 @@ class RecordingSettings:
     start: StartMode = "key"
 
 
+def _is_server_url(text: str) -> bool:
+    try:
+        parts = urlsplit(text)
+        return parts.scheme in ("postgresql", "postgres") and "://" in text and parts.port != 0
+    except ValueError:  # a port that is no number, a bracket that is not closed
+        return False
+
+
 @dataclass(frozen=True, slots=True)
 class RecordsSettings:
     """``retention_years`` for which records must be kept, 0 for not set: laws differ. ``url`` of a clinic's PostgreSQL
@@ -98,7 +107,7 @@ class RecordsSettings:
     def __post_init__(self) -> None:
         if not 0 <= self.retention_years <= 100:
             raise ValueError(f"retention_years {self.retention_years} is not between 0 and 100")
-        if self.url and not self.url.startswith(("postgresql://", "postgres://")):
+        if self.url and not _is_server_url(self.url):
             raise ValueError("url is not one of a PostgreSQL server, such as postgresql://user@host/carpus")
 
 

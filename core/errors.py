@@ -447,6 +447,14 @@ class RegisterUnreadable(CarpusFault):
     do = phrase("Start Carpus again. If that does not help, ask your IT support.")
 
 
+class RegisterVersionUnknown(RegisterUnreadable):
+    """A register of a newer Carpus, or one that says no version that there is."""
+
+    happened = phrase("The list of patients is of another version of Carpus: {subject} ({detail}).")
+    safe = _UNCHANGED
+    do = phrase("Bring Carpus up to date on this computer.")
+
+
 class RegisterBusy(RegisterUnreadable):
     happened = phrase("The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).")
     safe = _UNCHANGED

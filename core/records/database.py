@@ -22,6 +22,7 @@ from carpus.core.errors import (
     RegisterDamaged,
     RegisterJournalLeft,
     RegisterUnreadable,
+    RegisterVersionUnknown,
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.schema import METADATA, OUTBOX, SESSION, SHARED, SQLITE_LOG, VERSION
@@ -186,7 +187,8 @@ def _has_journal(path: Path) -> bool:
 def up_to_date(connection: Connection, name: Path | str) -> bool:
     """Bring the tables of a database to this version; whether there were none before. Alembic is loaded only then.
 
-    Raises :class:`RegisterUnreadable` for one of a newer Carpus, :class:`RegisterDamaged` for what is no store.
+    Raises :class:`RegisterVersionUnknown` for one of a version that is not known, :class:`RegisterDamaged` for what is
+    no store.
     """
     tables = set(inspect(connection).get_table_names())
     found = connection.exec_driver_sql("SELECT version_num FROM alembic_version").scalar() if (
@@ -196,19 +198,17 @@ def up_to_date(connection: Connection, name: Path | str) -> bool:
         return False
     if found is None and tables:
         raise RegisterDamaged(name, phrase("damaged"))
+    if found is not None and found not in map(str, range(1, int(VERSION))):
+        said = phrase("version {version}, this Carpus reads up to {count}", version=str(found) or "?", count=VERSION)
+        raise RegisterVersionUnknown(name, said)
     from alembic.command import upgrade
     from alembic.config import Config
-    from alembic.util.exc import CommandError
 
     config = Config()
     config.set_main_option("script_location", str(Path(__file__).parent / "migrations").replace("%", "%%"))
     config.attributes["connection"] = connection
-    try:
-        with _MIGRATING:
-            upgrade(config, "head")
-    except CommandError as cause:
-        said = phrase("version {version}, this Carpus reads up to {count}", version=found or "", count=VERSION)
-        raise RegisterUnreadable(name, said) from cause
+    with _MIGRATING:
+        upgrade(config, "head")
     return found is None
 
 

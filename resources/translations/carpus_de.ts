@@ -6671,6 +6671,14 @@
         <source>Passive range does not exceed active range by more than the measurement error.</source>
         <translation>Der passive Umfang übertrifft den aktiven nicht um mehr als den Messfehler.</translation>
     </message>
+    <message>
+        <source>Bring Carpus up to date on this computer.</source>
+        <translation>Bringen Sie Carpus auf diesem Computer auf den neuesten Stand.</translation>
+    </message>
+    <message>
+        <source>The list of patients is of another version of Carpus: {subject} ({detail}).</source>
+        <translation>Die Patientenliste stammt von einer anderen Version von Carpus: {subject} ({detail}).</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

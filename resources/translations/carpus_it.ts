@@ -6671,6 +6671,14 @@
         <source>Passive range does not exceed active range by more than the measurement error.</source>
         <translation>L’escursione passiva non supera quella attiva di più dell’errore di misura.</translation>
     </message>
+    <message>
+        <source>Bring Carpus up to date on this computer.</source>
+        <translation>Aggiornare Carpus su questo computer.</translation>
+    </message>
+    <message>
+        <source>The list of patients is of another version of Carpus: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti è di un’altra versione di Carpus: {subject} ({detail}).</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

@@ -133,6 +133,13 @@ def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkey
     assert load_settings().data_folder == Path("/elsewhere")
 
 
+@pytest.mark.parametrize("url", ["http://h/d", "postgresql:h", "postgresql://h:abc/d", "postgresql://[::1/d", "carpus"])
+def test_a_url_that_is_none_is_told(tmp_path: Path, url: str) -> None:
+    written(tmp_path, f'[records]\nurl = "{url}"\n')
+    with pytest.raises(SettingsInvalid, match="not one of a PostgreSQL server"):
+        load_settings(tmp_path)
+
+
 def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
     written(tmp_path / "settings", '[recording]\nfolder = "/clinic"\n[records]\nurl = "postgresql://a@b/c"\n')
     settings = with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")

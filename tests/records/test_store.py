@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import random
+import re
 import shutil
 import sqlite3
 import stat
@@ -28,7 +29,7 @@ from carpus.core.errors import (
     RegisterDamaged,
     RegisterMissing,
     RegisterSetAside,
-    RegisterUnreadable,
+    RegisterVersionUnknown,
     SessionUnreadable,
 )
 from carpus.core.measures.by_hand import HandValue
@@ -434,12 +435,13 @@ def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
         assert [one.did for one in read_log(house.store)] == ["locked"]
 
 
-def test_a_store_of_a_newer_carpus_is_told_and_left_as_it_is(tmp_path: Path) -> None:
+@pytest.mark.parametrize("version", ["99", "", "0", "../x%"])
+def test_a_store_of_a_version_that_is_not_known_is_told_and_left_as_it_is(tmp_path: Path, version: str) -> None:
     Store(tmp_path).close()
     with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
-        database.execute("UPDATE alembic_version SET version_num = '99'")
+        database.execute("UPDATE alembic_version SET version_num = ?", (version,))
         database.commit()
-    with pytest.raises(RegisterUnreadable, match="version 99, this Carpus reads up to 1"):
+    with pytest.raises(RegisterVersionUnknown, match=re.escape(f"version {version or '?'}, this Carpus reads up to")):
         Store(tmp_path)
     assert not list(tmp_path.glob("*damaged*"))
 
