@@ -34,8 +34,9 @@ from carpus.core.formats.formats import FORMATS, Exported, Wanted, export_sessio
 from carpus.core.formats.provenance import provenance
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import SITES, protocol_named
-from carpus.core.papers.chain import PaperSettings
 from carpus.core.pipeline.track import TrackSettings, begin_tracking, track_recording
+from carpus.core.research.papers.chain import PaperSettings
+from carpus.core.research.papers.track import PaperTrackSettings
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.session import reader
@@ -204,7 +205,7 @@ def write_session(
         _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
     chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
     recorded, out, told = _path(where, "path", path), _path(where, "output", output), _clicks(where, clicks)
-    source = open_recording(recorded, need_depth=chosen.paper is None and use_depth)
+    source = open_recording(recorded, need_depth=chosen.uses_depth)
     try:
         track_recording(
             source, told, out, replace(chosen, smooth=smooth and chosen.smooth), software_version=__version__,
@@ -223,7 +224,7 @@ def _chosen(where: str, method: str, wanted: Mapping[str, Any]) -> TrackSettings
     if method == "paper":
         if others := [name for name in wanted if name != "profile" and wanted[name] != getattr(known, name)]:
             raise SettingsInvalid(where, f"the papers' filter knows no {others[0]}")
-        return TrackSettings(smooth=False, paper=PaperSettings.for_profile(wanted["profile"]))
+        return PaperTrackSettings(smooth=False, paper=PaperSettings.for_profile(wanted["profile"]))
     return TrackSettings(tracker=replace(known, **wanted))
 
 
@@ -314,7 +315,7 @@ def _check_picture(
 
 
 def _tracked(path: Path, told: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
-    source = open_recording(path, need_depth=chosen.paper is None and chosen.tracker.use_depth)
+    source = open_recording(path, need_depth=chosen.uses_depth)
     try:
         begun, names = begin_tracking(source, told, chosen), told.protocol.joint_names(chosen.dip_free)
         for frame in begun.frames:

@@ -22,8 +22,9 @@ from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.source import Recorded
 from carpus.core.durable import write_fault
 from carpus.core.errors import CarpusFault, OutputBusy, OutputExists
-from carpus.core.pipeline.told_settings import differences, settings_told
+from carpus.core.pipeline.told_settings import differences
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
+from carpus.core.research.papers.track import settings_told
 from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import SessionFigure, measure_rows
 from carpus.core.session import recovery

@@ -24,10 +24,11 @@ from carpus.core.errors import NameUnsuited, RecordingMissing
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.names import name_of
-from carpus.core.papers.chain import PaperSettings
 from carpus.core.pipeline.live import Listener
-from carpus.core.pipeline.told_settings import Told, differences, settings_told
+from carpus.core.pipeline.told_settings import Told, differences
 from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from carpus.core.research.papers.chain import PaperSettings
+from carpus.core.research.papers.track import PaperTrackSettings, settings_told
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.tracking.settings import Profile
 
@@ -213,10 +214,11 @@ def settings_from(arguments: argparse.Namespace, base: TrackSettings) -> TrackSe
     if arguments.discs is not None:
         tracker = replace(tracker, fingers=replace(tracker.fingers, skin_offsets=arguments.discs == "on-skin"))
     smooth = base.smooth if arguments.smooth is None else arguments.smooth
-    paper = base.paper if arguments.filter is None else None
+    paper = base.paper if isinstance(base, PaperTrackSettings) and arguments.filter is None else None
     if arguments.filter == "paper" or (paper is not None and arguments.profile is not None):
         paper = PaperSettings.for_profile(arguments.profile or "standard")
-    return replace(base, tracker=tracker, smooth=smooth, paper=paper)
+    chosen = TrackSettings(base.detection, base.calibration, tracker, smooth)
+    return chosen if paper is None else PaperTrackSettings.over(chosen, paper)
 
 
 def not_of_the_papers(arguments: argparse.Namespace) -> list[str]:
@@ -226,7 +228,7 @@ def not_of_the_papers(arguments: argparse.Namespace) -> list[str]:
 
 def _refused(arguments: argparse.Namespace, settings: TrackSettings) -> bool:
     """Whether the options contradict each other, told on stderr."""
-    told = not_of_the_papers(arguments) if settings.paper is not None else []
+    told = not_of_the_papers(arguments) if isinstance(settings, PaperTrackSettings) else []
     if told:
         misused(
             "track",
@@ -248,12 +250,12 @@ def run(arguments: argparse.Namespace) -> int:
     arguments.recording = named[0]
     is_session = arguments.recording.suffix == ".h5" and arguments.recording.is_file()
     settings = settings_from(arguments, TrackSettings() if is_session else load_settings().track)
-    if is_color_alone(settings):
+    if not settings.uses_depth:
         say(COLOR_ALONE)
     if not arguments.recording.exists():
         raise RecordingMissing(arguments.recording)
     if is_session:
-        return _again(arguments, was_told=is_color_alone(settings))
+        return _again(arguments, was_told=not settings.uses_depth)
     if arguments.calibration is None:
         return misused("track", "a recording needs --calibration CLICKS.json.")
     return 2 if _refused(arguments, settings) else _recording(arguments, settings)
@@ -317,16 +319,11 @@ def _many(named: list[Path], arguments: argparse.Namespace) -> int:
     chosen = settings_from(arguments, usual)
     if _refused(arguments, chosen):
         return 2
-    if is_color_alone(chosen):
+    if not chosen.uses_depth:
         say(COLOR_ALONE)
     from carpus.app.commands.track_many import run_many
 
     return run_many(named, arguments.output, arguments, usual, lambda base: settings_from(arguments, base))
-
-
-def is_color_alone(settings: TrackSettings) -> bool:
-    """Whether no depth takes part in tracking."""
-    return settings.paper is not None or not settings.tracker.use_depth
 
 
 def _again(arguments: argparse.Namespace, *, was_told: bool) -> int:
@@ -339,7 +336,7 @@ def _again(arguments: argparse.Namespace, *, was_told: bool) -> int:
     settings = settings_from(arguments, before.settings if before else load_settings().track)
     if _refused(arguments, settings):
         return 2
-    if is_color_alone(settings) and not was_told:
+    if not settings.uses_depth and not was_told:
         say(COLOR_ALONE)
     warn_of_experiment(settings, header.protocol)
     with bar("tracking again") as progress:
@@ -378,7 +375,7 @@ def say_doubtful_date(recorded: Recorded | None) -> None:
 
 def warn_of_experiment(settings: TrackSettings, protocol: MarkerProtocol) -> None:
     """Say on stderr that fingers by colour alone are an experiment."""
-    if protocol.has_fingers and is_color_alone(settings):
+    if protocol.has_fingers and not settings.uses_depth:
         say(HAND_COLOR_ALONE)
 
 

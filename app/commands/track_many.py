@@ -19,8 +19,8 @@ from carpus.core.durable import write_fault
 from carpus.core.errors import CarpusFault, OutputExists, RecordingMissing
 from carpus.core.formats.measures_files import check_place, measures_file
 from carpus.core.formats.new_output import cell, new_table
-from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import TrackSettings
+from carpus.core.research.papers.track import settings_told
 from carpus.core.session.reader import read_outline
 from carpus.core.words import one_sentence
 

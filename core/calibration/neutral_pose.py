@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from carpus.core import so3
+from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.hand.clinical_angles import wrist_axes
 from carpus.core.types import FloatArray
 
 _ROUNDS = 30
@@ -53,3 +57,34 @@ def pose_by_least_squares(
         if float(step @ step) < _SETTLED**2:
             break
     return rotation, translation
+
+
+TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
+
+
+def discs_cam_m(calibration: Calibration) -> FloatArray:
+    """The measured discs (M, 3) in camera axes, NaN where the depth is unknown."""
+    return np.asarray(
+        calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
+    )
+
+
+def by_the_discs(calibration: Calibration) -> Calibration:
+    """The calibration with W0 built from the measured discs again (reference 1.1), as every other filter has it."""
+    disc_cam_m = discs_cam_m(calibration)
+    palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
+    return seen_from(calibration, disc_cam_m, wrist_axes(palm_cam_m, TOWARDS_CAMERA), palm_cam_m[0])
+
+
+def seen_from(
+    calibration: Calibration, disc_cam_m: FloatArray, rotation: FloatArray, translation: FloatArray
+) -> Calibration:
+    """The calibration with W0 at another pose; the measured discs (M, 3) stay where they are in space."""
+    turn = rotation.T @ calibration.rotation_w0_cam
+    return replace(
+        calibration,
+        marker_position_w0_m=(disc_cam_m - translation) @ rotation,
+        rotation_w0_cam=rotation,
+        translation_w0_cam_m=translation,
+        marker_covariance_w0_m2=turn @ calibration.marker_covariance_w0_m2 @ turn.T,
+    )

@@ -25,6 +25,7 @@ from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import (
     Progress,
     TrackSettings,
+    is_of_other_filter,
     learnt_again,
     notes_in,
     tracked_again,
@@ -57,13 +58,13 @@ class CorrectionTask:
 def task_of(
     origin: Path, output: Path, corrections: Sequence[Correction], software_version: str, by: str = ""
 ) -> CorrectionTask:
-    """Read what is needed. Raises :class:`NotCorrectable` for a session without stored blobs, or tracked by the papers'
-    own filter."""
+    """Read what is needed. Raises :class:`NotCorrectable` for a session without stored blobs, or tracked by another
+    filter."""
     session, table = read_session(origin), read_detections(origin)
     if not len(table.frame):
         raise NotCorrectable(origin, phrase("it stored no blue spots"))
-    if _settings(session).paper is not None:
-        raise NotCorrectable(origin, phrase("it was tracked by the papers' own filter"))
+    if is_of_other_filter(session.header.parameters):
+        raise NotCorrectable(origin, phrase("another filter than Carpus’ own tracked it"))
     return CorrectionTask(session, table, output, tuple(corrections), software_version, by)
 
 

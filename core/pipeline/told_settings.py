@@ -21,8 +21,8 @@ class Told(NamedTuple):
     unknown: tuple[str, ...]
 
 
-def settings_told(parameters: str) -> Told | None:
-    """The settings that a session's parameters tell; None where they do not.
+def settings_told(parameters: str, kind: type[TrackSettings] = TrackSettings) -> Told | None:
+    """The settings that a session's parameters tell, as those of a ``kind`` of filter; None where they do not.
 
     A setting that is newer than the session keeps its default; one that is gone is named.
     """
@@ -33,7 +33,7 @@ def settings_told(parameters: str) -> Told | None:
     if not isinstance(told, Mapping):
         return None
     unknown: list[str] = []
-    return Told(_filled(TrackSettings, told, "", unknown), tuple(unknown))
+    return Told(_filled(kind, told, "", unknown), tuple(unknown))
 
 
 def differences(before: TrackSettings, after: TrackSettings) -> list[str]:
@@ -45,7 +45,7 @@ def _filled(kind: type[T], told: Mapping[str, Any], where: str, unknown: list[st
     hints = typing.get_type_hints(kind)
     found: dict[str, Any] = {}
     known = {item.name for item in fields(kind)}  # type: ignore[arg-type]
-    unknown += [f"{where}{name}" for name in told if name not in known]
+    unknown += [f"{where}{name}" for name in told if name not in known and told[name] is not None]
     for name in known & set(told):
         value = _value(hints[name], told[name], f"{where}{name}", unknown)
         if value is not _NOT_TAKEN:
@@ -76,10 +76,10 @@ def _value(hint: Any, value: Any, place: str, unknown: list[str]) -> Any:
     return _NOT_TAKEN
 
 
-def _differing(before: Mapping[str, Any], after: Mapping[str, Any], where: str = "") -> Iterator[str]:
-    for name, new in after.items():
-        old = before[name]
-        if isinstance(new, Mapping) and isinstance(old, Mapping):
+def _differing(before: dict[str, Any], after: dict[str, Any], where: str = "") -> Iterator[str]:
+    for name in before | after:
+        old, new = before.get(name), after.get(name)
+        if isinstance(new, dict) and isinstance(old, dict):
             yield from _differing(old, new, f"{where}{name}.")
         elif new != old:
             yield f"{where}{name} {_said(new)} (was {_said(old)})"

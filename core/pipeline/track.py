@@ -7,14 +7,15 @@ import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from itertools import chain
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, StillNoise, calibrate, require_calibration
+from carpus.core.calibration.neutral_pose import by_the_discs
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
@@ -26,8 +27,6 @@ from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, part_read, surface_samples
 from carpus.core.errors import OutputExists, PictureDamaged, RecordingEmpty
-from carpus.core.papers.chain import PaperSettings, as_written, by_the_discs
-from carpus.core.papers.tracker import PaperTracker
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import Listener
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
@@ -35,6 +34,7 @@ from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
 from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import (
@@ -51,8 +51,27 @@ from carpus.core.types import (
 
 Seen = Frame | PackedFrame
 """A frame, or one whose pictures are unpacked where they are looked at."""
-HandTracker = Tracker | PaperTracker
-"""Follows one calibrated hand through frames in order of time."""
+
+
+class HandTracker(Protocol):
+    """Follows one calibrated hand through frames in order of time; :class:`Tracker`, or a filter of research."""
+
+    def begin_at_neutral(self, at_s: float | None = None) -> None:
+        """The hand is at its neutral pose again."""
+
+    def expect(self, timestamp_s: float) -> PredictedMeasurement | None:
+        """Where to look at that time; None for the whole picture."""
+
+    def would_miss(self, blobs: Detections) -> bool:
+        """Whether the whole picture is to be searched after all."""
+
+    def hear(self, answer: SpotAnswer) -> None:
+        """What a person says of the blue spots of a picture."""
+
+    def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
+        """Track one frame by its blobs."""
+
+
 AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
 
 
@@ -142,23 +161,42 @@ T = TypeVar("T")
 
 Progress = Callable[[int, int | None], None]
 """Called with frames done and frames in all (None when unknown)."""
+LookBack = Callable[[], list[Moment]]
 
 
 @dataclass(frozen=True, slots=True)
 class TrackSettings:
-    """Everything that decides how a recording becomes a session. With ``paper`` the papers' own filter tracks, both
-    papers' in ZYX; it knows nothing of ``tracker`` and does not look back."""
+    """Everything that decides how a recording becomes a session. A filter of research has settings of a class of its
+    own, with a section more."""
 
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
     smooth: bool = True
-    paper: PaperSettings | None = None
 
     @property
     def dip_free(self) -> bool:
         """Whether the end joints are followed for themselves."""
-        return self.paper is None and self.tracker.dip == "free"
+        return self.tracker.dip == "free"
+
+    @property
+    def uses_depth(self) -> bool:
+        """Whether depth takes part in tracking."""
+        return self.tracker.use_depth
+
+    def follow(self, calibration: Calibration, camera: Camera, learnt: Learnt) -> tuple[HandTracker, LookBack | None]:
+        """What tracks a calibrated hand, and how it looks back if it is to."""
+        tracker = Tracker(calibration, camera, learnt.applied(self.tracker), keep_history=self.smooth)
+        return tracker, tracker.smoothed if self.smooth else None
+
+    def adapt_calibration(self, calibration: Calibration, camera: Camera) -> Calibration:
+        """A new calibration as this filter has it."""
+        return calibration
+
+    def adapt_stored_calibration(self, session: Session) -> Calibration:
+        """The calibration of a session, whatever filter tracked that, as this filter has it."""
+        is_other = is_of_other_filter(session.header.parameters)
+        return by_the_discs(session.calibration) if is_other else session.calibration
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,12 +248,14 @@ def learnt_in(parameters: str) -> Learnt | None:
         return None
 
 
-def paper_as_tracked(parameters: str) -> PaperSettings | None:
-    """How an earlier session was tracked by the papers' filter; None where it was not, or does not say."""
+def is_of_other_filter(parameters: str) -> bool:
+    """Whether a filter of research tracked a session: its settings are a section that Carpus' own have not."""
     try:
-        return PaperSettings(**json.loads(parameters)["settings"]["paper"])
-    except (KeyError, TypeError, ValueError):
-        return None
+        told: Mapping[str, Any] = json.loads(parameters)["settings"]
+        own = {one.name for one in fields(TrackSettings)}
+        return any(isinstance(value, Mapping) for name, value in told.items() if name not in own)
+    except (AttributeError, KeyError, TypeError, ValueError):
+        return False
 
 
 def source_facts(info: SourceInfo) -> dict[str, Any]:
@@ -251,21 +291,6 @@ def build_pipeline(
     return FramePipeline(detector, tracker, settings.detection.sampling)
 
 
-def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings | None) -> Calibration:
-    """The calibration as the chosen filter has it."""
-    return calibration if paper is None else as_written(calibration, camera, paper.palm)
-
-
-def _following(
-    calibration: Calibration, camera: Camera, settings: TrackSettings, learnt: Learnt
-) -> tuple[HandTracker, Callable[[], list[Moment]] | None]:
-    """The chosen filter, and how it looks back if it is to."""
-    if settings.paper is not None:
-        return PaperTracker(calibration, camera, settings.paper), None
-    tracker = Tracker(calibration, camera, learnt.applied(settings.tracker), keep_history=settings.smooth)
-    return tracker, tracker.smoothed if settings.smooth else None
-
-
 _SOON_S = 0.25
 """So soon after the still frames a hand is as it was."""
 
@@ -298,7 +323,7 @@ class Begun:
     first: Frame
     frames: Iterator[Seen]
     pipeline: FramePipeline[HandTracker]
-    look_back: Callable[[], list[Moment]] | None
+    look_back: LookBack | None
     calibration: Calibration
     learnt: Learnt
 
@@ -319,10 +344,10 @@ def begin_tracking(
     outcome = calibrate(clicks, opening, camera, settings.calibration, settings.detection, start_angles_rad)
     if on_verdict is not None and not outcome.verdict.is_good:
         on_verdict(outcome.verdict)  # also before a fault: it may say why a click has no depth
-    calibration = _calibrated(require_calibration(outcome), camera, settings.paper)
+    calibration = settings.adapt_calibration(require_calibration(outcome), camera)
     ends_s = opening[outcome.capture_frames - 1].timestamp_s
     learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
-    tracker, look_back = _following(calibration, camera, settings, learnt)
+    tracker, look_back = settings.follow(calibration, camera, learnt)
     detector = Detector(outcome.appearance, camera, settings.detection)
     pipeline = FramePipeline(detector, tracker, settings.detection.sampling)
     ordered = from_neutral(chain(opening, frames), tracker, ends_s, lambda frame: frame.timestamp_s)
@@ -385,7 +410,8 @@ def track_recording(
     answers = {} if said is None else answers_in(said)
 
     def answered(frame: Seen) -> TrackedFrame:
-        _answer(begun.pipeline.tracker, answers.get(frame.index, ()))
+        for answer in answers.get(frame.index, ()):
+            begun.pipeline.tracker.hear(answer)
         return begun.pipeline(frame)
 
     tracked = _heard(map(answered, begun.frames), listener)
@@ -399,13 +425,6 @@ def _recording_facts(info: SourceInfo, recorded: Recorded | None, path: Path | N
         with suppress(OSError):  # a picture that is not there is told where it is read
             facts["sha256"] = sha256_of_recording(path)
     return facts
-
-
-def _answer(tracker: HandTracker, answers: Iterable[SpotAnswer]) -> None:
-    """The papers' filter is as written: it hears nobody."""
-    if isinstance(tracker, Tracker):
-        for answer in answers:
-            tracker.hear(answer)
 
 
 def retrack_session(
@@ -456,15 +475,11 @@ def _retrack_detections(
     software_version: str,
     progress: Progress | None,
 ) -> TrackReport:
-    old = session.header
     table = read_detections(origin)
     learnt = learnt_again(session, settings)
-    calibration = session.calibration
-    check_calibration(origin, calibration)
-    before = paper_as_tracked(old.parameters)
-    if (before and before.palm) != (settings.paper and settings.paper.palm):
-        calibration = _calibrated(by_the_discs(calibration) if before else calibration, session.camera, settings.paper)
-    tracker, look_back = _following(calibration, session.camera, settings, learnt)
+    check_calibration(origin, session.calibration)
+    calibration = settings.adapt_stored_calibration(session)
+    tracker, look_back = settings.follow(calibration, session.camera, learnt)
     tracked = tracked_again(session, tracker, learnt, table.of_frame)
     facts = {"sha256": sha256_of_file(origin)}
     writer = writer_again(session, output, settings, learnt, calibration, software_version, facts)
@@ -478,7 +493,8 @@ def tracked_again(
     times_s, answers = session.timestamp_s.tolist(), answers_in(session)
     for row in from_neutral(range(len(session)), tracker, learnt.neutral_ends_s, times_s.__getitem__):
         blobs = blobs_of(row)
-        _answer(tracker, answers.get(row, ()))
+        for answer in answers.get(row, ()):
+            tracker.hear(answer)
         yield tracker.step(row, times_s[row], blobs, max(int(session.quality.dropped_before[row]), 0))
 
 
@@ -535,7 +551,7 @@ def _opening(frames: Iterator[Seen], still_s: float) -> list[Frame]:
 def write_tracked(
     writer: SessionWriter,
     tracked: Iterator[TrackedFrame],
-    look_back: Callable[[], list[Moment]] | None,
+    look_back: LookBack | None,
     verdict: Verdict,
     total: int | None,
     progress: Progress | None,

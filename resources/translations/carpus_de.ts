@@ -5008,10 +5008,6 @@
         <translation>sie hat keine blauen Stellen gespeichert</translation>
     </message>
     <message>
-        <source>it was tracked by the papers&apos; own filter</source>
-        <translation>sie wurde mit dem Filter der Arbeiten verfolgt</translation>
-    </message>
-    <message>
         <source>its columns are not what its names say</source>
         <translation>ihre Spalten sind nicht, was ihre Namen sagen</translation>
     </message>
@@ -6678,6 +6674,10 @@
     <message>
         <source>The list of patients is of another version of Carpus: {subject} ({detail}).</source>
         <translation>Die Patientenliste stammt von einer anderen Version von Carpus: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>another filter than Carpus’ own tracked it</source>
+        <translation>ein anderer Filter als der von Carpus hat sie verfolgt</translation>
     </message>
 </context>
 <context>

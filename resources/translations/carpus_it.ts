@@ -4996,10 +4996,6 @@
         <translation>non ha salvato punti blu</translation>
     </message>
     <message>
-        <source>it was tracked by the papers&apos; own filter</source>
-        <translation>è stata tracciata con il filtro degli articoli</translation>
-    </message>
-    <message>
         <source>its columns are not what its names say</source>
         <translation>le sue colonne non sono ciò che dicono i nomi</translation>
     </message>
@@ -6678,6 +6674,10 @@
     <message>
         <source>The list of patients is of another version of Carpus: {subject} ({detail}).</source>
         <translation>L’elenco dei pazienti è di un’altra versione di Carpus: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>another filter than Carpus’ own tracked it</source>
+        <translation>è stata tracciata con un filtro diverso da quello di Carpus</translation>
     </message>
 </context>
 <context>

@@ -15,8 +15,7 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CalibrationImpossible
-from carpus.core.papers.tracker import PaperTracker
-from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
+from carpus.core.pipeline.track import HandTracker, TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import Motion, Session, motion_of
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of
@@ -55,7 +54,7 @@ def learnt_tracker(sequence: MeasurementSequence, settings: TrackerSettings | No
 
 
 def stepped(
-    tracker: Tracker | PaperTracker, sequence: MeasurementSequence, neutral_ends_s: float
+    tracker: HandTracker, sequence: MeasurementSequence, neutral_ends_s: float
 ) -> tuple[list[TrackedFrame], float]:
     """The frames of measurements, tracked as :func:`core.pipeline.track.track_recording` does those of pictures, and
     the CPU milliseconds of one."""

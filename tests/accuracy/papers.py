@@ -1,4 +1,4 @@
-"""The rows of the papers' own method: the same recordings as Carpus has, by :mod:`core.papers`.
+"""The rows of the papers' own method: the same recordings as Carpus has, by :mod:`core.research.papers`.
 
 Twice: as written, with the palm's discs in one plane, and with the palm as measured, to see how much of it is the arch.
 """
@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.papers.chain import PalmModel, PaperSettings, as_written
-from carpus.core.papers.tracker import PaperTracker
+from carpus.core.research.papers.chain import PalmModel, PaperSettings, as_written
+from carpus.core.research.papers.tracker import PaperTracker
 from carpus.core.session.values import motion_of
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, TrackStatus

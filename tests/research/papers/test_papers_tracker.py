@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.papers.tracker import PaperTracker
+from carpus.core.research.papers.tracker import PaperTracker
 from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
-from tests.papers.hands import (
+from tests.research.papers.hands import (
     MEASURED,
     blobs,
     calibration,

@@ -9,12 +9,12 @@ arch "is not considered" (wrist paper, II-B); the hand starts with fingers exten
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal, Self
 
 import numpy as np
 
-from carpus.core.calibration.neutral_pose import pose_by_least_squares
+from carpus.core.calibration.neutral_pose import TOWARDS_CAMERA, discs_cam_m, pose_by_least_squares, seen_from
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.errors import SettingsInvalid
@@ -92,13 +92,6 @@ class PaperHand:
         return joint_centres(self.anatomy, joints_rad)
 
 
-def discs_cam_m(calibration: Calibration) -> FloatArray:
-    """The measured discs (M, 3) in camera axes, NaN where the depth is unknown."""
-    return np.asarray(
-        calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
-    )
-
-
 def hand_measured(calibration: Calibration, camera: Camera, palm: PalmModel) -> PaperHand:
     """The hand whose discs were measured at the neutral pose.
 
@@ -151,35 +144,12 @@ def palm_modelled(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
     return np.stack((length_m * np.cos(theta), length_m * np.sin(theta), np.zeros(len(palm_m))), axis=1)
 
 
-_TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
-
-
 def as_written(calibration: Calibration, camera: Camera, palm: PalmModel) -> Calibration:
     """The calibration with g_w0c of the palm as modelled; the measured discs stay where they are in space."""
     disc_cam_m = discs_cam_m(calibration)
     palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
-    axes = wrist_axes(palm_cam_m, _TOWARDS_CAMERA)
+    axes = wrist_axes(palm_cam_m, TOWARDS_CAMERA)
     model_m = palm_modelled((palm_cam_m - palm_cam_m[0]) @ axes, palm)
     pixel, depth_m = camera.project(palm_cam_m), palm_cam_m[:, 2]
     rotation, translation = pose_by_least_squares(camera, model_m, pixel, depth_m, axes, palm_cam_m[0])
-    return _seen_from(calibration, disc_cam_m, rotation, translation)
-
-
-def by_the_discs(calibration: Calibration) -> Calibration:
-    """The calibration with W0 built from the measured discs again (reference 1.1), as every other filter has it."""
-    disc_cam_m = discs_cam_m(calibration)
-    palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
-    return _seen_from(calibration, disc_cam_m, wrist_axes(palm_cam_m, _TOWARDS_CAMERA), palm_cam_m[0])
-
-
-def _seen_from(
-    calibration: Calibration, disc_cam_m: FloatArray, rotation: FloatArray, translation: FloatArray
-) -> Calibration:
-    turn = rotation.T @ calibration.rotation_w0_cam
-    return replace(
-        calibration,
-        marker_position_w0_m=(disc_cam_m - translation) @ rotation,
-        rotation_w0_cam=rotation,
-        translation_w0_cam_m=translation,
-        marker_covariance_w0_m2=turn @ calibration.marker_covariance_w0_m2 @ turn.T,
-    )
+    return seen_from(calibration, disc_cam_m, rotation, translation)

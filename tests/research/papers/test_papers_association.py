@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import multivariate_normal
 
-from carpus.core.papers.tracker import blobs_of_markers, log_posteriors
+from carpus.core.research.papers.tracker import blobs_of_markers, log_posteriors
 
 RESOLUTION = 640.0 * 480.0
 

@@ -11,8 +11,8 @@ from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.papers.chain import PaperSettings
-from carpus.core.papers.tracker import PaperTracker
+from carpus.core.research.papers.chain import PaperSettings
+from carpus.core.research.papers.tracker import PaperTracker
 from carpus.core.types import Detections, FloatArray, Side, TrackedFrame
 from tests.tracking.hands import FROM_ABOVE, palm, rotation_of
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
-from carpus.core.papers.tracker import AugmentedGaussian, correct, predict, seen_from
+from carpus.core.research.papers.tracker import AugmentedGaussian, correct, predict, seen_from
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
 

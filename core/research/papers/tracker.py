@@ -27,10 +27,10 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.protocols import SITES, joint_angle_names, joint_discs
-from carpus.core.papers.chain import PaperSettings, hand_measured
+from carpus.core.research.papers.chain import PaperSettings, hand_measured
 from carpus.core.tracking.readout import lost_frame, lost_moment
 from carpus.core.tracking.unscented import Spread, deviations, weights_for
-from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, FloatArray, Moment, SpotAnswer, TrackedFrame, TrackStatus
 
 Motion = Callable[[FloatArray, FloatArray], FloatArray]
 """States (P, n) after a step from states (P, n) and noises (P, k)."""
@@ -245,6 +245,9 @@ class PaperTracker:
     def would_miss(self, blobs: Detections) -> bool:
         """Never: no search is narrowed."""
         return False
+
+    def hear(self, answer: SpotAnswer) -> None:
+        """Nothing: this filter is as written, and hears nobody."""
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
         """Predict, name the blobs, correct; the frame's result."""

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from carpus.core.calibration.neutral_pose import by_the_discs
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES
-from carpus.core.papers.chain import PaperSettings, as_written, by_the_discs, hand_measured, palm_modelled
-from carpus.core.papers.tracker import PaperMotion, body_turn_by_euler, euler_near, rotation_of
-from tests.papers.hands import MIDDLE_M, calibration, hand_calibration, straight_hand
+from carpus.core.research.papers.chain import PaperSettings, as_written, hand_measured, palm_modelled
+from carpus.core.research.papers.tracker import PaperMotion, body_turn_by_euler, euler_near, rotation_of
+from tests.research.papers.hands import MIDDLE_M, calibration, hand_calibration, straight_hand
 from tests.tracking.hands import CAMERA, FROM_ABOVE, RIGHT_PALM_M
 
 DT_S = 1.0 / 30.0

@@ -1,0 +1,1 @@
+"""What serves research alone and stands above the pipeline, which knows none of it."""
