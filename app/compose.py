@@ -30,7 +30,6 @@ from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import Recovered, recover
 from carpus.core.records.set_up import SetUp
 from carpus.ui.fault_words import fault_words
-from carpus.ui.keys import Keys
 from carpus.ui.records.backing_up import BackingUp
 from carpus.ui.records.erasing import Erasing
 from carpus.ui.records.lists import RecordLists
@@ -88,7 +87,7 @@ def compose(
     day = date.today if today is None else lambda: today
     parts = Parts(library, lambda *given: sources().open(*given), CareCameras(settings), settings, is_demo, day)
     shell = Shell(theme)
-    journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
+    journey = Journey(shell, theme, parts)
     keeper = PreferenceKeeper(
         journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), is_demo=is_demo
     )
@@ -152,7 +151,7 @@ def _safekeeping(journey: Journey, keeper: PreferenceKeeper, settings: Settings,
         keep_years=lambda years: keeper.keep(records=replace(settings.records, retention_years=years)),
     )  # fmt: skip
     locking = Locking(
-        context, key=context.keys["lock"], minutes=settings.lock.after_min,
+        context, minutes=settings.lock.after_min,
         keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
     )  # fmt: skip
 

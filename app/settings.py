@@ -42,7 +42,7 @@ TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
 MOST_NUMBER = 1e15
 DATA_VARIABLE = "CARPUS_DATA"
-GONE = {"report.agreement_limit_deg", "report.retest_days"}
+GONE = {"report.agreement_limit_deg", "report.retest_days", "screen.keys"}
 """Settings of earlier versions: accepted and ignored."""
 
 logger = logging.getLogger(__name__)
@@ -52,12 +52,11 @@ Values = Mapping[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class ScreenSettings:
-    """``theme`` of the window; ``text_scale`` 1, 1.25 or 1.5; ``keys`` that a person gave to actions; ``language`` a
-    code of two letters, or the computer's; ``research``: whether what only research needs is shown."""
+    """``theme`` of the window; ``text_scale`` 1, 1.25 or 1.5; ``language`` a code of two letters, or the
+    computer's; ``research``: whether what only research needs is shown."""
 
     theme: Literal["light", "dark", "system"] = "system"
     text_scale: float = 1.0
-    keys: Mapping[str, str] = field(default_factory=dict)
     language: str = "system"
     research: bool = False
 
@@ -264,7 +263,7 @@ def _without_gone(values: Values, path: Path, where: str = "") -> Values:
 
 
 _PREFERENCES = {
-    "screen": ("theme", "text_scale", "language", "research", "keys"),
+    "screen": ("theme", "text_scale", "language", "research"),
     "recording": ("folder",),
     "report": ("therapist", "angle_order"),
     "backup": ("folder", "hour"),
@@ -380,8 +379,6 @@ def _value(hint: Any, value: Any, place: str, file: str) -> Any:
         kinds = arguments[:1] * len(value) if arguments[-1] is Ellipsis else arguments
         if len(kinds) == len(value):
             return tuple(_value(one, item, place, file) for one, item in zip(kinds, value, strict=True))
-    if origin is Mapping and isinstance(value, Mapping):
-        return {str(name): _value(arguments[1], item, place, file) for name, item in value.items()}
     if origin in (typing.Union, types.UnionType):
         wanted = next(one for one in arguments if one is not type(None))
         return _value(wanted, value, place, file)

@@ -18,7 +18,6 @@ from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.camera_state import Cameras, CameraState
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.keys import Keys
 from carpus.ui.last_places import Kind, LastPlaces
 from carpus.ui.messages.messages import Messages, tell_written
 from carpus.ui.now_open import NowOpen
@@ -42,7 +41,6 @@ class ScreenContext:
 
     shell: Shell
     theme: Theme
-    keys: Keys
     library: Library
     background: Background
     messages: Messages

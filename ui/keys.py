@@ -1,9 +1,8 @@
-"""Every key in one table; a person may give each action another key."""
+"""Every key in one table."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
@@ -11,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.ui.translate import tr
 
-DEFAULT_KEYS = {
+KEYS = {
     "help": "F1", "settings": "Ctrl+,", "lock": "Ctrl+L", "search": "Ctrl+F", "new_patient": "Ctrl+N",
     "report": "Ctrl+P", "home_sheet": "Ctrl+H",
     "export": "Ctrl+E", "back": "Esc", "quit": "Ctrl+Q",
@@ -35,36 +34,25 @@ DEFAULT_KEYS = {
 """While measuring only the space bar, a pedal's key and function keys: no keyboard layout or language matters."""
 
 
-@dataclass(frozen=True, slots=True)
-class Keys:
-    """The default keys with what a person changed."""
-
-    changed: Mapping[str, str] = field(default_factory=dict)
-
-    def __getitem__(self, name: str) -> str:
-        return self.changed.get(name, DEFAULT_KEYS[name])
-
-
 def bind(
     host: QWidget,
-    keys: Keys,
     name: str,
     action: Callable[[], object],
     context: Qt.ShortcutContext = Qt.ShortcutContext.WidgetWithChildrenShortcut,
 ) -> QShortcut:
     """Make a key work while the host or a child of it has the keyboard."""
-    shortcut = QShortcut(QKeySequence(keys[name]), host)
+    shortcut = QShortcut(QKeySequence(KEYS[name]), host)
     shortcut.setContext(context)
     shortcut.setAutoRepeat(name in ("frame_back", "frame_on", "edge_back", "edge_on", "plot_in", "plot_out"))
     shortcut.activated.connect(action)
     return shortcut
 
 
-def bind_screen(host: QWidget, keys: Keys, actions: Mapping[str, Callable[[], object]]) -> dict[str, QShortcut]:
+def bind_screen(host: QWidget, actions: Mapping[str, Callable[[], object]]) -> dict[str, QShortcut]:
     """Keys of a screen that has the keyboard itself while none of its parts does, without a ring around it."""
     host.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     host.setProperty("shows_own_focus", True)
-    return {name: bind(host, keys, name, action) for name, action in actions.items()}
+    return {name: bind(host, name, action) for name, action in actions.items()}
 
 
 def key_name(key: str) -> str:
@@ -83,7 +71,7 @@ def letter_key(text: str) -> str:
 
 
 def action_words(name: str) -> str:
-    """What a key does, for the help and the settings."""
+    """What a key does, for the help."""
     words = {
         "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
         "new_patient": tr("New patient"), "report": tr("Report"), "home_sheet": tr("Sheet for home"),

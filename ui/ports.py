@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import date, datetime
 from typing import Literal, Protocol
 
@@ -190,7 +190,6 @@ class Preferences:
     text_scale: float = 1.0
     data_folder: str = ""
     therapist: str = ""
-    keys: Mapping[str, str] = field(default_factory=dict)
     angle_order: AngleOrder = "zyx"
     stream: bool = False
     patient_sound: bool = False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
@@ -20,6 +21,7 @@ from shiboken6 import isValid
 from carpus.ui.controls.card import Surface
 from carpus.ui.controls.layouts import host_of, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, Sign, Text
+from carpus.ui.keys import KEYS
 from carpus.ui.style import apply_style
 from carpus.ui.theme import FOCUS_OUTSIDE_PX, MARGIN_PX, Theme
 from carpus.ui.topbar import TopBar
@@ -45,22 +47,16 @@ class Shell(QWidget):
         self.setWindowTitle("Carpus")
         self.resize(*FIRST_SIZE_PX)
         self.setMinimumSize(*LEAST_SIZE_PX)
-        self._shortcuts: dict[str, QShortcut] = {}
         self._surely = False
         self.asks_before_closing: Callable[[], bool] = lambda: False
         """Asks the person where something would end with the window; False where nothing does."""
         theme.ground_changed.connect(self._take_theme)
         self._take_theme()
 
-    def set_keys(self, keys: dict[str, str]) -> None:
-        """Bind the shell-wide keys: name to key sequence, such as ``{"help": "F1"}``."""
-        for name, sequence in keys.items():
-            shortcut = self._shortcuts.get(name)
-            if shortcut is None:
-                shortcut = QShortcut(self)
-                shortcut.activated.connect(lambda name=name: self.key.emit(name))
-                self._shortcuts[name] = shortcut
-            shortcut.setKey(QKeySequence(sequence))
+    def bind_keys(self, names: Sequence[str]) -> None:
+        """Let keys work wherever the keyboard is; ``key`` carries the name of one that is pressed."""
+        for name in names:
+            QShortcut(QKeySequence(KEYS[name]), self).activated.connect(partial(self.key.emit, name))
 
     def show_screen(self, screen: QWidget, first: QWidget | None = None) -> None:
         if self.stage.indexOf(screen) < 0:

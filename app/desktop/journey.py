@@ -23,7 +23,6 @@ from carpus.core.records.library import Library
 from carpus.ui.background import Background
 from carpus.ui.camera_state import CameraState
 from carpus.ui.flow import STEPS, TABS, Flow, Navigator, ScreenContext
-from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces
 from carpus.ui.messages.messages import Messages
 from carpus.ui.now_open import NowOpen, SourceChoice
@@ -51,7 +50,7 @@ class Parts:
 class Journey(Screens):
     """The way through the screens, and what they share."""
 
-    def __init__(self, shell: Shell, theme: Theme, keys: Keys, parts: Parts) -> None:
+    def __init__(self, shell: Shell, theme: Theme, parts: Parts) -> None:
         super().__init__(shell)
         self._shell, self._library = shell, parts.library
         self.takes_escape: Callable[[], bool] = lambda: False
@@ -66,7 +65,7 @@ class Journey(Screens):
         )
         self.way = Navigator(shell, lambda: messages.busy, lambda: "live" in self.way.flows and self.live.is_recording)
         self.context = ScreenContext(
-            shell, theme, keys, parts.library, self.background, messages, self.way, self.now, self.opener,
+            shell, theme, parts.library, self.background, messages, self.way, self.now, self.opener,
             self.camera_state, parts.cameras, LastPlaces(parts.library.store), parts.settings.report, parts.today,
             __version__, parts.is_demo, parts.settings.patient.sound,
             parts.settings.recording.keep_pictures, MB_PER_MINUTE,
@@ -74,16 +73,16 @@ class Journey(Screens):
         for place in PLACES:
             self.way.makers[place] = partial(self._make, place)
         self.bar = Bar(self.context, lambda: self.review.screen)
-        self._connect(keys)
+        self._connect()
         self.camera_state.start()
         self._look_for_waiting()
 
     def _make(self, place: str) -> Flow:
         return flow_class(place)(self.context)
 
-    def _connect(self, keys: Keys) -> None:
+    def _connect(self) -> None:
         shell, bar, way = self._shell, self._shell.bar, self.way
-        shell.set_keys({name: keys[name] for name in ALL_KEYS})
+        shell.bind_keys(ALL_KEYS)
         shell.key.connect(self._take_key)
         shell.asks_before_closing = lambda: any(flow.asks_before_closing() for flow in way.flows.values())
         bar.back_button.clicked.connect(way.back)

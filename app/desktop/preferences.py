@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class PreferenceKeeper(QObject):
-    """Keeps the window's choices; keys and data folder count from the next start on. ``language_chosen``: the window
+    """Keeps the window's choices; the data folder counts from the next start on. ``language_chosen``: the window
     is to be put together again in another language."""
 
     language_chosen = Signal()
@@ -74,7 +74,6 @@ class PreferenceKeeper(QObject):
             settings.screen.text_scale,
             self._shown_folder,
             settings.report.therapist,
-            settings.screen.keys,
             settings.report.angle_order,
             settings.stream.on,
             settings.patient.sound,
@@ -99,7 +98,7 @@ class PreferenceKeeper(QObject):
             recording = replace(recording, folder=chosen.data_folder)
         self._settings = replace(
             self._settings,
-            screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.keys, chosen.language, chosen.research),
+            screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.language, chosen.research),
             recording=recording,
             report=replace(
                 self._settings.report,

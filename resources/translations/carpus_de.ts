@@ -8409,25 +8409,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>KeysCard</name>
-    <message>
-        <source>Usual keys again</source>
-        <translation>Übliche Tasten wieder</translation>
-    </message>
-    <message>
-        <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
-        <translation>Klicken Sie eine Taste an und drücken Sie eine andere. Beim Messen sind nur Leertaste und Funktionstasten sicher.</translation>
-    </message>
-    <message>
-        <source>Keys</source>
-        <translation>Tasten</translation>
-    </message>
-    <message>
-        <source>{key} already does: {action}.</source>
-        <translation>{key} tut schon: {action}.</translation>
-    </message>
-</context>
-<context>
     <name>LastPicture</name>
     <message>
         <source>Last time, {day}</source>
@@ -10797,20 +10778,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Beginn einer Aufnahme</translation>
     </message>
     <message>
-        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen under Keys. A start by itself is counted down, and Space takes it back.</source>
-        <translation>Für Hände, die den Arm des Patienten halten. Die Taste darf weit weg sein: Ein Pedal oder ein Presenter ist eine Tastatur mit wenigen Tasten. Bild ab geht weiter, nimmt auf und beendet; eine andere Taste wählt man unter Tasten. Vor einem Start von selbst wird gezählt, und die Leertaste nimmt ihn zurück.</translation>
-    </message>
-    <message>
         <source>The patient’s view</source>
         <translation>Die Patientenansicht</translation>
     </message>
     <message>
         <source>A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one measures on; whether it speaks to a child or an adult is chosen with the exercise.</source>
         <translation>Ein zweiter Bildschirm oder ein eigenes Fenster, das der Person zeigt, was zu tun ist. Sie öffnet sich vom Messbildschirm aus; ob sie für ein Kind oder für Erwachsene spricht, wird mit der Übung gewählt.</translation>
-    </message>
-    <message>
-        <source>Keys</source>
-        <translation>Tasten</translation>
     </message>
     <message>
         <source>About Carpus</source>
@@ -10879,6 +10852,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Reading the sessions…</source>
         <translation>Sitzungen werden gelesen…</translation>
+    </message>
+    <message>
+        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is counted down, and Space takes it back.</source>
+        <translation>Für Hände, die den Arm des Patienten halten. Die Taste darf weit weg sein: Ein Pedal oder ein Presenter ist eine Tastatur mit wenigen Tasten. Bild ab geht weiter, nimmt auf und beendet. Vor einem Start von selbst wird gezählt, und die Leertaste nimmt ihn zurück.</translation>
     </message>
 </context>
 <context>

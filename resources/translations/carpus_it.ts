@@ -8409,25 +8409,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>KeysCard</name>
-    <message>
-        <source>Usual keys again</source>
-        <translation>Ripristina i tasti usuali</translation>
-    </message>
-    <message>
-        <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
-        <translation>Fare clic su un tasto e premerne un altro. Durante la misura sono sicuri solo la barra spaziatrice e i tasti funzione.</translation>
-    </message>
-    <message>
-        <source>Keys</source>
-        <translation>Tasti</translation>
-    </message>
-    <message>
-        <source>{key} already does: {action}.</source>
-        <translation>{key} fa già: {action}.</translation>
-    </message>
-</context>
-<context>
     <name>LastPicture</name>
     <message>
         <source>Last time, {day}</source>
@@ -10797,20 +10778,12 @@ Maiusc+F8 di lato</translation>
         <translation>Inizio di una registrazione</translation>
     </message>
     <message>
-        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen under Keys. A start by itself is counted down, and Space takes it back.</source>
-        <translation>Per mani che tengono il braccio del paziente. Il tasto può essere lontano: un pedale o un telecomando per presentazioni è una tastiera con pochi tasti. Pag giù prosegue, registra e ferma; un altro tasto si sceglie in Tasti. Prima di un inizio da solo si conta, e lo Spazio lo annulla.</translation>
-    </message>
-    <message>
         <source>The patient’s view</source>
         <translation>La vista del paziente</translation>
     </message>
     <message>
         <source>A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one measures on; whether it speaks to a child or an adult is chosen with the exercise.</source>
         <translation>Un secondo schermo, o una finestra propria, che mostra al paziente che cosa fare. Si apre dallo schermo di misura; se parla a un bambino o a un adulto si sceglie con l’esercizio.</translation>
-    </message>
-    <message>
-        <source>Keys</source>
-        <translation>Tasti</translation>
     </message>
     <message>
         <source>About Carpus</source>
@@ -10879,6 +10852,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Reading the sessions…</source>
         <translation>Lettura delle sedute…</translation>
+    </message>
+    <message>
+        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is counted down, and Space takes it back.</source>
+        <translation>Per mani che tengono il braccio del paziente. Il tasto può essere lontano: un pedale o un telecomando per presentazioni è una tastiera con pochi tasti. Pag giù prosegue, registra e ferma. Prima di un inizio da solo si conta, e lo Spazio lo annulla.</translation>
     </message>
 </context>
 <context>

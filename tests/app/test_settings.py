@@ -103,7 +103,7 @@ def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_
     written(tmp_path, '[screen]\ntheme = "light"\n[tracker]\nprofile = "brisk"\n')
     chosen = dataclasses.replace(
         Settings(),
-        screen=ScreenSettings("dark", 1.25, {"record": "F12", "zoom_in": '"'}),
+        screen=ScreenSettings("dark", 1.25),
         recording=RecordingSettings(folder="/data of the clinic/é"),
         report=ReportSettings("M. R."),
     )
@@ -204,7 +204,7 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
         if place not in chosen:
             assert (list(kept) if isinstance(kept, tuple) else kept) == value, place
     assert found.track.tracker.profile == "slow", "the file says something else than the defaults"
-    assert (found.screen.theme, found.screen.text_scale, found.screen.keys) == ("dark", 1.25, {"play": "P"})
+    assert (found.screen.theme, found.screen.text_scale) == ("dark", 1.25)
     assert (found.recording.folder, found.report.therapist) == ("/home/clinic/Carpus", "AB")
     keep_preferences(found, dataclasses.replace(found, lock=LockSettings(5)), tmp_path)
     assert load_settings(tmp_path) == dataclasses.replace(found, lock=LockSettings(5))

@@ -17,7 +17,6 @@ from pytestqt.qtbot import QtBot
 from carpus.ui.background import Background
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.fonts import load_fonts
-from carpus.ui.keys import Keys
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.style import apply_style
@@ -95,7 +94,7 @@ def live(qtbot: QtBot, theme: Theme, show: Show[LiveScreen]) -> Live:
     """The live screen on a feed of which some seconds have passed: flexion, or a full fist of the whole hand."""
 
     def one(feed: FakeFeed, seconds: float = 0.0) -> TriedLive:
-        screen = show(LiveScreen(theme, Keys(), Background()), active=True)
+        screen = show(LiveScreen(theme, Background()), active=True)
         whole_hand = feed.pictures.spec.protocol == "hand21"
         tried = TriedLive(qtbot, screen, feed, set_up("FIST_COMPOSITE", 90.0) if whole_hand else set_up())
         tried.run(seconds)
@@ -110,7 +109,7 @@ def review(qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Bac
     screens: list[ReviewScreen] = []
 
     def one(store: FakeSessions, session_id: str) -> ReviewScreen:
-        screens.append(screen := show(ReviewScreen(theme, Keys(), background, store), active=True))
+        screens.append(screen := show(ReviewScreen(theme, background, store), active=True))
         screen.begin("linden", session_id)
         qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
         return screen

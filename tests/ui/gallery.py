@@ -42,7 +42,6 @@ from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.fault_words import fault_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.help.screen import HelpScreen
-from carpus.ui.keys import Keys
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.messages.messages import Answer, NoticeStrip, StopCard
@@ -159,7 +158,6 @@ class GalleryWindow:
         self.theme = Theme(theme, scale)
         self.shell = Shell(self.theme)
         self.background = Background()
-        self.keys = Keys()
         self.sessions = FakeSessions()
         self.sessions.kept["session-7"] = RepetitionChoices({6: "pain"})
         self.over: list[Sheet] = []
@@ -311,7 +309,7 @@ class Gallery(GalleryWindow):
         self.show(screen, screen.first(), steps=1)
 
     def _begin_markers(self, calibrator: FakeCalibrator, shown: ByteImage | None, since: str) -> MarkersScreen:
-        screen = MarkersScreen(self.theme, self.keys, self.background)
+        screen = MarkersScreen(self.theme, self.background)
         self.show(screen, screen.picture, steps=2)
         screen.begin(calibrator, shown, since)
         self.settle()
@@ -375,7 +373,7 @@ class Gallery(GalleryWindow):
             feed = FakeFeed("fist", 32.0, hidden, lost, protocol="hand21")
         feed = feed or FakeFeed(seconds=32.0, hidden=hidden, lost=lost)
         self.place(where="Right hand · Wrist flexion–extension", camera="30 pictures/s")
-        screen = self.show(LiveScreen(self.theme, self.keys, self.background))
+        screen = self.show(LiveScreen(self.theme, self.background))
         screen.begin(FakeMeasuring(feed), set_up("FIST_COMPOSITE", 90.0) if whole_hand else set_up())
         screen._timer.stop()
         feed.picture_number = 0
@@ -488,7 +486,7 @@ class Gallery(GalleryWindow):
         self, store: FakeSessions | None = None, session_id: str = "session-7", *, view: str = "", finger: int = -1,
         at_s: float = 20.6,
     ) -> ReviewScreen:  # fmt: skip
-        screen = ReviewScreen(self.theme, self.keys, self.background, store or self.sessions)
+        screen = ReviewScreen(self.theme, self.background, store or self.sessions)
         self.show(screen, tab=1, camera=SAVED).begin("linden", session_id, may_repeat=True)
         self.settle()
         if finger >= 0:
@@ -549,7 +547,7 @@ class Gallery(GalleryWindow):
     def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectScreen:
         """With ``wrong_px``, where the middle knuckle was taken to be."""
         store = FakeCorrections(self.sessions, pictures=pictures)
-        screen = self.show(CorrectScreen(self.theme, self.keys, self.background, store), tab=1, camera=SAVED)
+        screen = self.show(CorrectScreen(self.theme, self.background, store), tab=1, camera=SAVED)
         session = self.sessions.session("session-7")
         if wrong_px is not None:
             measured = session.markers.measured_px.copy()
@@ -597,7 +595,7 @@ class Gallery(GalleryWindow):
         sheet.begin()
 
     def _beside(self, store: FakeSessions, one: str, other: str) -> BesideScreen:
-        screen = self.show(BesideScreen(self.theme, self.keys, self.background, store), tab=1, camera="")
+        screen = self.show(BesideScreen(self.theme, self.background, store), tab=1, camera="")
         screen.begin((one, other), "right")
         self.settle()
         starts = screen.together.step.starts_s
@@ -628,11 +626,11 @@ class Gallery(GalleryWindow):
     def beside_reading(self) -> None:
         never = Background()
         never.run = lambda *_: None  # type: ignore[method-assign]
-        screen = BesideScreen(self.theme, self.keys, never, self.sessions)
+        screen = BesideScreen(self.theme, never, self.sessions)
         self.show(screen, tab=1, camera="").begin(("session-1", "session-7"))
 
     def progress(self, store: FakeSessions | None = None, session_id: str = "session-7") -> None:
-        screen = ProgressScreen(self.theme, self.keys, self.background, store or self.sessions)
+        screen = ProgressScreen(self.theme, self.background, store or self.sessions)
         self.show(screen, tab=2, camera="").begin("linden", session_id)
 
     def progress_by_hand(self) -> None:
@@ -649,7 +647,7 @@ class Gallery(GalleryWindow):
         screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
 
     def _report(self, made: Report) -> None:
-        self.show(ReportScreen(self.theme, self.keys, self.background), tab=3, camera="").begin(made, "")
+        self.show(ReportScreen(self.theme, self.background), tab=3, camera="").begin(made, "")
         self.settle()
 
     def _session_report(self, **look: Any) -> SessionReport:
@@ -697,7 +695,7 @@ class Gallery(GalleryWindow):
 
     def settings_safe(self) -> None:
         screen = self.settings()
-        backup, lock = BackupCard(self.theme, 18), LockCard(self.theme, 10, "Ctrl+L")
+        backup, lock = BackupCard(self.theme, 18), LockCard(self.theme, 10)
         backup.show_facts(OLD_BACKUP)
         lock.show_pin(is_set=True)
         screen.add_cards("safety", backup, lock, RecordsCard(self.theme, 10, (0, 3, 5, 10, 15, 20, 30)))
@@ -726,7 +724,7 @@ class Gallery(GalleryWindow):
     records_log = _under("patients", LogSheet, DEEDS)
 
     def help(self) -> None:
-        self.show(HelpScreen(self.theme, self.keys), where="")
+        self.show(HelpScreen(self.theme), where="")
 
     def _welcome(self, checks: Sequence[Check], *, counts_later: bool = False) -> None:
         screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY)
@@ -752,7 +750,7 @@ class Gallery(GalleryWindow):
     def _board(self) -> BoardScreen:
         self.place(where="")
         self.shell.bar.show_place("Camera calibration", "")
-        return self.show(BoardScreen(self.theme, self.keys))
+        return self.show(BoardScreen(self.theme))
 
     def board(self) -> None:
         screen = self._board()

@@ -14,7 +14,6 @@ from carpus.core.results.side_by_side import side_by_side
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.beside.words import facts_words, headline, keys_of, kinds, table_rows, unfair_words
-from carpus.ui.keys import Keys
 from carpus.ui.report.hand_rows import followed_keys
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
@@ -85,7 +84,7 @@ def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionFigur
 def test_the_left_hand_is_mirrored_and_says_so_until_m(
     qtbot: QtBot, theme: Theme, show: Show[BesideScreen], background: Background
 ) -> None:
-    screen = show(BesideScreen(theme, Keys(), background, FakeSessions(pictures=False)))
+    screen = show(BesideScreen(theme, background, FakeSessions(pictures=False)))
     screen.begin(("session-left", "session-7"), "right")
     qtbot.waitUntil(lambda: screen.both is not None)
     assert screen.ids == ("session-7", "session-left"), "the affected hand first"

@@ -18,7 +18,6 @@ from carpus.ui.correct.picture import RING_PX
 from carpus.ui.correct.places import Places
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
-from carpus.ui.keys import Keys
 from carpus.ui.plot.compared import OLD_SHARE, ComparedHandPlot, ComparedPlot
 from carpus.ui.plot.session import HandPlot
 from carpus.ui.theme import Theme
@@ -38,7 +37,7 @@ def sessions() -> FakeSessions:
 def screen(
     qtbot: QtBot, theme: Theme, show: Show[CorrectScreen], sessions: FakeSessions, background: Background
 ) -> CorrectScreen:
-    shown = show(CorrectScreen(theme, Keys(), background, FakeCorrections(sessions, pictures=False)))
+    shown = show(CorrectScreen(theme, background, FakeCorrections(sessions, pictures=False)))
     shown.begin("session-7", sessions.session("session-7"), ROW)
     qtbot.waitUntil(lambda: not background.busy and shown.picture.image is not None)
     return shown
@@ -200,10 +199,10 @@ def test_the_curve_is_of_the_finger_whose_disc_is_put_right_and_a_key_is_named_t
     qtbot: QtBot, theme: Theme
 ) -> None:
     background, sessions = Background(), FakeHandSessions()
-    shown = CorrectScreen(theme, Keys({"correct_undo": "U"}), background, FakeCorrections(sessions, pictures=False))
+    shown = CorrectScreen(theme, background, FakeCorrections(sessions, pictures=False))
     qtbot.addWidget(shown)
     session = hand_session()
-    for doubted, named in ((False, "H , . U"), (True, "H , . U D")):
+    for doubted, named in ((False, "H , . Z"), (True, "H , . Z D")):
         session = replace(session, markers=replace(session.markers, doubted=session.markers.doubted | doubted))
         shown.begin("hand-7", session, 200)
         assert " ".join(name for name, _ in shown._caps._keys[1:]) == named

@@ -24,7 +24,6 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.progress import progress
 from carpus.ui.background import Background
-from carpus.ui.keys import Keys
 from carpus.ui.live.course import LINGER_S, CourseRun
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.guide import Glance, GuideScene
@@ -122,7 +121,7 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
 
 
 def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
-    live = LiveScreen(theme, Keys(), Background())
+    live = LiveScreen(theme, Background())
     qtbot.addWidget(live)
     patient = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view)
     live.patient_wanted.connect(patient.toggle)

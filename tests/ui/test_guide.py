@@ -16,7 +16,6 @@ from carpus.ui.hand_drawing import PLACES
 from carpus.ui.help import guide
 from carpus.ui.help.cards import write_cards
 from carpus.ui.help.screen import HelpScreen
-from carpus.ui.keys import Keys
 from carpus.ui.language import LANGUAGES, speaking, texts_of
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
@@ -93,7 +92,7 @@ def test_every_picture_is_there_and_none_is_left_over() -> None:
 
 
 def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(theme: Theme, show: Show[HelpScreen]) -> None:
-    screen = show(HelpScreen(theme, Keys()))
+    screen = show(HelpScreen(theme))
     screen.show_page("camera")
     assert screen.pages["camera"].isChecked()
     assert "70 to 80 cm" in screen.text.toPlainText()

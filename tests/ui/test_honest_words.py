@@ -30,7 +30,6 @@ from carpus.core.types import TrackedFrame
 from carpus.ui.background import Background
 from carpus.ui.controls.text import StateText, Text
 from carpus.ui.figures import figure_of, spread_labels
-from carpus.ui.keys import Keys
 from carpus.ui.live.number_card import speed_words
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.plot.course import place_panels
@@ -96,7 +95,7 @@ def test_progress_and_report_say_it_too(
     theme: Theme, background: Background, qtbot: QtBot, kind: type[FakeSessions]
 ) -> None:
     store = kind()
-    screen = ProgressScreen(theme, Keys(), background, store)
+    screen = ProgressScreen(theme, background, store)
     screen.begin("linden")
     qtbot.waitUntil(lambda: not background.busy)
     again = kind is TrackedAgain
@@ -111,7 +110,7 @@ def test_while_sessions_are_read_nothing_of_the_patient_before_is_shown_or_can_b
     theme: Theme, background: Background, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     store = FakeSessions()
-    screen = ProgressScreen(theme, Keys(), background, store)
+    screen = ProgressScreen(theme, background, store)
     acts = (screen.report_button, screen.picture_button, screen.table_button)
     screen.begin("linden")
     qtbot.waitUntil(lambda: not background.busy)
@@ -211,7 +210,7 @@ def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_large
     assert "not published" in words
     assert "√2" in words
     assert words in method(figures_once(session()), 6, compared=True)
-    screen = ProgressScreen(theme, Keys(), background, FakeSessions())
+    screen = ProgressScreen(theme, background, FakeSessions())
     screen.begin("linden")
     qtbot.waitUntil(lambda: not background.busy)
     assert words in said(screen)

@@ -13,7 +13,6 @@ from pytestqt.qtbot import QtBot
 from carpus.core.calibration.result import CalibrationFinding, Clicks
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.ui.background import Background
-from carpus.ui.keys import Keys
 from carpus.ui.language import speaking
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.picture import MarkerPicture
@@ -104,7 +103,7 @@ class Marking:
 
 @pytest.fixture
 def screen(theme: Theme, show: Show[MarkersScreen]) -> MarkersScreen:
-    return show(MarkersScreen(theme, Keys(), Background()))
+    return show(MarkersScreen(theme, Background()))
 
 
 @pytest.fixture

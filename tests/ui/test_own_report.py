@@ -19,7 +19,6 @@ from carpus.core.records.of_clinic import form_in, keep_form, read_form
 from carpus.core.records.store import Store
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.background import Background
-from carpus.ui.keys import Keys
 from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.patient.words import task_words
 from carpus.ui.report.gather import session_report, write_session_report
@@ -258,7 +257,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     assert (sheet.note.text(), sheet.language.value()) == ("", "en"), "the language is the patient's"
     sheet.close_sheet()
     background = Background()
-    screen = ReportScreen(theme, Keys(), background)
+    screen = ReportScreen(theme, background)
     qtbot.addWidget(screen)
     wanted = []
     screen.home_wanted.connect(wanted.append)
@@ -288,7 +287,7 @@ def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:
 
 
 def test_the_comment_beside_the_preview_is_told_once_it_is_written(theme: Theme) -> None:
-    screen = ReportScreen(theme, Keys({}), Background())
+    screen = ReportScreen(theme, Background())
     told: list[tuple[str, str]] = []
     screen.panel.comment_kept.connect(lambda session, text: told.append((session, text)))
     screen.begin(report(), "")

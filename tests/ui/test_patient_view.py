@@ -12,7 +12,6 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.hand.exercises import EXERCISES, exercise_named
 from carpus.ui.background import Background
-from carpus.ui.keys import Keys
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.guide import LOST_AFTER_S, Glance, Guide, GuideScene
@@ -131,7 +130,7 @@ def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirr
 
 
 def test_esc_closes_a_view_that_lies_over_the_window(qtbot: QtBot, theme: Theme) -> None:
-    live = LiveScreen(theme, Keys(), Background())
+    live = LiveScreen(theme, Background())
     qtbot.addWidget(live)
     viewing = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view)
     assert not viewing.uncover()

@@ -13,7 +13,6 @@ from carpus.core.records.values import SessionEntry
 from carpus.core.results.progress import Progress
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.keys import Keys
 from carpus.ui.numbers import day_beside, day_month, report_date, since, time_beside
 from carpus.ui.plot.course import panels_of
 from carpus.ui.plot.export import picture
@@ -162,7 +161,7 @@ def test_without_pictures_the_marks_are_still_shown(review: Reviewing) -> None:
 def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     qtbot: QtBot, theme: Theme, show: Show[ProgressScreen], store: FakeSessions, background: Background
 ) -> None:
-    screen = show(ProgressScreen(theme, Keys(), background, store))
+    screen = show(ProgressScreen(theme, background, store))
     screen.begin("linden", "session-7")
     qtbot.waitUntil(lambda: len(screen.progress.points) == 7)
     assert screen.answer.text().startswith("The whole arc has improved by")

@@ -21,7 +21,6 @@ from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.figures import Figure
-from carpus.ui.keys import Keys
 from carpus.ui.picture.view import PictureView
 from carpus.ui.playback.pictures import GROUND, modelled_px, paint_trails
 from carpus.ui.plot.session import HandPlot, joint_at
@@ -136,7 +135,7 @@ def test_the_places_are_final_before_the_session_is_read(
         return session(session_id)
 
     monkeypatch.setattr(store, "session", read)
-    screen = show(ReviewScreen(theme, Keys(), background, store))
+    screen = show(ReviewScreen(theme, background, store))
 
     def places() -> list[QRect]:
         QApplication.processEvents()

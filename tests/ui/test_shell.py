@@ -21,7 +21,7 @@ from carpus.ui.controls.layouts import in_column
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.flow import Navigator
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
-from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
+from carpus.ui.keys import KEYS, action_words
 from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.ports import Preferences
 from carpus.ui.report.gather import session_report
@@ -78,11 +78,10 @@ def test_the_way_through_a_session_the_recording_and_the_keys_of_all_screens(qtb
     for state, said in (("recording", "Recording 01:24"), ("paused", "Paused at 01:24"), ("off", "")):
         bar.pill.show_state(state, 84.2)
         assert (bar.pill.accessibleName(), bar.pill.isVisible()) == (said, state != "off")
-    for key, pressed in (("F1", Qt.Key.Key_F1), ("F12", Qt.Key.Key_F12)):
-        shell.set_keys({"help": key})
-        with qtbot.waitSignal(shell.key) as told:
-            qtbot.keyClick(shell, pressed)
-        assert told.args == ["help"]
+    shell.bind_keys(["help"])
+    with qtbot.waitSignal(shell.key) as told:
+        qtbot.keyClick(shell, Qt.Key.Key_F1)
+    assert told.args == ["help"]
 
 
 def test_what_comes_while_settings_are_open_is_behind_them(shell: Shell) -> None:
@@ -224,22 +223,8 @@ def test_about_tells_what_lies_in_the_clinics_folder(settings: Settings) -> None
     assert "cannot be read" in told[3]
 
 
-def test_a_key_can_be_given_to_one_action_only(settings: Settings) -> None:
-    screen, _ = settings()
-    screen.choose("keys")
-    for action in ("note", "pain"):
-        screen.keys[action].setKeySequence(QKeySequence("Ctrl+J"))
-        screen.keys[action].editingFinished.emit()
-        assert screen.preferences.keys == {"note": "Ctrl+J"}
-    assert screen.fault.isVisible()
-    assert screen.keys["pain"].keySequence() == QKeySequence("F6")
-    screen.reset.click()
-    assert screen.preferences.keys == {}
-    assert Keys({"note": "Ctrl+J"})["note"] == "Ctrl+J"
-
-
 def test_every_key_has_words_and_is_a_key() -> None:
-    for name, key in DEFAULT_KEYS.items():
+    for name, key in KEYS.items():
         assert action_words(name)
         assert QKeySequence(key).count() == 1
 
@@ -247,7 +232,7 @@ def test_every_key_has_words_and_is_a_key() -> None:
 def test_a_report_is_saved_in_the_background_and_replaces_only_when_asked(
     qtbot: QtBot, theme: Theme, show: Show[ReportScreen], tmp_path: Path
 ) -> None:
-    screen = show(ReportScreen(theme, Keys(), Background()))
+    screen = show(ReportScreen(theme, Background()))
     screen.begin(session_report(FakeSessions().session("session-7")), str(tmp_path))
     assert not screen.page.grab().isNull()
     with qtbot.waitSignal(screen.saved) as saved:

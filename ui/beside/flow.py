@@ -15,7 +15,7 @@ class BesideFlow(Flow):
 
     def __init__(self, context: ScreenContext) -> None:
         self._background = Background()  # its own: what the list still reads holds up no picture
-        super().__init__(context, BesideScreen(context.theme, context.keys, self._background, context.library))
+        super().__init__(context, BesideScreen(context.theme, self._background, context.library))
         self.back_to = "sessions"
         self.screen.told.connect(context.messages.fault)
 

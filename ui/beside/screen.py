@@ -15,7 +15,7 @@ from carpus.ui.beside.words import doubts, headline, keys_of, name_of, picture_w
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import Fitted, in_column, in_line, page
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, heading
-from carpus.ui.keys import Keys, bind_screen
+from carpus.ui.keys import bind_screen
 from carpus.ui.playback.transport import Playing
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
@@ -29,7 +29,7 @@ class BesideScreen(Fitted):
     told = Signal(object)
     arrived = Signal()
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Library) -> None:
+    def __init__(self, theme: Theme, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self.ids: tuple[str, str] = ("", "")
@@ -45,9 +45,9 @@ class BesideScreen(Fitted):
         self.player = BesidePlayer(theme, self.playing)
         self._unfair = Text(theme, "", 14, SEMIBOLD, wrap=True)
         self._strip = Card(theme, 12, "warn_soft", "warn")
-        self.differences = DifferencesCard(theme, keys)
+        self.differences = DifferencesCard(theme)
         self._lay_out()
-        self._connect(keys)
+        self._connect()
         theme.changed.connect(self._fit)
         theme.changed.connect(self._fit_soon)
         self._show_parts(reading=False)
@@ -71,7 +71,7 @@ class BesideScreen(Fitted):
         for picture in self.pictures:
             picture.setMinimumSize(round(least * 4 / 3), least)
 
-    def _connect(self, keys: Keys) -> None:
+    def _connect(self) -> None:
         for picture in self.pictures:
             picture.failed.connect(self.told)
             picture.failed.connect(self.playing.stop)
@@ -85,7 +85,7 @@ class BesideScreen(Fitted):
             "repetition_back": lambda: self.go_to_repetition(-1), "repetition_on": lambda: self.go_to_repetition(1),
             "mirror": self.differences.mirror_button.click,
         }  # fmt: skip
-        bind_screen(self, keys, actions)
+        bind_screen(self, actions)
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, session_ids: tuple[str, str], affected: str = "") -> None:

@@ -14,7 +14,7 @@ from carpus.ui.controls.card import Card, Line, named_by_color
 from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import empty, fill, in_column, in_grid, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, plain_tooltip
-from carpus.ui.keys import Keys
+from carpus.ui.keys import KEYS
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
 
@@ -26,7 +26,7 @@ RIGHT = (3, 4)
 class DifferencesCard(Card):
     """``followed`` chooses what of the whole hand is compared, ``mirror_button`` how a left hand is shown."""
 
-    def __init__(self, theme: Theme, keys: Keys) -> None:
+    def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 20)
         self._theme = theme
         self.rows: tuple[BesideRow, ...] = ()
@@ -34,7 +34,7 @@ class DifferencesCard(Card):
         self.followed = Combo()
         self.followed.setAccessibleName(self.tr("What is compared"))
         self.followed.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
-        self.mirror_button = Button(theme, self.tr("&Mirror"), "quiet", hint=keys["mirror"])
+        self.mirror_button = Button(theme, self.tr("&Mirror"), "quiet", hint=KEYS["mirror"])
         self.mirror_button.setCheckable(True)
         self.mirror_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.mirror_button.setToolTip(self.tr("Show the left hand as it would look as a right one"))

@@ -27,7 +27,7 @@ class BoardFlow(AtCameraFlow):
     screen: BoardScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        screen = BoardScreen(context.theme, context.keys)
+        screen = BoardScreen(context.theme)
         super().__init__(context, screen, screen.name_sheet)
         self._choice = BoardChoice()
         self._session: LiveSession | None = None

@@ -25,7 +25,7 @@ from carpus.ui.controls.layouts import (
     in_line,
 )
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, heading
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import bind
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, headline, kept_words, result_rows
 
@@ -33,7 +33,7 @@ from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, headlin
 class BoardScreen(QWidget):
     """Three parts, one at a time; what their buttons do is the flow's affair."""
 
-    def __init__(self, theme: Theme, keys: Keys) -> None:
+    def __init__(self, theme: Theme) -> None:
         super().__init__()
         self.beginning = BoardBeginning(theme)
         self.showing = BoardShowing(theme)
@@ -43,7 +43,7 @@ class BoardScreen(QWidget):
             self._parts.addWidget(part)
         in_column(self._parts, margins=(0, 0, 0, 0), within=self)
         self.name_sheet = CameraNameSheet(self, theme)
-        bind(self.beginning, keys, "report", self.beginning.print_button.click)
+        bind(self.beginning, "report", self.beginning.print_button.click)
 
     @property
     def is_beginning(self) -> bool:

@@ -46,7 +46,7 @@ class CorrectFlow(Flow):
     def __init__(self, context: ScreenContext) -> None:
         self._stored = Corrections(context.library)
         self._stored.clear_unfinished()
-        super().__init__(context, CorrectScreen(context.theme, context.keys, context.background, self._stored))
+        super().__init__(context, CorrectScreen(context.theme, context.background, self._stored))
         self.sheet = ResultsSheet(context.shell.stage, context.theme)
         self._tracking, self._background = Background(), Background()
         self._stopping = threading.Event()

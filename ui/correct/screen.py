@@ -24,7 +24,7 @@ from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Sign,
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
 from carpus.ui.figures import figure_of
-from carpus.ui.keys import Keys, bind_screen
+from carpus.ui.keys import KEYS, bind_screen
 from carpus.ui.marker_words import finger_of, marker_name
 from carpus.ui.playback.pictures import RowReader, plain_ground
 from carpus.ui.playback.transport import Scrubber, Transport, clock_words
@@ -50,10 +50,9 @@ class CorrectScreen(Fitted):
     done = Signal()
     told = Signal(object)
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Corrections) -> None:
+    def __init__(self, theme: Theme, background: Background, store: Corrections) -> None:
         super().__init__()
         self._theme = theme
-        self._keys = keys
         self._caps = KeyCaps(theme, [])
         self._session_id = ""
         self._session: Session | None = None
@@ -81,16 +80,16 @@ class CorrectScreen(Fitted):
         self.rows: dict[str, MarkerRow] = {}
         self._rows = in_column(gap=0)
         self.next_doubtful = Button(
-            theme, self.tr("Next doubtful picture"), "quiet", hint=keys["correct_doubtful"], height_px=36
+            theme, self.tr("Next doubtful picture"), "quiet", hint=KEYS["correct_doubtful"], height_px=36
         )
         self.hide_button = Button(
-            theme, self.tr("Not to be seen here"), "quiet", hint=keys["correct_hide"], height_px=36
+            theme, self.tr("Not to be seen here"), "quiet", hint=KEYS["correct_hide"], height_px=36
         )
         self.primary = Button(theme, self.tr("Track again from here"), "primary", hint=ENTER)
         self.cancel = Button(theme, self.tr("Cancel"), height_px=52)
         self.cancel.setToolTip(self.tr("Back to the review (Esc)"))
         self._lay_out()
-        self._connect(keys)
+        self._connect()
 
     def _lay_out(self) -> None:
         left = in_column((self.picture, 452), gap=8)
@@ -114,14 +113,13 @@ class CorrectScreen(Fitted):
 
     def _say_keys(self) -> None:
         """What a key does, of those that do something here."""
-        keys = self._keys
         said = [
-            (self.tr("Drag"), self.tr("move a name")), (keys["correct_hide"], self.tr("not to be seen here")),
-            (f"{keys['correct_back']} {keys['correct_on']}", self.tr("picture")),
-            (keys["correct_undo"], self.tr("undo")),
+            (self.tr("Drag"), self.tr("move a name")), (KEYS["correct_hide"], self.tr("not to be seen here")),
+            (f"{KEYS['correct_back']} {KEYS['correct_on']}", self.tr("picture")),
+            (KEYS["correct_undo"], self.tr("undo")),
         ]  # fmt: skip
         if self._doubtful().size:
-            said.append((keys["correct_doubtful"], self.tr("next doubtful")))
+            said.append((KEYS["correct_doubtful"], self.tr("next doubtful")))
         self._caps.set_keys(said)
 
     def _fit(self) -> None:
@@ -132,7 +130,7 @@ class CorrectScreen(Fitted):
         self.next_doubtful.setVisible(bool(self._doubtful().size) and not self.although.isVisibleTo(self))
         self.primary.set_face(self.primary.text(), hint="" if tight else ENTER)
 
-    def _connect(self, keys: Keys) -> None:
+    def _connect(self) -> None:
         self.picture.dropped.connect(self.put)
         self.picture.chosen.connect(self.choose)
         self.picture.missed.connect(self._clicked_beside)
@@ -150,7 +148,7 @@ class CorrectScreen(Fitted):
             "correct_back": lambda: self.go_on(-1), "correct_on": lambda: self.go_on(1),
             "correct_hide": self.hide_current, "correct_undo": self.undo, "correct_doubtful": self.go_to_doubtful,
         }  # fmt: skip
-        bind_screen(self, keys, actions)
+        bind_screen(self, actions)
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, session_id: str, session: Session, row: int) -> None:

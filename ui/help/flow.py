@@ -13,7 +13,7 @@ class HelpFlow(Flow):
     screen: HelpScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, HelpScreen(context.theme, context.keys))
+        super().__init__(context, HelpScreen(context.theme))
         self.screen.back.clicked.connect(context.way.back)
         self.screen.told.connect(context.messages.fault)
 

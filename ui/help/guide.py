@@ -66,7 +66,8 @@ def page_html(page: str, theme: Theme, width_px: int) -> str:
 def keys_html(heading: str, rows: list[tuple[str, str]], theme: Theme) -> str:
     """A table of keys and what they do."""
     lines = "".join(
-        f'<tr><td class="key">{html.escape(key)}</td><td>{html.escape(words)}</td></tr>' for key, words in rows
+        f'<tr><td class="key">{html.escape(key)}</td><td>{html.escape(words).replace(chr(10), "<br>")}</td></tr>'
+        for key, words in rows
     )
     return _styled(f"<h1>{html.escape(heading)}</h1><table cellpadding='6'>{lines}</table>", theme)
 

@@ -15,17 +15,17 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import in_column, in_line, scrolled
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.help import cards, guide
-from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
+from carpus.ui.keys import KEYS, action_words
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 
 PICTURE_PX = 720
 
 
-def actions_by_key(keys: Keys) -> dict[str, list[str]]:
+def actions_by_key() -> dict[str, list[str]]:
     """What each key does; one key may do different things on different screens."""
     found: dict[str, list[str]] = {}
-    for name in DEFAULT_KEYS:
-        found.setdefault(keys[name], []).append(action_words(name))
+    for name, key in KEYS.items():
+        found.setdefault(key, []).append(action_words(name))
     return found
 
 
@@ -34,9 +34,9 @@ class HelpScreen(QWidget):
 
     told = Signal(object)
 
-    def __init__(self, theme: Theme, keys: Keys) -> None:
+    def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self._theme, self._keys = theme, keys
+        self._theme = theme
         self.page = guide.PAGES[0]
         self.start_folder = ""
         """Where saving begins."""
@@ -85,7 +85,7 @@ class HelpScreen(QWidget):
         self.page = name
         self.pages[name].setChecked(True)
         if name == guide.KEYS_PAGE:
-            rows = [(key, "\n".join(words)) for key, words in actions_by_key(self._keys).items()]
+            rows = [(key, "\n".join(words)) for key, words in actions_by_key().items()]
             self.text.show_html(guide.keys_html(self.tr("Keys"), rows, self._theme))
         else:
             self.text.show_html(guide.page_html(name, self._theme, self._picture_px()))

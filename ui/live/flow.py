@@ -24,7 +24,7 @@ class LiveFlow(Flow):
     screen: LiveScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, LiveScreen(context.theme, context.keys, context.background))
+        super().__init__(context, LiveScreen(context.theme, context.background))
         live, recording, self._to_stop = self.screen, self.screen.recording, False
         self.patient_view = PatientViewing(context, live.set_patient_view)
         live.patient_wanted.connect(self.patient_view.toggle)

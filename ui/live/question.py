@@ -15,7 +15,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import fill, in_grid
 from carpus.ui.controls.text import Text
 from carpus.ui.fonts import SEMIBOLD
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import KEYS, bind
 from carpus.ui.live.doubt import Chosen, Doubt, SteadyDoubt, lower_name
 from carpus.ui.picture.overlay import haloed
 from carpus.ui.picture.photo import label_size, paint_label
@@ -39,11 +39,9 @@ class SpotQuestion(Card):
     answered = Signal(object)
     changed = Signal()
 
-    def __init__(
-        self, picture: PictureView, theme: Theme, keys: Keys, host: QWidget, now_s: Callable[[], float]
-    ) -> None:
+    def __init__(self, picture: PictureView, theme: Theme, host: QWidget, now_s: Callable[[], float]) -> None:
         super().__init__(theme, PADDING_PX, "surface", "warn")
-        self._keys, self._picture = keys, picture
+        self._picture = picture
         self._steady = SteadyDoubt()
         self.open_doubt: Doubt | None = None
         """What is in question, also where there is nothing to choose."""
@@ -69,7 +67,7 @@ class SpotQuestion(Card):
         fill(self.body, self.words, self._grid)
         self.hide()
         names = ("answer_first", "answer_second", "answer_none")
-        self._answer_keys = {name: bind(host, keys, name, partial(self._answer_by_key, name)) for name in names}
+        self._answer_keys = {name: bind(host, name, partial(self._answer_by_key, name)) for name in names}
         self._arm_keys()
 
     def look(self, doubt: Doubt | None) -> Doubt | None:
@@ -177,7 +175,7 @@ class SpotQuestion(Card):
             button.setVisible(which in faces)
             if which in faces:
                 words, key = faces[which]
-                button.set_face(words, hint=self._keys[key])
+                button.set_face(words, hint=KEYS[key])
 
     def _would_cover(self, doubt: Doubt, height_px: int) -> bool:
         """Whether at the foot of the picture it would lie over what is asked about."""

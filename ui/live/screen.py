@@ -19,7 +19,7 @@ from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.figures import figure_of
-from carpus.ui.keys import Keys, bind_screen
+from carpus.ui.keys import bind_screen
 from carpus.ui.live.controls import Controls
 from carpus.ui.live.doubt import doubt_lamp, doubt_of
 from carpus.ui.live.hand_map import HandMap
@@ -73,7 +73,7 @@ class LiveScreen(Fitted):
     glanced = Signal(Glance)
     """How the trained angle stands, as often as the figures change."""
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
+    def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
         self._theme = theme
         self.history = History(PROTOCOLS[0])
@@ -90,7 +90,7 @@ class LiveScreen(Fitted):
         self.stage = QWidget()
         """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
         self.picture = PictureView(theme)
-        self.question = SpotQuestion(self.picture, theme, keys, self, lambda: self.recording.now_s)
+        self.question = SpotQuestion(self.picture, theme, self, lambda: self.recording.now_s)
         self.on_picture = OnPicture(theme, self.picture, self.question, self.recording)
         self.path = PathView(theme, self.history)
         self.number = NumberCard(theme)
@@ -108,7 +108,7 @@ class LiveScreen(Fitted):
         self.note_sheet = NoteSheet(self.stage, theme)
         self.pain_sheet = PainSheet(self.stage, theme)
         self._lay_out()
-        self._connect(keys)
+        self._connect()
         self.picture.installEventFilter(self)
         theme.changed.connect(self._fit)
         self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer, interval=LOOK_EVERY_MS)
@@ -128,7 +128,7 @@ class LiveScreen(Fitted):
         whole = in_column((self.stage, 1), _between_margins(self.course, 8), gap=0, margins=(0, 0, 0, 0), within=self)
         fill(whole, _between_margins(self.bubble, 4), self.catching_up, Line(self._theme), self.controls)
 
-    def _connect(self, keys: Keys) -> None:
+    def _connect(self) -> None:
         recording, controls = self.recording, self.controls
         controls.note.clicked.connect(lambda: self.note_sheet.begin(passive=recording.passive))
         controls.pain.clicked.connect(self.pain_sheet.begin)
@@ -157,7 +157,7 @@ class LiveScreen(Fitted):
             "large_view": self.toggle_large,
         }  # fmt: skip
         self.fingers.chosen.connect(lambda figure: self.choose(Reading(figure=figure)))
-        self._shortcuts = bind_screen(self, keys, actions)
+        self._shortcuts = bind_screen(self, actions)
         self.question.other_keys = list(self._shortcuts.values())
         self.question.changed.connect(self._place_question)
         self.question.answered.connect(recording.answer_spot)

@@ -20,7 +20,7 @@ class MarkersFlow(Flow):
     screen: MarkersScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, MarkersScreen(context.theme, context.keys, context.background))
+        super().__init__(context, MarkersScreen(context.theme, context.background))
         context.opener.closing.connect(self.screen.end)
         self.screen.naming.started.connect(lambda: context.way.show("live"))
         self.screen.naming.told.connect(context.messages.fault)

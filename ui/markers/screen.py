@@ -17,7 +17,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import KeyCaps
 from carpus.ui.controls.layouts import STRETCH, Fitted, host_of, in_column, in_line
 from carpus.ui.controls.text import REGULAR, Text
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import bind
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.guidance import COLUMN_PX, Guidance, StartAngleSheet
 from carpus.ui.markers.naming import Naming, Remedy, at_fault, exchanged
@@ -39,7 +39,7 @@ TWO_LINES_PX, BUTTONS_PX = 40, 36
 class MarkersScreen(Fitted):
     """What is done on it is told by its :class:`Naming`."""
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
+    def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
         self._theme = theme
         self.naming = Naming(background)
@@ -57,7 +57,7 @@ class MarkersScreen(Fitted):
         self.angle_sheet = StartAngleSheet(self, theme)
         self.caps = KeyCaps(theme, self._keys_now())
         self._lay_out()
-        self._connect(keys)
+        self._connect()
         self._preview = QTimer(self, interval=PREVIEW_EVERY_MS)
         self._preview.timeout.connect(self._show_newest)
 
@@ -115,7 +115,7 @@ class MarkersScreen(Fitted):
         if self.height() != height_px:
             self._fit()
 
-    def _connect(self, keys: Keys) -> None:
+    def _connect(self) -> None:
         naming, picture, straight = self.naming, self.picture, self.guidance.straight
         naming.edited.connect(self._forget_verdict)
         naming.changed.connect(self._refresh)
@@ -134,7 +134,7 @@ class MarkersScreen(Fitted):
         self.take_rest.clicked.connect(lambda: naming.take_all())
         straight.changed.connect(naming.say_straight)
         for number in range(1, 6):
-            bind(self, keys, f"finger_{number}", partial(self._toggle_straight, number))
+            bind(self, f"finger_{number}", partial(self._toggle_straight, number))
         picture.installEventFilter(self)
         actions: dict[str, Callable[[], object]] = {
             "undo": naming.undo, "zoom_in": lambda: picture.zoom(1), "zoom_out": lambda: picture.zoom(-1),
@@ -142,8 +142,8 @@ class MarkersScreen(Fitted):
             "last_picture": self.last.toggle, "click_again": naming.click_again,
         }  # fmt: skip
         for name, action in actions.items():
-            bind(self, keys, name, action)
-        bind(picture, keys, "accept", self.accept, Qt.ShortcutContext.WidgetShortcut)
+            bind(self, name, action)
+        bind(picture, "accept", self.accept, Qt.ShortcutContext.WidgetShortcut)
 
     # --- life ---------------------------------------------------------------------------------------------
     @property

@@ -22,7 +22,7 @@ class ProgressFlow(Flow):
     screen: ProgressScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, ProgressScreen(context.theme, context.keys, context.background, context.library))
+        super().__init__(context, ProgressScreen(context.theme, context.background, context.library))
         screen, way = self.screen, context.way
         screen.told.connect(context.messages.fault)
         screen.session.connect(lambda session_id: way.show("review", session_id))

@@ -31,7 +31,7 @@ from carpus.ui.controls.layouts import (
     page,
 )
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
-from carpus.ui.keys import Keys, bind_screen, letter_key
+from carpus.ui.keys import bind_screen, letter_key
 from carpus.ui.plot.course_view import ProgressChart
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
@@ -57,7 +57,7 @@ class ProgressScreen(Fitted):
     session = Signal(str)
     by_hand_wanted = Signal()
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Library) -> None:
+    def __init__(self, theme: Theme, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._patient_id = ""
@@ -96,7 +96,7 @@ class ProgressScreen(Fitted):
             "point_open": self.chart.open_pointed, "report": self.report_button.click,
             "export": self.table_button.click,
         }  # fmt: skip
-        bind_screen(self, keys, actions)
+        bind_screen(self, actions)
 
     def _lay_out(self) -> None:
         self._filters = QBoxLayout(QBoxLayout.Direction.LeftToRight)

@@ -14,6 +14,7 @@ from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.icons import State
+from carpus.ui.keys import KEYS
 from carpus.ui.theme import Theme
 
 
@@ -100,7 +101,7 @@ class BackupCard(Card):
 class LockCard(Card):
     """When it locks by itself, and the PIN."""
 
-    def __init__(self, theme: Theme, minutes: int, key: str) -> None:
+    def __init__(self, theme: Theme, minutes: int) -> None:
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Lock"), 20, SEMIBOLD))
         words = self.tr(
@@ -131,7 +132,7 @@ class LockCard(Card):
         self.body.addLayout(
             in_line(
                 self.pin_button,
-                (KeyCaps(theme, [(key, self.tr("locks now"))]), 0, Qt.AlignmentFlag.AlignVCenter),
+                (KeyCaps(theme, [(KEYS["lock"], self.tr("locks now"))]), 0, Qt.AlignmentFlag.AlignVCenter),
                 STRETCH,
                 gap=20,
             )

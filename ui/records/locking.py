@@ -22,6 +22,7 @@ from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, StateText, Text
 from carpus.ui.fault_words import fault_words
 from carpus.ui.flow import ScreenContext
+from carpus.ui.keys import KEYS
 from carpus.ui.records.cards import LockCard
 from carpus.ui.theme import Theme
 from carpus.ui.translate import say
@@ -40,7 +41,6 @@ class Locking(QObject):
         self,
         context: ScreenContext,
         *,
-        key: str,
         minutes: int,
         keep_minutes: Callable[[int], None],
     ) -> None:
@@ -53,7 +53,7 @@ class Locking(QObject):
         self.sheet.tried.connect(self._try)
         self.pin_sheet = PinSheet(shell.stage, theme)
         self.pin_sheet.chosen.connect(self._change_pin)
-        self.card = LockCard(theme, minutes, key)
+        self.card = LockCard(theme, minutes)
         self.card.pin_button.clicked.connect(lambda: self.pin_sheet.begin(is_set=self.pin.is_set))
         self.card.minutes.chosen.connect(self._take_minutes)
         self.card.show_pin(is_set=self.pin.is_set)
@@ -63,7 +63,7 @@ class Locking(QObject):
             lambda: disk_encryption_finding(disk_state(folder)), self._show_disk, context.messages.fault, self
         )
         self._hidden = (shell.bar, shell.sign, shell.stage)
-        shortcut = QShortcut(QKeySequence(key), shell)
+        shortcut = QShortcut(QKeySequence(KEYS["lock"]), shell)
         shortcut.activated.connect(self.lock_by_key)
         self.idle = Idle(shell)
         self.idle.passed.connect(self._lock_by_itself)

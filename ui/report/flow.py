@@ -35,7 +35,7 @@ class ReportFlow(Flow):
     screen: ReportScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, ReportScreen(context.theme, context.keys, context.background))
+        super().__init__(context, ReportScreen(context.theme, context.background))
         screen = self.screen
         self.forms = ReportForms(context)
         self._research = True

@@ -17,7 +17,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import RING_PX, STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
-from carpus.ui.keys import Keys, bind_screen
+from carpus.ui.keys import bind_screen
 from carpus.ui.report.home_page import HomeReport
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
@@ -42,7 +42,7 @@ class ReportScreen(QWidget):
     home_wanted = Signal(object)
     told = Signal(object)
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
+    def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
         self._theme, self._background = theme, background
         self._report: Report | None = None
@@ -68,7 +68,7 @@ class ReportScreen(QWidget):
         self.letter_button.clicked.connect(self._ask_letter)
         self.home_button.clicked.connect(self._ask_home)
         self.back_button.clicked.connect(self.to_report)
-        bind_screen(self, keys, {"report": self.save_button.click, "home_sheet": self.home_button.click})
+        bind_screen(self, {"report": self.save_button.click, "home_sheet": self.home_button.click})
 
     def _lay_out(self) -> None:
         self._scroll = QScrollArea()

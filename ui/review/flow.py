@@ -23,7 +23,7 @@ class ReviewFlow(Flow):
     screen: ReviewScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, ReviewScreen(context.theme, context.keys, context.background, context.library))
+        super().__init__(context, ReviewScreen(context.theme, context.background, context.library))
         screen, way = self.screen, context.way
         self.exporting = Exporting(context)
         screen.told.connect(context.messages.fault)

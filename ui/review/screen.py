@@ -18,7 +18,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.layouts import STRETCH, Fitted, in_column, in_line, page
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import Text
-from carpus.ui.keys import Keys, bind_screen
+from carpus.ui.keys import bind_screen
 from carpus.ui.playback.transport import Playing
 from carpus.ui.plot.session import row_at
 from carpus.ui.review.card import ReviewCard
@@ -53,7 +53,7 @@ class ReviewScreen(Fitted):
     told = Signal(object)
     arrived = Signal()
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Library) -> None:
+    def __init__(self, theme: Theme, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._session_id = ""
@@ -80,7 +80,7 @@ class ReviewScreen(Fitted):
         self._page = page(self._column)
         in_column(self._page, margins=(0, 0, 0, 0), within=self)
         self._connect()
-        self._bind(keys)
+        self._bind()
         theme.changed.connect(self._fit)
         theme.changed.connect(self._fit_soon)
 
@@ -118,7 +118,7 @@ class ReviewScreen(Fitted):
         card.tables.results.chosen.connect(self.result)
         card.tables.results.wanted.connect(self.result_wanted)
 
-    def _bind(self, keys: Keys) -> None:
+    def _bind(self) -> None:
         curves, card = self.charts.curves, self.card
         actions: dict[str, Callable[[], object]] = {
             "play": self.playing.toggle, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
@@ -131,7 +131,7 @@ class ReviewScreen(Fitted):
             "beside": card.beside_button.click, "angle": self.picture.angle_button.click,
             "hand_picture": self.ask_hand_picture,
         }  # fmt: skip
-        bind_screen(self, keys, actions)
+        bind_screen(self, actions)
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(

@@ -19,7 +19,7 @@ class SessionsFlow(Flow):
 
     def __init__(self, context: ScreenContext) -> None:
         stored = StoredSessions(context.library)
-        super().__init__(context, SessionsScreen(context.theme, context.background, stored, context.keys))
+        super().__init__(context, SessionsScreen(context.theme, context.background, stored))
         screen, way = self.screen, context.way
         screen.told.connect(context.messages.fault)
         screen.opened.connect(lambda session_id: way.show("review", session_id))

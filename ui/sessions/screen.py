@@ -16,7 +16,7 @@ from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import ScrollArea, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import KEYS, bind
 from carpus.ui.sessions.listing import SessionLine, SessionList, cells, remark
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.theme import MARGIN_PX, Theme
@@ -41,7 +41,7 @@ class SessionsScreen(QWidget):
     """To whom, by name."""
     changed = Signal()
 
-    def __init__(self, theme: Theme, background: Background, stored: StoredSessions, keys: Keys | None = None) -> None:
+    def __init__(self, theme: Theme, background: Background, stored: StoredSessions) -> None:
         super().__init__()
         self._theme, self._background, self._stored = theme, background, stored
         self._patient_id = self._pseudonym = ""
@@ -65,9 +65,9 @@ class SessionsScreen(QWidget):
         self.aside_sheet = SetAsideSheet(self, theme)
         self.move_sheet = ChooseSheet(self, theme)
         self.rename_sheet = ChooseSheet(self, theme)
-        self._pair_key = (keys or Keys())["compare_ticked"]
+        self._pair_key = KEYS["compare_ticked"]
         self._lay_out()
-        self._connect(keys or Keys())
+        self._connect()
 
     def _lay_out(self) -> None:
         left = in_column(
@@ -104,9 +104,9 @@ class SessionsScreen(QWidget):
     def _fit(self) -> None:
         self._right.setFixedWidth(self._theme.px(384))
 
-    def _connect(self, keys: Keys) -> None:
-        bind(self, keys, "compare_ticked", self.pair_button.click)
-        bind(self.list, keys, "tick", self.list.tick_current)
+    def _connect(self) -> None:
+        bind(self, "compare_ticked", self.pair_button.click)
+        bind(self.list, "tick", self.list.tick_current)
         self.list.ticks_changed.connect(self._show_ticks)
         self.pair_button.clicked.connect(self.compare_ticked)
         self.list.selectionModel().currentChanged.connect(lambda *_: self._show_chosen())

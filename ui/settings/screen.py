@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
     QButtonGroup,
     QFileDialog,
-    QGridLayout,
-    QKeySequenceEdit,
     QLineEdit,
     QStackedWidget,
     QVBoxLayout,
@@ -28,13 +24,12 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import Part, ScrollArea, ScrolledColumn, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
-from carpus.ui.keys import DEFAULT_KEYS, action_words
 from carpus.ui.language import LANGUAGES
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.limits import limits_card
 from carpus.ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
 
-PartName = Literal["camera", "measuring", "report", "safety", "looks", "keys", "research", "about"]
+PartName = Literal["camera", "measuring", "report", "safety", "looks", "research", "about"]
 
 
 class SettingsScreen(QWidget):
@@ -82,8 +77,6 @@ class SettingsScreen(QWidget):
             ],
             preferences.start,
         )  # fmt: skip
-        self.keys_card = KeysCard(theme, preferences.keys)
-        self.keys, self.fault, self.reset = self.keys_card.fields, self.keys_card.fault, self.keys_card.reset
         self.research = Tick(theme, self.tr("For research"))
         self.research.setChecked(preferences.research)
         self.back = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"))
@@ -109,7 +102,7 @@ class SettingsScreen(QWidget):
                     in_line((self.folder, 1), self.folder_button),
                 ),
             ),
-            "looks": (self._looks_card(),), "keys": (self.keys_card,),
+            "looks": (self._looks_card(),),
             "research": (
                 self._card(
                     self.tr("Research"),
@@ -157,8 +150,8 @@ class SettingsScreen(QWidget):
             self.tr("Start of a recording"),
             self.tr(
                 "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide "
-                "show, is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen "
-                "under Keys. A start by itself is counted down, and Space takes it back."
+                "show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is "
+                "counted down, and Space takes it back."
             ),
             self.start,
         )
@@ -205,7 +198,7 @@ class SettingsScreen(QWidget):
     def _lay_out_index(self, cards: dict[PartName, tuple[QWidget, ...]]) -> None:
         titles: dict[PartName, str] = {
             "camera": self.tr("Camera"), "measuring": self.tr("Measuring"), "report": self.tr("Report and clinic"),
-            "safety": self.tr("Safety"), "looks": self.tr("Looks and language"), "keys": self.tr("Keys"),
+            "safety": self.tr("Safety"), "looks": self.tr("Looks and language"),
             "research": self.tr("Research"), "about": self.tr("About Carpus"),
         }  # fmt: skip
         self._stack = QStackedWidget()
@@ -294,7 +287,6 @@ class SettingsScreen(QWidget):
         self.research.toggled.connect(self._take_research)
         self.therapist.editingFinished.connect(self._take_therapist)
         self.folder_button.clicked.connect(self.ask_folder)
-        self.keys_card.changed.connect(lambda keys: self._change(replace(self.preferences, keys=keys)))
 
     def show_newest(self, folder: str, newest: str | None) -> None:
         """What lies in the folder of packages that the clinic named: a version, empty for none, None where it cannot be
@@ -324,79 +316,3 @@ class SettingsScreen(QWidget):
         if path:
             self.folder.setText(path)
             self._change(replace(self.preferences, data_folder=path))
-
-
-KEY_PX = 104
-
-
-class KeysCard(Card):
-    """``changed`` carries the keys that are not the usual ones, by their actions."""
-
-    changed = Signal(object)
-
-    def __init__(self, theme: Theme, chosen: Mapping[str, str]) -> None:
-        super().__init__(theme, 24)
-        self._theme, self._chosen = theme, dict(chosen)
-        self.fields: dict[str, QKeySequenceEdit] = {}
-        self.fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.fault.hide()
-        self.reset = Button(theme, self.tr("Usual keys again"), height_px=40)
-        self.reset.clicked.connect(self._reset)
-        words = self.tr(
-            "Click a key and press another one. While measuring only the space bar and function keys are safe."
-        )
-        fill(
-            self.body,
-            Text(theme, self.tr("Keys"), 20, SEMIBOLD),
-            Text(theme, words, 14, REGULAR, "text2", wrap=True),
-            self._grid(),
-            self.fault,
-            (self.reset, 0, Qt.AlignmentFlag.AlignLeft),
-        )
-
-    def _grid(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(24)
-        half = (len(DEFAULT_KEYS) + 1) // 2
-        for place, name in enumerate(DEFAULT_KEYS):
-            field = self.fields[name] = QKeySequenceEdit(QKeySequence(self._key_of(name)))
-            field.setMaximumSequenceLength(1)
-            field.setAccessibleName(action_words(name))
-            field.editingFinished.connect(lambda name=name: self._take(name))
-            self._theme.follow(field, lambda field=field: field.setFixedWidth(self._theme.px(KEY_PX)))  # type: ignore[misc]
-            column = 2 * (place // half)
-            grid.addWidget(Text(self._theme, action_words(name), 14, wrap=True), place % half, column)
-            grid.addWidget(field, place % half, column + 1)
-        grid.setColumnStretch(0, 1)
-        grid.setColumnStretch(2, 1)
-        return grid
-
-    def _take(self, name: str) -> None:
-        key = self.fields[name].keySequence().toString(QKeySequence.SequenceFormat.PortableText)
-        taken = [other for other in self._sharing(name) if key and self._key_of(other) == key]
-        self.fault.setVisible(bool(taken))
-        if taken or not key:
-            self.fields[name].setKeySequence(QKeySequence(self._key_of(name)))
-            if taken:
-                words = self.tr("{key} already does: {action}.")
-                self.fault.setText(words.format(key=key, action=action_words(taken[0])))
-            return
-        self._choose({**self._chosen, name: key})
-
-    def _key_of(self, name: str) -> str:
-        return self._chosen.get(name, DEFAULT_KEYS[name])
-
-    def _sharing(self, name: str) -> list[str]:
-        """Actions that are live at the same time: by default some share a key because they never meet."""
-        default = DEFAULT_KEYS[name]
-        return [other for other in DEFAULT_KEYS if other != name and DEFAULT_KEYS[other] != default]
-
-    def _choose(self, keys: Mapping[str, str]) -> None:
-        self._chosen = {name: key for name, key in keys.items() if key != DEFAULT_KEYS[name]}
-        self.changed.emit(self._chosen)
-
-    def _reset(self) -> None:
-        for name, field in self.fields.items():
-            field.setKeySequence(QKeySequence(DEFAULT_KEYS[name]))
-        self.fault.hide()
-        self._choose({})
