@@ -7,13 +7,14 @@ Files that lie elsewhere are a person's own; nothing is written down of them.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import tell
+from carpus.app.command_line import say, tell
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.core.errors import CarpusFault, FolderMissing
+from carpus.core.errors import CarpusFault, FolderMissing, StudyUnsuited
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_outline
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from carpus.core.records.library import Library
     from carpus.core.records.log import Deed, Kind
     from carpus.core.records.of_sessions import MadeKind
+    from carpus.core.results.figures import SessionFigures
     from carpus.core.results.repetition_rows import RepetitionChoices
 
 
@@ -78,6 +80,34 @@ def sessions_in(places: Iterable[Path]) -> Iterator[Path]:
         if not place.exists():
             raise FolderMissing(place)
         yield from sorted(place.rglob("*.h5")) if place.is_dir() else [place]
+
+
+def read_figures(
+    places: Sequence[Path], told: Callable[[CarpusFault], object], named: Mapping[str, str] = MappingProxyType({})
+) -> tuple[list[SessionFigures], dict[str, str]]:
+    """Figures of all sessions, and their raters by session id; ``told`` hears of those that cannot be read.
+
+    Raises :class:`FolderMissing`, and :class:`StudyUnsuited` where none can be read.
+    """
+    from carpus.core.results.figures import session_figures
+    from carpus.core.session.reader import read_session
+
+    figures, raters, met = [], {}, set()
+    for path in sessions_in(places):
+        try:
+            figures.append(session_figures(read_session(path), read_choices(path)))
+        except CarpusFault as fault:
+            told(fault)
+            continue
+        for name in (path.name, path.stem):
+            if name in named:
+                raters[figures[-1].session_id] = named[name]
+                met.add(name)
+    if not figures:
+        raise StudyUnsuited(places[0], "no session can be read")
+    for name in sorted(set(named) - met):
+        say(f"no session is called {name}, which the list of raters names.")
+    return figures, raters
 
 
 def library_of(folder: Path, *, only_reads: bool = False) -> Library:

@@ -6,17 +6,16 @@ from __future__ import annotations
 import argparse
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
 from datetime import date
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import say, tell
-from carpus.core.errors import CarpusFault, ReferenceUnreadable, StudyUnsuited
+from carpus.app.command_line import tell
+from carpus.app.of_file import read_figures
+from carpus.core.errors import ReferenceUnreadable, StudyUnsuited
 
 if TYPE_CHECKING:
-    from carpus.core.results.figures import SessionFigures
+    pass
 
 EXAMPLE = "carpus retest sessions --output retest.csv"
 _WHY = {
@@ -92,35 +91,6 @@ def run(arguments: argparse.Namespace) -> int:
     path = store_limits(load_settings().data_folder, [one.study(date.today().isoformat()) for one in usable])
     print(f"In force: {', '.join(one.exercise or 'free movement' for one in usable)} ({path})")
     return 0
-
-
-def read_figures(
-    places: Sequence[Path], told: Callable[[CarpusFault], object], named: Mapping[str, str] = MappingProxyType({})
-) -> tuple[list[SessionFigures], dict[str, str]]:
-    """Figures of all sessions, and their raters by session id; ``told`` hears of those that cannot be read.
-
-    Raises :class:`FolderMissing`, and :class:`StudyUnsuited` where none can be read.
-    """
-    from carpus.app.of_file import read_choices, sessions_in
-    from carpus.core.results.figures import session_figures
-    from carpus.core.session.reader import read_session
-
-    figures, raters, met = [], {}, set()
-    for path in sessions_in(places):
-        try:
-            figures.append(session_figures(read_session(path), read_choices(path)))
-        except CarpusFault as fault:
-            told(fault)
-            continue
-        for name in (path.name, path.stem):
-            if name in named:
-                raters[figures[-1].session_id] = named[name]
-                met.add(name)
-    if not figures:
-        raise StudyUnsuited(places[0], "no session can be read")
-    for name in sorted(set(named) - met):
-        say(f"no session is called {name}, which the list of raters names.")
-    return figures, raters
 
 
 def _raters(path: Path | None) -> dict[str, str]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 from PySide6.QtCore import QObject, Signal
 
 from carpus.app.desktop.journey import Journey
+from carpus.app.of_file import read_figures
 from carpus.app.settings import (
     FirstStartSettings,
     LockSettings,
@@ -65,7 +66,6 @@ class PreferenceKeeper(QObject):
         return cast("SettingsFlow", self._journey.way.flow("settings")).screen
 
     def _make_flow(self) -> SettingsFlow:
-        from carpus.app.commands.retest import read_figures
         from carpus.ui.settings.flow import SettingsFlow
 
         settings, context = self._settings, self._journey.context
