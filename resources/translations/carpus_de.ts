@@ -6719,10 +6719,6 @@
         <translation>Der Ordner mit dem, was jetzt hier ist, bleibt neben dem neuen erhalten.</translation>
     </message>
     <message>
-        <source>Restore</source>
-        <translation>Wiederherstellen</translation>
-    </message>
-    <message>
         <source>Which back-up is to be restored?</source>
         <translation>Welche Sicherung soll wiederhergestellt werden?</translation>
     </message>
@@ -6733,6 +6729,14 @@
     <message>
         <source>Patients and sessions that were erased since then stay erased: {n}.</source>
         <translation>Patienten und Sitzungen, die seitdem gelöscht wurden, bleiben gelöscht: {n}.</translation>
+    </message>
+    <message>
+        <source>What it changes is shown before anything is done.</source>
+        <translation>Was sie ändert, wird gezeigt, bevor etwas geschieht.</translation>
+    </message>
+    <message>
+        <source>Restore…</source>
+        <translation>Wiederherstellen…</translation>
     </message>
 </context>
 <context>
@@ -7859,10 +7863,6 @@
         <translation>Niemand kann es zurückholen.</translation>
     </message>
     <message>
-        <source>Only such a back-up could bring it back.</source>
-        <translation>Nur eine solche Sicherung könnte es zurückholen.</translation>
-    </message>
-    <message>
         <source>({years} years, as set in Settings)</source>
         <translation>({years} Jahre, wie in den Einstellungen)</translation>
     </message>
@@ -7881,6 +7881,10 @@
     <message>
         <source>{count} values measured by hand.</source>
         <translation>{count} von Hand gemessene Werte.</translation>
+    </message>
+    <message>
+        <source>Carpus cannot bring it back: a restored back-up leaves it out.</source>
+        <translation>Carpus kann es nicht zurückholen: Eine wiederhergestellte Sicherung lässt es aus.</translation>
     </message>
 </context>
 <context>

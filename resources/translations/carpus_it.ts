@@ -6719,10 +6719,6 @@
         <translation>La cartella con ciò che c’è ora resta accanto a quella nuova.</translation>
     </message>
     <message>
-        <source>Restore</source>
-        <translation>Ripristinare</translation>
-    </message>
-    <message>
         <source>Which back-up is to be restored?</source>
         <translation>Quale copia di sicurezza va ripristinata?</translation>
     </message>
@@ -6733,6 +6729,14 @@
     <message>
         <source>Patients and sessions that were erased since then stay erased: {n}.</source>
         <translation>I pazienti e le sedute cancellati da allora restano cancellati: {n}.</translation>
+    </message>
+    <message>
+        <source>What it changes is shown before anything is done.</source>
+        <translation>Ciò che cambia viene mostrato prima di procedere.</translation>
+    </message>
+    <message>
+        <source>Restore…</source>
+        <translation>Ripristina…</translation>
     </message>
 </context>
 <context>
@@ -7859,10 +7863,6 @@
         <translation>Nessuno può riportarla indietro.</translation>
     </message>
     <message>
-        <source>Only such a back-up could bring it back.</source>
-        <translation>Solo un tale backup potrebbe riportarla indietro.</translation>
-    </message>
-    <message>
         <source>({years} years, as set in Settings)</source>
         <translation>({years} anni, come nelle Impostazioni)</translation>
     </message>
@@ -7881,6 +7881,10 @@
     <message>
         <source>{count} values measured by hand.</source>
         <translation>{count} valori misurati a mano.</translation>
+    </message>
+    <message>
+        <source>Carpus cannot bring it back: a restored back-up leaves it out.</source>
+        <translation>Carpus non può recuperarlo: il ripristino di una copia di sicurezza lo tralascia.</translation>
     </message>
 </context>
 <context>

@@ -165,7 +165,7 @@ def main() -> None:
                 comments(store, one.session_id) for one in sessions.of_patient(somebody)
             ],
             "one session by identity": lambda: sessions.one(last),
-            "a patient changed": lambda: people.let_take_part([somebody]) or people.let_take_part([]),
+            "a patient changed": lambda: people.archive(somebody) or people.bring_back(somebody),
         }.items():
             print(f"{name:34} {timed(what)}")
         store.close()

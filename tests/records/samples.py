@@ -146,7 +146,6 @@ def fill(house: House, patient_id: str) -> list[str]:
     keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
     plan = HomePlan(("WRIST_FE",), 10, 3, T0.date(), date(2026, 10, 16), "11:30", f"{entry.pseudonym} brings it", "it")
     patients.keep_home_plan(house.store, patient_id, plan)
-    house.patients.let_take_part([*house.patients.taking_part(), patient_id])
     of_clinic.keep_place(house.store, entry.pseudonym[:2], f"/papers/{entry.name}")
     of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
     of_clinic.list_diagnosis(house.store, f"as {entry.name}", listed=True)

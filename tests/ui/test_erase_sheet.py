@@ -85,7 +85,7 @@ def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: EraseSheet
     for sessions, said in ((1, "1 session with"), (9, "9 sessions"), (9, "real name")):
         sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=sessions, files=31))
         assert said in sheet.goes.text()
-    assert sheet.ends.text() == "Only such a back-up could bring it back."
+    assert sheet.ends.text() == "Carpus cannot bring it back: a restored back-up leaves it out."
     sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, last_backup=None))
     assert sheet.ends.text() == "Nobody can bring it back."
 

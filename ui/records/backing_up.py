@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtWidgets import QFileDialog, QInputDialog, QVBoxLayout
+from PySide6.QtWidgets import QFileDialog, QVBoxLayout
 
 from carpus.core.disks import on_same_disk
 from carpus.core.errors import BackupMissing
@@ -31,6 +31,7 @@ from carpus.ui.background import Background
 from carpus.ui.flow import ScreenContext
 from carpus.ui.messages.messages import Answer
 from carpus.ui.records.cards import BackupCard, BackupFacts
+from carpus.ui.sessions.sheets import ChooseSheet
 from carpus.ui.translate import tr
 
 LOOK_MS = 60_000
@@ -41,6 +42,7 @@ class BackingUp(QObject):
     """``stepped`` carries the percent done, from another thread."""
 
     stepped = Signal(int)
+    backed_up = Signal()
 
     def __init__(
         self,
@@ -58,6 +60,9 @@ class BackingUp(QObject):
         self.last: LastBackup | None = None
         self.restored = False
         """Whether a back-up lies beside the data folder, which takes its place when the window has closed."""
+        self._there: tuple[Path, dict[str, Backup]] = (Path(), {})
+        self.choice = ChooseSheet(context.shell.stage, context.theme)
+        self.choice.chosen.connect(self._plan)
         self.card = BackupCard(context.theme, settings.hour)
         self.card.now_button.clicked.connect(self.back_up)
         self.card.restore_button.clicked.connect(self.ask_restore)
@@ -106,7 +111,8 @@ class BackingUp(QObject):
         facts = self._facts()
         words = Words(facts.headline, facts.detail, self.tr("Plug the disk for back-ups in, and back up."))
         to_settings = partial(self._context.way.show, "settings", "safety")
-        self._context.messages.strip(place, words, self.tr("To the settings"), to_settings)
+        strip = self._context.messages.strip(place, words, self.tr("To the settings"), to_settings)
+        self.backed_up.connect(strip.later)
 
     def look(self) -> None:
         settings, now = self._settings, _now()
@@ -149,6 +155,7 @@ class BackingUp(QObject):
 
     def _done(self, _: Backup) -> None:
         self._end()
+        self.backed_up.emit()
         self.look_again()
 
     def _failed(self, fault: Exception) -> None:
@@ -184,24 +191,22 @@ class BackingUp(QObject):
             )
 
     def _choose_backup(self, place: Path, there: Sequence[Backup]) -> None:
-        lines = [self._line(one) for one in there]
-        if len(lines) == 1:
-            self._plan(place, there[0])
+        self._there = (place, {one.name: one for one in there})
+        if len(there) == 1:
+            self._plan(there[0].name)
             return
-        chosen, is_chosen = QInputDialog.getItem(
-            self.card.window(), self.tr("Restore"), self.tr("Which back-up is to be restored?"), lines, 0, False
+        line = self.tr("{when}: {n} session files")
+        self.choice.begin(
+            self.tr("Which back-up is to be restored?"),
+            self.tr("What it changes is shown before anything is done."),
+            self.tr("Restore…"),
+            [(one.name, line.format(when=numbers.report_date(one.made.astimezone()), n=one.sessions)) for one in there],
         )
-        if is_chosen:
-            self._plan(place, there[lines.index(chosen)])
 
-    def _line(self, one: Backup) -> str:
-        made = one.made.astimezone()
-        when = f"{numbers.report_date(made)}, {made:%H:%M:%S}"
-        return self.tr("{when}: {n} session files").format(when=when, n=one.sessions)
-
-    def _plan(self, place: Path, backup: Backup) -> None:
+    def _plan(self, name: str) -> None:
         """What a back-up would change; then it is asked about."""
-        library = self._library
+        (place, there), library = self._there, self._library
+        backup = there[name]
 
         def read() -> tuple[Past, RestorePlan]:
             past = read_past(place, library.store)

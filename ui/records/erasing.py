@@ -354,7 +354,7 @@ class EraseSheet(Sheet):
     def _ends(self, facts: ErasureFacts) -> str:
         words = self.tr("Nobody can bring it back.")
         if facts.last_backup is not None:
-            words = self.tr("Only such a back-up could bring it back.")
+            words = self.tr("Carpus cannot bring it back: a restored back-up leaves it out.")
         if facts.kept_until is not None:
             until = facts.kept_until
             day = numbers.day_of_year(until)
