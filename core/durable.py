@@ -144,33 +144,12 @@ def link_or_copy(path: Path, target: Path) -> None:
             os.fsync(copy.fileno())
 
 
-def is_still_there(descriptor: int, path: Path) -> bool:
-    """Whether a path is still the file that was opened: folders are removed, renamed and unplugged meanwhile."""
-    try:
-        here, there = os.fstat(descriptor), path.stat()
-    except OSError:
-        return False
-    return os.name == "nt" or (here.st_dev, here.st_ino) == (there.st_dev, there.st_ino)
-
-
-def copy_open_file(descriptor: int, path: Path) -> None:
-    """Copy what is behind an open file, which may have no name any more, to a new private file, and bring it to the
-    disk. Raises OSError."""
-    size, done = os.fstat(descriptor).st_size, 0
-    with open(path, "xb", opener=private) as copy:
-        while done < size and (block := os.pread(descriptor, min(1 << 22, size - done), done)):
-            copy.write(block)
-            done += len(block)
-        copy.flush()
-        os.fsync(copy.fileno())
-
-
 def hold(file: IO[bytes]) -> None:
     """Until it is closed, or the program dies. Raises OSError where another program holds it."""
     if os.name == "nt":
         import msvcrt
 
-        file.seek(1 << 20)
+        file.seek(1 << 40)  # beyond what anybody reads
         msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
         file.seek(0)
     else:

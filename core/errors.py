@@ -518,34 +518,20 @@ class FilesSetApart(CarpusFault):
     do = phrase("Take them from a backup, or leave them; Carpus does not open them again.")
 
 
-class FolderGone(OutputNotWritable):
-    happened = phrase("The folder of the recording is gone: {subject} ({detail}).")
-    safe = phrase("What was stored before it went is there when it comes back.")
-    do = phrase("Connect the disk or the network again, or choose another folder.")
+class RecordingWaits(CarpusFault):
+    """Told, never raised: a finished session waits at ``subject`` until the folder of the sessions can be reached."""
 
-
-class DiskStalled(CarpusFault):
-    """A disk that neither stores nor refuses; ``subject`` is the folder, ``detail`` for how long."""
-
-    happened = phrase("The disk of {subject} has not answered for {detail}.")
-    safe = phrase("The recording goes on; what came since waits in memory.")
-    do = phrase("Look at the disk or the network. If it stays silent, the recording goes on on this computer.")
-
-
-class EndStalled(CarpusFault):
-    happened = phrase("The recording could not be ended: the disk of {subject} does not answer.")
-    safe = phrase("Everything that was recorded is stored there.")
-    do = phrase("Once the disk answers, start Carpus again: it finishes the recording.")
-
-
-class RecordingMoved(CarpusFault):
-    """Told, never raised: a recording whose folder went away goes on at ``subject``; ``detail`` what stayed behind."""
-
-    happened = phrase("The folder of the sessions is gone; the recording goes on in {subject} ({detail}).")
+    happened = phrase("The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.")
     safe = phrase("All of it is safe on this computer.")
-    do = phrase(
-        "Go on; connect the disk or the network again later, and Carpus brings the session home when it starts."
-    )
+    do = phrase("Go on. Connect the disk or the network again; Carpus then moves the session by itself.")
+
+
+class NothingRecorded(CarpusFault):
+    """Told, never raised: a recording had ended before its first frame was stored."""
+
+    happened = phrase("A recording ended before its first second was stored: {subject}. There is nothing to recover.")
+    safe = phrase("Everything that was recorded before is safe.")
+    do = phrase("Record this exercise again.")
 
 
 class WaitingErased(CarpusFault):
@@ -559,9 +545,9 @@ class WaitingErased(CarpusFault):
 
 
 class RecordingReturned(CarpusFault):
-    """Told, never raised: a session that had to be recorded elsewhere is among the others now."""
+    """Told, never raised: a session that waited on this computer is among the others now."""
 
-    happened = phrase("A session that was recorded while the folder of the sessions was away is there now: {subject}.")
+    happened = phrase("A session that waited on this computer is in the folder of the sessions now: {subject}.")
     safe = phrase("All of it is safe.")
     do = phrase("Review it as any other.")
 

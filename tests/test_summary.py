@@ -10,15 +10,16 @@ import pytest
 
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.protocols import HAND21
+from carpus.core.records.recordings import write_session
 from carpus.core.results.figures import session_figures
 from carpus.core.results.session_lines import range_lines, recording_summary, session_summary
 from carpus.core.session.reader import read_session
-from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import motion_of
 from carpus.core.types import TrackStatus
 from tests.capture.test_tum import write_recording
 from tests.moments import with_moment
-from tests.session.samples import begun, make_frame, make_header, time_of
+from tests.session.samples import begun, make_frame, make_header, stored_journal, time_of
+from tests.session.test_golden import unpacked
 from tests.ui import fakes
 
 
@@ -26,7 +27,7 @@ def values(lines: list[str]) -> dict[str, str]:
     return {line.split()[0]: line.split(maxsplit=1)[1] for line in lines if not line.startswith("  ")}
 
 
-def write(path: Path, close: bool = True) -> Path:
+def write(path: Path) -> Path:
     """Six frames: 3 tracked with known angles, 2 predicted and 1 lost with larger ones that must not count."""
     angles_deg = [(0, 10, -5), (0, -20, 5), (1, 42, 0), (9, 90, 90), (-9, -90, -90), (0, 0, 0)]
     status = [TrackStatus.TRACKED] * 3 + [TrackStatus.PREDICTED] * 2 + [TrackStatus.LOST]
@@ -40,11 +41,8 @@ def write(path: Path, close: bool = True) -> Path:
         session.append(frame)
     session.add_event(time_of(1), "note", "x")
     session.add_event(time_of(2), "note", "y")
-    if close:
-        session.write_smoothed(motion_of([make_frame(row) for row in range(6)]))
-        session.close()
-    else:
-        session.abandon()
+    session.write_smoothed(motion_of([make_frame(row) for row in range(6)]))
+    session.close()
     return path
 
 
@@ -102,10 +100,9 @@ def test_an_angle_that_stays_at_nought_has_a_range_of_nothing() -> None:
 
 
 def test_a_session_cut_short_says_so_before_and_after_recovery(tmp_path: Path) -> None:
-    write(tmp_path / "s.h5", close=False)
-    (part,) = tmp_path.iterdir()
+    part = unpacked("v2-wrist6.h5.0123abcd.part", tmp_path)
     assert values(session_summary(read_session(part)))["Complete"].startswith("no: ")
-    (path,) = recover_folder(tmp_path).recovered
+    path = write_session(stored_journal(tmp_path / "s.journal", 6), "2026-11-14T08:00:00+00:00")
     assert values(session_summary(read_session(path)))["Complete"].startswith("cut short and recovered 20")
 
 

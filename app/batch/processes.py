@@ -14,11 +14,10 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from multiprocessing.connection import Connection
 from typing import Any, NoReturn
 
-from carpus.app.batch.work import Outcome, Task, clear_leftovers, fault_of, work
+from carpus.app.batch.work import Outcome, Task, fault_of, work
 from carpus.app.command_line import say
 from carpus.core.child_process import ChildProcess, end_with_owner
-from carpus.core.errors import CarpusFault, ExtraMissing, OutputBusy, SchedulerUnreachable
-from carpus.core.words import one_sentence
+from carpus.core.errors import ExtraMissing, SchedulerUnreachable
 
 Work = Callable[[Task], Outcome]
 TRIES = 3
@@ -82,17 +81,12 @@ class Children:
         child.end()
         if outcome is not None:
             return outcome
-        try:
-            with contextlib.suppress(OSError):
-                clear_leftovers(task.place.session)
-        except CarpusFault as fault:  # of this recording alone
-            return fault_of(task.place, one_sentence(fault), may_pass=isinstance(fault, OutputBusy))
         if child.was_late:
             return fault_of(task.place, LATE.format(minutes=limit_s / 60.0))
         return fault_of(task.place, DIED, may_pass=True)
 
     def end(self) -> None:
-        """All of them stop; what they are at is tidied."""
+        """All of them stop."""
         self.ended = True
         all_of_them = [*self._idle, *self._busy]
         for child in all_of_them:

@@ -5,11 +5,8 @@ Runs in a process of its own, here or on another machine: what goes in and comes
 
 from __future__ import annotations
 
-import glob
-import time
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal
 
 from threadpoolctl import threadpool_limits
@@ -21,20 +18,17 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.source import Recorded
 from carpus.core.durable import write_fault
-from carpus.core.errors import CarpusFault, OutputBusy, OutputExists
+from carpus.core.errors import CarpusFault, OutputExists
 from carpus.core.pipeline.told_settings import differences
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
 from carpus.core.research.papers.track import settings_told
 from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import SessionFigure, measure_rows
-from carpus.core.session import recovery
-from carpus.core.session.disk import target_of_part
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
 from carpus.core.words import one_sentence
 
 Result = Literal["tracked", "kept", "fault"]
-BUSY_S, BUSY_STEP_S = 600.0, 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +68,7 @@ def work(task: Task) -> Outcome:
         with threadpool_limits(1):  # the same numbers wherever it runs
             return _worked(task)
     except CarpusFault as fault:
-        return fault_of(task.place, one_sentence(fault), may_pass=isinstance(fault, OutputBusy))
+        return fault_of(task.place, one_sentence(fault))
     except OSError as cause:
         sentence = f"the system refuses {cause.filename or ''} ({cause.strerror or cause})"
         return fault_of(task.place, sentence, may_pass=True)
@@ -90,7 +84,10 @@ def fault_of(place: TrackingInput, sentence: str, *, may_pass: bool = False) -> 
 def _worked(task: Task) -> Outcome:
     place, said = task.place, list[str]()
     result: Result = "kept"
-    _make_room(place.session)
+    try:
+        place.session.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        raise write_fault(place.session.parent, cause) from cause
     if not place.session.exists():
         with suppress(OutputExists):  # another run of the same batch was faster
             _tracked(task, said)
@@ -109,29 +106,6 @@ def _worked(task: Task) -> Outcome:
         shares[TrackStatus.LOST],
         measure_rows(session_figures(session), place.name),
     )
-
-
-def _make_room(session: Path) -> None:
-    """The folder, without what a process that died left of the same session: its recording is still there."""
-    try:
-        session.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as cause:
-        raise write_fault(session.parent, cause) from cause
-    clear_leftovers(session)
-
-
-def clear_leftovers(session: Path) -> None:
-    """Take away what processes that died left of a session. What one that lives is writing is waited for, up to
-    :data:`BUSY_S`: another run of the same batch, or one that nobody waits for any more. Raises :class:`OutputBusy`."""
-    until_s = time.monotonic() + BUSY_S
-    left = session.parent.glob(f"{glob.escape(session.name)}.*.part*")
-    for part in {path.with_name(path.name.removesuffix(recovery.SUFFIX)) for path in left}:
-        if target_of_part(part) != session:
-            continue
-        while not recovery.take_away(part):
-            if time.monotonic() > until_s:
-                raise OutputBusy(session)
-            time.sleep(BUSY_STEP_S)
 
 
 def _tracked(task: Task, said: list[str]) -> None:

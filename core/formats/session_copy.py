@@ -12,8 +12,6 @@ from carpus.core.camera import Camera
 from carpus.core.formats.provenance import move_pixels
 from carpus.core.formats.take import Take
 from carpus.core.results.repetition_rows import repetitions_of
-from carpus.core.session import recovery
-from carpus.core.session.disk import part_path
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import DetectionTable, moments_of
 from carpus.core.session.writer import SessionWriter
@@ -25,7 +23,6 @@ def write(take: Take, folder: Path) -> list[Path]:
     path = folder / f"{take.name}.h5"
     session = take.session
     folder.mkdir(parents=True, exist_ok=True)
-    recovery.take_away(part_path(path, session.header.session_id))  # of a program that was killed
     writer = SessionWriter.create(path, session.header, session.camera, session.calibration)
     try:
         for frame in _frames(take):

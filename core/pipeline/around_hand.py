@@ -32,10 +32,6 @@ class PictureSink(Protocol):
 
     def append_frame(self, frame: Frame) -> None: ...
 
-    def go_on_elsewhere(self, frame: Frame | None) -> PictureSink:
-        """Another file that begins with the frame at which this one hangs in the disk."""
-        ...
-
     def close(self) -> None: ...
 
     def abandon(self) -> None: ...
@@ -104,11 +100,6 @@ class AroundHand:
 
     def append_frame(self, frame: Frame) -> None:
         self._sink.append_frame(only(frame, self._area(frame.timestamp_s)))
-
-    def go_on_elsewhere(self, frame: Frame | None) -> AroundHand:
-        """As :meth:`RawWriter.go_on_elsewhere`."""
-        part = None if frame is None else only(frame, self._area(frame.timestamp_s))
-        return AroundHand(self._sink.go_on_elsewhere(part), self._area)
 
     def close(self) -> None:
         self._sink.close()

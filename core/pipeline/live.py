@@ -30,18 +30,10 @@ import numpy as np
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.errors import CameraLost, CameraReturned
 from carpus.core.pipeline.around_hand import PictureSink
+from carpus.core.pipeline.backlog import Backlog, Captured, Pipeline, room_for
 from carpus.core.pipeline.channels import Newest
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, LiveSettings, TrackedView
-from carpus.core.pipeline.recording import (
-    Backlog,
-    Captured,
-    LiveRecording,
-    Note,
-    Pipeline,
-    SessionSink,
-    free_bytes,
-    room_for,
-)
+from carpus.core.pipeline.recording import LiveRecording, Note, SessionSink, free_bytes
 from carpus.core.types import Frame, TrackedFrame
 
 log = logging.getLogger(__name__)
@@ -202,7 +194,6 @@ class LiveSession:
             settings,
             room_for(frame, settings.pictures_waiting),
             self._tell,
-            self.notice,
             waits=self._backlog.waits,
             at_end=at_end,
         )

@@ -33,8 +33,7 @@ class LiveSettings:
     ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s);
     ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
     the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
-    room on the disk before a recording runs. A disk that neither stores nor refuses is told after ``told_stall_s``, and
-    the recording goes on elsewhere after ``moved_stall_s``; the pictures at once.
+    room on the disk before a recording runs.
     """
 
     tracking_waiting: int = 960
@@ -47,8 +46,6 @@ class LiveSettings:
     low_disk_bytes: int = 1_000_000_000
     stop_patience_s: float = 10.0
     folder: Path | None = None
-    told_stall_s: float = 3.0
-    moved_stall_s: float = 8.0
 
     def __post_init__(self) -> None:
         for name in ("tracking_waiting", "rows_waiting", "pictures_waiting", "recent_frames", "history_s"):

@@ -22,7 +22,7 @@ from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo, is_simulated, recorded_at, recording_id
 from carpus.core.dates import iso
-from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
+from carpus.core.errors import CarpusFault, DiskFull, ExtraMissing, NotLookedBack, RecordingEmpty
 from carpus.core.hand.forearm_rotation import stored_targets_deg
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
@@ -40,11 +40,13 @@ from carpus.core.pipeline.track import (
     source_facts,
 )
 from carpus.core.records.new_sessions import NewSessions
+from carpus.core.records.recordings import SessionDraft
 from carpus.core.records.set_up import MARKERS_SUFFIX, SetUp
-from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
+from carpus.core.session.journal import RecordingJournal
+from carpus.core.session.new_file import ROWS_AT_ONCE
 from carpus.core.session.reader import READING
-from carpus.core.session.values import new_header
-from carpus.core.session.writer import Fallback, SessionWriter
+from carpus.core.session.values import Motion, new_header
 from carpus.core.tracking.smoother_record import KeptSteps
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import SPOT_SAID, ByteImage, FloatArray, Frame, SpotAnswer, TrackedFrame
@@ -120,85 +122,95 @@ class LivePipeline:
                 self.taken_up(answer, tracked.timestamp_s)
 
 
-class SmoothedSession:
-    """A session file, looked back at while it grows; without that, or where that fails, stored as tracked."""
+class RecordedSession:
+    """A session while it is recorded: its journal, looked back at while that grows, and at the end its file."""
 
-    def __init__(self, writer: SessionWriter, looking_back: LookingBack | None) -> None:
-        self._writer, self._looking_back = writer, looking_back
+    def __init__(self, journal: RecordingJournal, looking_back: LookingBack | None) -> None:
+        self._journal, self._looking_back = journal, looking_back
+        self._draft: SessionDraft | None = None
+        self._in_draft = 0
         self._times_s: list[float] = []
         self._early: list[tuple[str, str]] = []
-
-    @property
-    def path(self) -> Path:
-        return self._writer.path
+        self.path = journal.path.with_suffix(".h5")
 
     def append(self, tracked: TrackedFrame) -> None:
         self._times_s.append(tracked.timestamp_s)
-        self._writer.append(tracked)
-        self._take_smoothed()
+        self._journal.append(tracked)
+        if self._looking_back is not None and self._looking_back.has_more:
+            self._add_smoothed(self._looking_back.ready(self._not_smoothed()))
         for kind, text in self._early:
-            self._writer.add_event(tracked.timestamp_s, kind, text)
+            self._journal.add_event(tracked.timestamp_s, kind, text)
         self._early.clear()
+        if len(self._times_s) - self._in_draft >= ROWS_AT_ONCE:
+            self._in_draft = len(self._times_s)
+            with suppress(CarpusFault):  # told at the end, if it still holds then: the rows are in the journal
+                self._follow()
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:
         """One event; before the first picture there is no time to put it at, so it waits for the first row."""
         if np.isfinite(time_s):
-            self._writer.add_event(time_s, kind, text)
+            self._journal.add_event(time_s, kind, text)
         else:
             self._early.append((kind, text))
 
-    def flush(self) -> None:
-        self._writer.flush()
+    def prepare(self) -> None:
+        """No more rows come: all of them go into the session file while the rest is looked back at."""
+        self._journal.flush()
+        with suppress(CarpusFault):
+            self._follow(whole=True)
+
+    def _follow(self, *, whole: bool = False) -> None:
+        """What is in the journal goes into the session file, so that the end is quick."""
+        draft, self._draft = self._draft or SessionDraft(self._journal.path), None
+        try:
+            draft.read()
+            if whole:
+                draft.flush()
+            self._draft = draft
+        finally:
+            if self._draft is None:
+                draft.discard()
 
     def close(self) -> None:
-        """Wait a little for the looking back and finish; a session without a single frame is none."""
+        """Finish the session file; the journal goes. A session without a single frame is none."""
         if not self._times_s:
             self.discard()
             raise RecordingEmpty(self.path.name)
-        self._writer.flush()
         if self._looking_back is not None:
             try:
-                motion = self._looking_back.finish(self._not_smoothed())
-                if motion is not None:
-                    self._writer.add_smoothed(motion)
+                self._add_smoothed(self._looking_back.finish(self._not_smoothed()))
             except NotLookedBack as fault:
-                self._writer.drop_smoothed()
                 log.warning("%s", one_sentence(NotLookedBack(self.path, fault.detail)))
-                self._writer.add_event(self._times_s[-1], NOT_LOOKED_BACK, fault.detail)
-        self._writer.write_repetitions(repetitions_of(self._writer.read_back()))
-        self._writer.close()
+                self._journal.add_event(self._times_s[-1], NOT_LOOKED_BACK, fault.detail)
+        self._journal.flush()
+        draft = self._draft or SessionDraft(self._journal.path)
+        try:
+            self.path = draft.finish() or self.path
+        finally:
+            draft.discard()
+        self._journal.discard()
 
-    def _take_smoothed(self) -> None:
-        """To the disk as it comes, of the frames that are there: so memory does not grow with the recording, and a file
-        that goes on elsewhere finds the rest."""
-        if self._looking_back is None or not self._looking_back.has_more:
-            return
-        stored = len(self._times_s) - len(self._writer) + self._writer.stored
-        motion = self._looking_back.ready(self._not_smoothed(stored))
+    def _add_smoothed(self, motion: Motion | None) -> None:
         if motion is not None:
-            self._writer.add_smoothed(motion)
+            self._journal.add_smoothed(motion)
 
-    def _not_smoothed(self, end: int | None = None) -> list[float]:
-        """Times of the file's frames that are not smoothed yet, of the first ``end`` taken."""
-        return self._times_s[len(self._times_s) - len(self._writer) + self._writer.smoothed : end]
-
-    def go_on_elsewhere(self) -> SmoothedSession:
-        """As :meth:`SessionWriter.go_on_elsewhere`; looked back at by the same process, all of the recording."""
-        new = SmoothedSession(self._writer.go_on_elsewhere(), self._looking_back)
-        new._times_s, new._early, self._looking_back = list(self._times_s), list(self._early), None
-        return new
+    def _not_smoothed(self) -> list[float]:
+        """Times of the frames that are not smoothed yet."""
+        return self._times_s[self._journal.smoothed_rows :]
 
     def abandon(self) -> None:
-        self._end_looking_back()
-        self._writer.abandon()
+        self._let_go()
+        self._journal.abandon()
 
     def discard(self) -> None:
-        self._end_looking_back()
-        self._writer.discard()
+        self._let_go()
+        self._journal.discard()
 
-    def _end_looking_back(self) -> None:
+    def _let_go(self) -> None:
         if self._looking_back is not None:
             self._looking_back.cancel()
+        if self._draft is not None:
+            self._draft.discard()
 
 
 class SourceMeasuring:
@@ -327,11 +339,11 @@ class SourceMeasuring:
                 pipeline.keep = None  # the hand is followed meanwhile: what comes now is not of the recording
                 looked_back()
 
-        fallback = Fallback(self._elsewhere, self._session.notice)
+        journal_path, patient_id = path.with_suffix(JOURNAL_SUFFIX), self._set_up.patient_id
         try:
             self._session.start_recording(
-                lambda: SmoothedSession(
-                    SessionWriter.create(path, header, self.camera, calibration, fallback=fallback), looking_back
+                lambda: RecordedSession(
+                    RecordingJournal(journal_path, header, self.camera, calibration, patient_id), looking_back
                 ),
                 self._open_pictures(path.with_suffix(RAW_SUFFIX), said) if self._set_up.keep_pictures else None,
                 at_end,
@@ -354,11 +366,7 @@ class SourceMeasuring:
         assert self._pipeline is not None
         hand = HandArea(self.camera, self._set_up.protocol)
         self._pipeline.seen = hand.take
-        return lambda: AroundHand(RawWriter(path, said, fallback=self._elsewhere), hand.area)
-
-    def _elsewhere(self) -> Path:
-        """Where the recording goes on when the data folder goes away."""
-        return self._places.fallback_folder(self._set_up.patient_id)
+        return lambda: AroundHand(RawWriter(path, said), hand.area)
 
     def _parameters(self, learnt: Learnt) -> str:
         """All settings as JSON, with what the exercise aimed at."""
@@ -382,7 +390,7 @@ class SourceMeasuring:
         """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""
         try:
             path = self._session.stop_recording()
-        except (RecordingEmpty, EndStalled):  # of the one there is nothing, the other cannot be reached now
+        except RecordingEmpty:
             raise
         except Exception:
             self._places.cut_short()

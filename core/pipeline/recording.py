@@ -1,24 +1,17 @@
-"""A running recording of the live session, its session file and, if wanted, its raw pictures; and the frames on their
-way to the tracker: how many may wait, which are left out, how far the tracker is behind."""
+"""A running recording of the live session: its session and, if wanted, its raw pictures."""
 
 from __future__ import annotations
 
 import math
 import shutil
-import threading
-import time
-from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from carpus.core.errors import CarpusFault
 from carpus.core.pipeline.around_hand import PictureSink
-from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop, Waits
 from carpus.core.pipeline.live_values import LiveEventKind, LiveSettings
-from carpus.core.pipeline.recorder import Patience, Recorder, Sink
+from carpus.core.pipeline.recorder import Recorder, Sink
 from carpus.core.types import Frame, TrackedFrame
 
 _LOOK_EVERY_ROWS = 30
@@ -31,12 +24,8 @@ class SessionSink(Sink, Protocol):
 
     def add_event(self, time_s: float, kind: str, text: str) -> None: ...
 
-    def flush(self) -> None:
-        """Bring everything taken so far to the disk."""
-        ...
-
-    def go_on_elsewhere(self) -> SessionSink:
-        """Another file with what this one, which hangs in the disk, has taken and not stored."""
+    def prepare(self) -> None:
+        """No more rows come: all to the disk, and into what they become."""
         ...
 
 
@@ -57,9 +46,9 @@ class Tell(Protocol):
 class LiveRecording:
     """The session file and the raw pictures, each opened, filled and closed in a thread of its own.
 
-    ``tell`` hears what ends one of them early, and once that there is little room left; ``notice`` what they go on in
-    spite of. With ``waits`` whoever puts waits for the disk. ``at_end`` waits for what a finished file holds besides,
-    and not in the writing thread, where every second counts as the disk's.
+    ``tell`` hears what ends one of them early, and once that there is little room left. With ``waits`` whoever puts
+    waits for the disk. ``at_end`` waits for what a finished file holds besides, beside the writing thread, which writes
+    what is there meanwhile.
     """
 
     def __init__(
@@ -69,7 +58,6 @@ class LiveRecording:
         settings: LiveSettings,
         pictures_waiting: int,
         tell: Tell,
-        notice: Callable[[CarpusFault], None],
         *,
         waits: bool,
         at_end: Callable[[], None] = lambda: None,
@@ -80,7 +68,6 @@ class LiveRecording:
         self.disk_free: int | None = None
         """Bytes, as last looked at while a row was written."""
         self._low_disk_bytes, self._tell, self._disk_warned = settings.low_disk_bytes, tell, False
-        told_s, moved_s = settings.told_stall_s, settings.moved_stall_s
         self.rows: Recorder[SessionSink, TrackedFrame | Note | None] = Recorder(
             "writing",
             open_session,
@@ -88,7 +75,6 @@ class LiveRecording:
             settings.rows_waiting + (0 if waits else settings.tracking_waiting),
             lambda cause: tell("recording_failed", cause),
             waits=waits,
-            patience=Patience(notice, lambda sink, _: sink.go_on_elsewhere(), told_s, moved_s),
         )
         self.pictures: Recorder[PictureSink, Frame] | None = None
         if open_pictures is not None:
@@ -99,10 +85,6 @@ class LiveRecording:
                 pictures_waiting,
                 lambda cause: tell("pictures_failed", cause),
                 waits=waits,
-                # No more than these have room to wait for.
-                patience=Patience(
-                    notice, lambda sink, frame: sink.go_on_elsewhere(frame), told_s, min(told_s, moved_s)
-                ),
             )
 
     def start(self) -> None:
@@ -118,7 +100,7 @@ class LiveRecording:
     def finish(self) -> Path:
         """Waits until all is stored; the session file. Raises the fault that ended it early."""
         if self.rows.fault is None:
-            self.rows.put(None)  # what was taken is on the disk while the rest is waited for
+            self.rows.put(None)
             self._at_end()
         try:
             return self.rows.finish()
@@ -129,9 +111,9 @@ class LiveRecording:
 
     def _write_row(self, sink: SessionSink, item: TrackedFrame | Note | None) -> None:
         """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then. None:
-        to the disk with what is held."""
+        no more rows come."""
         if item is None:
-            sink.flush()
+            sink.prepare()
         elif isinstance(item, Note):
             sink.add_event(item.time_s, item.kind, item.text)
         else:
@@ -151,142 +133,3 @@ def free_bytes(folder: Path | None) -> int | None:
         return shutil.disk_usage(folder).free
     except OSError:
         return None
-
-
-PREVIEW_WAITING = 16
-"""Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""
-FOLLOWS_S = 0.08
-"""A hand is followed by a picture in so long: after a second without any, fingers may be taken for one another."""
-FREE_SHARE = 0.5
-"""No more than this part of the memory that is free when a recording begins is for pictures that wait."""
-
-Pipeline = Callable[[Frame], TrackedFrame]
-
-
-class Captured(NamedTuple):
-    """A frame on its way to the tracker, and to the recording, that were current when it was captured; ``recording``
-    None where it is not recorded."""
-
-    frame: Frame
-    at_s: float
-    pipeline: Pipeline
-    recording: LiveRecording | None
-
-
-class Backlog:
-    """Frames that wait for the tracker, in the order in which they were captured.
-
-    Of what is recorded ``room`` may wait. Of what is not only the last half second does. A frame without room is left
-    out, and counted in the next one. With ``waits`` whoever puts waits instead. A person waits while all that was
-    recorded is tracked and stored (``ends_recording``): then what comes is left out, and missed by nobody, but for as
-    much as it takes to follow the hand, once nothing recorded waits.
-    """
-
-    def __init__(self, room: int, fps: float, *, waits: bool) -> None:
-        self.room = room
-        self.ends_recording = False
-        self.left_out = 0
-        self.waits = waits
-        self._channel: NeverDrop[Captured] | Waits[Captured] = (
-            Waits(min(PREVIEW_WAITING, room)) if waits else NeverDrop(room)
-        )
-        self._lock = threading.Lock()
-        self._handed = self._worked = self._left_out_before = 0
-        self._followed_s = -math.inf
-        self._worked_at: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
-
-    def __len__(self) -> int:
-        """Frames that wait now."""
-        return len(self._channel)
-
-    def __iter__(self) -> Iterator[Captured]:
-        """For the tracker's thread: each frame in turn, worked through when the next one is asked for."""
-        for captured in self._channel:
-            yield captured
-            with self._lock:
-                self._worked += 1
-                self._worked_at.append(time.monotonic())
-
-    @property
-    def handed(self) -> int:
-        """Frames handed over or about to be."""
-        return self._handed
-
-    @property
-    def behind_s(self) -> float:
-        """How long the tracker takes for what waits, as fast as it has been lately; NaN where it has not been seen."""
-        waiting = len(self)
-        with self._lock:
-            count, work_s = len(self._worked_at), math.nan
-            if count > 1:
-                work_s = self._worked_at[-1] - self._worked_at[0]
-        return waiting * work_s / max(count - 1, 1) if waiting else 0.0
-
-    def is_behind(self, last: int | None = None) -> bool:
-        """Whether a frame waits or is worked on, of the first ``last`` handed over."""
-        with self._lock:
-            return self._worked < (self._handed if last is None else min(last, self._handed))
-
-    def expect(self) -> None:
-        """A frame is about to be put: who waits until the tracker is through waits for this one too."""
-        with self._lock:
-            self._handed += 1
-
-    def put(self, captured: Captured) -> None:
-        """Hand over a frame that was expected, or leave it out."""
-        frame, room = captured.frame, self.room
-        if self._left_out_before:
-            frame = replace(frame, dropped_before=frame.dropped_before + self._left_out_before)
-        if captured.recording is None and not self.waits:
-            room = min(PREVIEW_WAITING, room)
-            if self.ends_recording:
-                room = int(frame.timestamp_s - self._followed_s >= FOLLOWS_S)
-        try:
-            if not self.waits and len(self) >= room:
-                raise ChannelFull
-            self._channel.put(captured._replace(frame=frame))
-            self._left_out_before, self._followed_s = 0, frame.timestamp_s
-            return
-        except ChannelFull:
-            if not self.ends_recording:
-                self.left_out += 1
-                self._left_out_before = frame.dropped_before + 1
-        except ChannelClosed:
-            pass  # the session ended while a file waited for the tracker
-        with self._lock:
-            self._handed -= 1
-
-    def is_of_the_past(self, captured: Captured) -> bool:
-        """Whether a frame waited for a recording that has failed: what is seen is to be of now, and the next recording
-        to find room."""
-        failed = captured.recording is not None and captured.recording.rows.fault is not None
-        return failed and not self.waits and len(self) >= PREVIEW_WAITING
-
-    def clear(self) -> None:
-        """Nothing that waits is worked through any more, as another pipeline begins."""
-        taken = len(self._channel.taken())
-        with self._lock:
-            self._worked += taken
-        self._left_out_before = 0
-
-    def close(self) -> None:
-        """No more frames come; those that wait are still worked through. May be called twice."""
-        self._channel.close()
-
-
-def room_for(frame: Frame | None, most: int) -> int:
-    """How many pictures like this one may wait in memory: ``most``, or what the share of the free memory holds."""
-    free = free_memory_bytes()
-    if frame is None or free is None:
-        return most
-    frame_bytes = frame.color_rgb.nbytes + (0 if frame.depth_raw is None else frame.depth_raw.nbytes)
-    return min(most, max(PREVIEW_WAITING, int(FREE_SHARE * free) // frame_bytes))
-
-
-def free_memory_bytes() -> int | None:
-    """Memory that programs may still take without others being swapped out; None where the system does not tell."""
-    with suppress(OSError):
-        for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
-            if line.startswith("MemAvailable:"):
-                return 1024 * int(line.split()[1])
-    return None

@@ -354,11 +354,6 @@ def begin_tracking(
     return Begun(opening[0], ordered, pipeline, look_back, calibration, learnt)
 
 
-def _standing() -> float:
-    """The clock of a session that is done again when it is cut short: rows go to the file by their number alone."""
-    return 0.0
-
-
 def track_recording(
     source: FrameSource,
     clicks: Clicks,
@@ -406,7 +401,7 @@ def track_recording(
         recorded=recorded.when if recorded else "",
         recording_id=recording_id(source.info, begun.first),
     )
-    writer = SessionWriter.create(output, header, source.info.camera, begun.calibration, clock=_standing)
+    writer = SessionWriter.create(output, header, source.info.camera, begun.calibration)
     answers = {} if said is None else answers_in(said)
 
     def answered(frame: Seen) -> TrackedFrame:
@@ -528,7 +523,7 @@ def writer_again(
         recorded=old.recorded,
         recording_id=old.recording_id,
     )
-    return SessionWriter.create(output, header, session.camera, calibration, clock=_standing)
+    return SessionWriter.create(output, header, session.camera, calibration)
 
 
 def _heard(frames: Iterator[TrackedFrame], listener: Listener | None) -> Iterator[TrackedFrame]:

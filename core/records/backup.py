@@ -37,14 +37,13 @@ from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.reserve import RESERVE_FILE
 from carpus.core.records.session_list import COPY_SUFFIX
 from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
-from carpus.core.session import recovery
-from carpus.core.session.disk import free_name, is_being_written
+from carpus.core.session.disk import TEMPORARY, free_name, is_being_written
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
 SETTINGS_PREFIX, SESSIONS_PREFIX = "@settings/", f"{SESSIONS_FOLDER}/"
 PLACE_LOCK = ".lock"
-LEFT_OUT = (".alive", "-wal", "-shm", "-journal", ".lock", COPY_SUFFIX, RESERVE_FILE)
+LEFT_OUT = (".alive", TEMPORARY, "-wal", "-shm", "-journal", ".lock", COPY_SUFFIX, RESERVE_FILE)
 BLOCK = 1 << 20
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 _MOST = 1 << 62
@@ -175,8 +174,7 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
     if sessions is not None and sessions != data_folder / SESSIONS_FOLDER:
         there |= walk_files(sessions, place, lacking, SESSIONS_PREFIX)
     parts = [path for name, path in there.items() if name.endswith(".part")]
-    beating = recovery.still_beating(parts)
-    busy = {path for path in parts if path in beating or _is_written(path)}
+    busy = {path for path in parts if _is_written(path)}
     stems = {path.name.split(".")[0] for path in busy}
     files = [
         (name, path)

@@ -1,12 +1,10 @@
 """How sessions come into the store: those measured now, with what the last one said of the hand; those that were cut
-short; those from elsewhere; and recordings that went on in another folder when theirs went away."""
+short; and those that waited on this computer."""
 
 from __future__ import annotations
 
-import contextlib
-import hashlib
-import shutil
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
@@ -14,87 +12,34 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-import platformdirs
 
 from carpus.core.calibration.result import ALL_STRAIGHT
-from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.durable import make_private, sync_folder, write_fault
+from carpus.core.durable import make_private
 from carpus.core.errors import (
     CarpusFault,
-    DiskFull,
     FilesSetApart,
     FolderMissing,
     OutputNotWritable,
-    RecordingMoved,
-    RecordingReturned,
+    RecordingWaits,
     SessionUnreadable,
-    WaitingErased,
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.changes import is_identity
 from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import was_erased
+from carpus.core.records.recordings import (
+    bring_home,
+    copy_session,
+    recordings_folder,
+    recover_recordings,
+    remove_published,
+)
 from carpus.core.records.session_list import FilesOfSessions, free_path, look_for_share
-from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import entry_of
 from carpus.core.results.progress import NAMES_DOUBTED
-from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_outline, read_session
-from carpus.core.session.recovery import recover_folder
-
-
-def fallback_place(data_folder: Path) -> Path:
-    """On the disk of this computer, one folder for each data folder; nothing is made."""
-    name = hashlib.sha256(str(data_folder.absolute()).encode()).hexdigest()[:12]
-    return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
-
-
-def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) -> list[CarpusFault]:
-    """Finish what was recorded elsewhere and move it among the sessions, into the folder of each patient, by identity
-    and pseudonym; of whom there is none, it is erased. Tells of each, and of what could not be."""
-    place = fallback_place(data_folder)
-    if not place.is_dir():
-        return []
-    found = recover_folder(place)
-    told: list[CarpusFault] = []
-    erased = [one for one in sorted(place.iterdir()) if one.is_dir() and folder_of(one.name, "") is None]
-    for folder in erased if not found.busy else ():
-        try:
-            shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
-            told.append(WaitingErased())
-        except OSError as cause:
-            told.append(write_fault(place, cause))
-    told += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
-    for path in sorted(place.rglob("*.h5")):
-        try:
-            home = folder_of(path.parent.name, read_outline(path).header.subject_id)
-            told.append(WaitingErased() if home is None else RecordingReturned(_home(path, home)))
-            for suffix in (".h5", RAW_SUFFIX, MARKERS_SUFFIX):
-                path.with_suffix(suffix).unlink(missing_ok=True)
-            if path.parent != place:
-                with contextlib.suppress(OSError):  # another recording waits in it
-                    path.parent.rmdir()
-        except CarpusFault as fault:
-            told.append(fault)
-        except OSError as cause:
-            told.append(write_fault(data_folder, cause))
-    return told
-
-
-def _home(path: Path, folder: Path) -> Path:
-    make_private(folder)
-    target = free_name(folder / path.name)
-    for suffix in (RAW_SUFFIX, MARKERS_SUFFIX, ".h5"):  # the session last: what goes with it is there when it comes
-        source = path.with_suffix(suffix)
-        if source.is_file():
-            part = target.with_suffix(suffix + ".arriving")
-            shutil.copyfile(source, part)
-            part.chmod(0o600)
-            part.rename(target.with_suffix(suffix))
-    sync_folder(folder)
-    return target
-
 
 MOST_TOLD = 3
 """Files that are told one by one when the program starts; more are told together."""
@@ -121,13 +66,16 @@ def recover(library: Library) -> tuple[Sequence[Recovered], Sequence[CarpusFault
         look_for_share(library.store)
     except FolderMissing as fault:
         return [], [*faults, fault]
+    recovered: list[Path] = []
     if library.store.knows_all():  # who was erased meanwhile is brought back by nothing
-        faults += bring_home(library.folder, partial(_folder_of, library))
+        recovered, told = bring_home(library.folder, partial(_folder_of, library))
+        faults += told
+        library.elsewhere = {key: one for key, one in library.elsewhere.items() if one.path.exists()}
     files = FilesOfSessions(library.store)
-    recovery = recover_folder(library.store.sessions_folder, given_up=files.given_up())
-    apart = [*files.first_told(recovery.faults), *files.take_in().faults]
+    of_before = recover_recordings(library.store.sessions_folder, given_up=files.given_up())
+    apart = [*files.first_told(of_before.faults), *files.take_in().faults]
     found: list[Recovered] = []
-    for path in recovery.recovered:
+    for path in (*recovered, *of_before.recovered):
         outline = read_outline(path)
         header = outline.header
         library.notes.session("recovered", header.session_id)
@@ -150,6 +98,31 @@ def _folder_of(library: Library, patient_id: str, subject_id: str) -> Path | Non
     return library.store.sessions_folder / (owner or "unknown")
 
 
+PUBLISHED_WITHIN_S = 10.0
+"""A share that hangs is waited for so long; the session then waits on this computer, where it can be reviewed."""
+
+
+def _published(path: Path, folder: Path) -> Path:
+    """As :func:`publish_session`, for a person who waits. What arrives later than that is found at the next look."""
+    done: list[Path | CarpusFault] = []
+
+    def work() -> None:
+        try:
+            done.append(copy_session(path, folder))
+        except CarpusFault as fault:
+            done.append(fault)
+
+    thread = threading.Thread(target=work, name="publishing", daemon=True)
+    thread.start()
+    thread.join(PUBLISHED_WITHIN_S)
+    if not done:
+        raise OutputNotWritable(folder, phrase("no answer for {seconds} s", seconds=f"{PUBLISHED_WITHIN_S:.0f}"))
+    if isinstance(done[0], CarpusFault):
+        raise done[0]
+    remove_published(path)
+    return done[0]
+
+
 class NewSessions:
     """Where sessions that are measured go in a data folder, and who hears of a finished one."""
 
@@ -157,35 +130,27 @@ class NewSessions:
         self._library = library
 
     def new_path(self, set_up: SetUp) -> Path:
-        """A free path for a session that begins now: on this computer while a share is away, which is told."""
-        library = self._library
-        about = set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone()
-        try:
-            return library.index.new_path(set_up.patient_id, *about)
-        except (FolderMissing, OutputNotWritable, DiskFull) as fault:
-            if not library.store.on_share:
-                raise
-            path = free_path(self.fallback_folder(set_up.patient_id), *about)
-            library.log_fault(RecordingMoved(path, fault.detail or phrase("not there now")))
-            return path
+        """A free path on this computer for a session that begins now, whatever the data folder does meanwhile. Raises
+        :class:`OutputNotWritable`."""
+        folder = recordings_folder(self._library.folder) / set_up.patient_id
+        make_private(folder)
+        return free_path(folder, set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone())
 
     def entered(self, set_up: SetUp, path: Path) -> str:
-        """Take a finished session into the store, and remember how it was set up."""
+        """Put a finished session into the data folder and the store, and remember how it was set up. Where one of them
+        cannot be reached it waits on this computer, which is told."""
         library = self._library
-        if path.is_relative_to(fallback_place(library.folder)):  # the store is where the data folder is: gone
+        try:
+            path = _published(path, library.index.folder_for(set_up.patient_id))
+            keep_set_up(library.store, set_up)
+            session_id = library.index.enter(path, set_up.patient_id, library.who()).session_id
+        except CarpusFault as fault:
             entry = entry_of(path, read_outline(path))
             library.elsewhere[entry.session_id] = entry
+            library.log_fault(RecordingWaits(path, fault.detail or phrase("not there now")))
             return entry.session_id
-        keep_set_up(library.store, set_up)
-        session_id = library.index.enter(path, set_up.patient_id, library.who()).session_id
         library.notes.session("recorded", session_id)
         return session_id
-
-    def fallback_folder(self, patient_id: str) -> Path:
-        """Where a patient's recording goes on when the data folder goes away."""
-        folder = fallback_place(self._library.folder) / patient_id
-        make_private(folder)
-        return folder
 
     def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
         """Length of this hand of the patient as the last session of the kind measured it; NaN before the first."""

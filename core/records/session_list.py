@@ -165,16 +165,21 @@ class ListedSessions:
         """Every result of the recording of a session, the first one first. Raises KeyError."""
         return self.of_recording(self._row(session_id).recording_id)
 
-    def new_path(self, patient_id: str, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
-        """A free path for a session that begins now, in the patient's own private folder, which has the patient's
-        identity for a name. Raises the faults of :func:`look_for_share`, :class:`OutputNotWritable`, also for an
-        identity that this program did not give."""
+    def folder_for(self, patient_id: str) -> Path:
+        """The patient's own private folder, which has the patient's identity for a name. Raises the faults of
+        :func:`look_for_share`, :class:`OutputNotWritable`, also for an identity that this program did not give."""
         folder = self.folder / patient_id
         look_for_share(self._store)
         if not changes.is_identity(patient_id):
             raise OutputNotWritable(folder)
+        if not self.folder.is_dir():  # a disk that was unplugged: what is made in its place would hide under it
+            raise FolderMissing(self.folder)
         make_private(folder)
-        return free_path(folder, pseudonym, exercise, hand, when)
+        return folder
+
+    def new_path(self, patient_id: str, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
+        """A free path for a session in the patient's folder. Raises the faults of :meth:`folder_for`."""
+        return free_path(self.folder_for(patient_id), pseudonym, exercise, hand, when)
 
     def enter(
         self,

@@ -1,12 +1,16 @@
-"""Files that appear whole or not at all: the part file, room on the disk, and the last step to the final name."""
+"""Files that appear whole or not at all: names until then, room on the disk, and the last step to the final name."""
 
 from __future__ import annotations
 
+import contextlib
+import glob
 import os
 import re
+import secrets
 import shutil
 import struct
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -20,16 +24,27 @@ if sys.platform != "win32":
 _SUPERBLOCK = struct.Struct("<8sB4xB10xQ8xQ")
 """Start of an HDF5 file: signature, version, size of addresses, base address, end-of-file address."""
 _END_OF_FILE_AT = _SUPERBLOCK.size - 8
+TEMPORARY = ".tmp"
+LEFT_AFTER_S = 60.0
+"""A file in the making is written to every few seconds; where locks do not work, one that is older is nobody's."""
 _PART = re.compile(r"(?P<target>.+)\.[0-9a-f]{8}\.part")
 
 
-def part_path(target: Path, session_id: str) -> Path:
-    """Where a session is written until it is whole: beside its target, under a name of its own."""
-    return target.with_name(f"{target.name}.{session_id.replace('-', '')[:8]}.part")
+def temporary_path(target: Path) -> Path:
+    """Where a file is written until it is whole: beside its target, under a hidden name of its own."""
+    return target.with_name(f".{target.name}.{secrets.token_hex(4)}{TEMPORARY}")
+
+
+def remove_leftovers(target: Path, after_s: float = LEFT_AFTER_S) -> None:
+    """Take away what killed programs left of a file in the making."""
+    for left in target.parent.glob(f".{glob.escape(target.name)}.*{TEMPORARY}"):
+        with contextlib.suppress(OSError):  # another program takes it away, or it is nobody's to take
+            if time.time() - left.stat().st_mtime >= after_s and not is_being_written(left):
+                left.unlink()
 
 
 def target_of_part(part: Path) -> Path | None:
-    """The name that a part file was to get; None for any other file."""
+    """The name that a part file of Carpus 0.2.0 was to get; None for any other file."""
     match = _PART.fullmatch(part.name)
     return part.with_name(match["target"]) if match else None
 
@@ -71,13 +86,13 @@ def is_being_written(path: Path) -> bool:
     return False
 
 
-def publish(part: Path, target: Path) -> None:
-    """Give a closed part file its final name; a file that has the name already is kept, and so is the part."""
+def publish(whole: Path, target: Path) -> None:
+    """Give a finished file its final name; a file that has the name already is kept, and so is the other."""
     try:
         if sys.platform == "win32":
-            part.rename(target)  # refuses an existing target there
+            whole.rename(target)  # refuses an existing target there
         else:
-            _rename_to_free_name(part, target)
+            _rename_to_free_name(whole, target)
     except FileExistsError as cause:
         raise OutputExists(target) from cause
     except OSError as cause:
@@ -85,27 +100,24 @@ def publish(part: Path, target: Path) -> None:
     sync_folder(target.parent)
 
 
-def _rename_to_free_name(part: Path, target: Path) -> None:
+def _rename_to_free_name(whole: Path, target: Path) -> None:
     try:
-        os.link(part, target)
+        os.link(whole, target)
     except FileExistsError:
         raise
-    except OSError:  # no hard links here (FAT, some network shares): take the name first, then replace it
-        os.close(os.open(target, os.O_CREAT | os.O_EXCL | os.O_WRONLY))
-        try:
-            part.replace(target)
-        except OSError:  # another disk
-            target.unlink()
-            raise
+    except OSError:  # no hard links here (FAT, some network shares); a name taken first would stay after a kill
+        if os.path.lexists(target):
+            raise FileExistsError(target) from None
+        whole.rename(target)
     else:
-        part.unlink()
+        whole.unlink()
 
 
 def allow_written_bytes(part: Path) -> None:
     """Set the end-of-file address to the file's true length.
 
-    HDF5 writes that address last. A kill before it leaves good data behind an end that is too early, which HDF5
-    then refuses to read; the writer reserves room in advance, so the true length always covers them.
+    HDF5 writes that address last. A kill before it left good data behind an end that is too early, which HDF5
+    then refuses to read; room was reserved in advance, so the true length always covers them.
     """
     try:
         with part.open("r+b") as file:

@@ -1,11 +1,9 @@
-"""Lays out a new session file by the schema: header, calibration, and the datasets that will grow."""
+"""Lays out a new session file by the schema: header, calibration, and the datasets that rows are added to."""
 
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import h5py
@@ -15,27 +13,31 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.back_surface import TABLE_ROWS
 from carpus.core.session import schema
+from carpus.core.session.blocks import check_shape
 from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.values import Repetitions, SessionHeader
 
-_CHUNK_ROWS = {"N": 1024, "D": 32768, "E": 32, "C": 1 << 23, "B": 1 << 23}
-"""Large: most flushes then fill chunks that are there already and leave HDF5's index alone. Up to 64 chunks the index
-of a dataset is one node, changed by one write; 64 x 1024 rows are 36 minutes at 30 frames a second."""
-
-
+ROWS_AT_ONCE = 1024
+"""Frames that are written together: whole chunks of every dataset, so that none is packed twice."""
+_CHUNK_ROWS = {"N": ROWS_AT_ONCE, "D": 4096, "E": 32, "C": 1 << 20, "B": 1 << 20}
 READINGS = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
-_SURFACE_ROWS = 512
+_READING_ROWS = 256
 """Of the readings on the back of the hand, which are many for each frame."""
+_GZIP_LEVEL = 1
+"""Higher ones made the same recordings a hundredth smaller, and took as much longer as they promise."""
 
 
-def new_file(path: Path) -> h5py.File:
-    """An empty HDF5 file, for its owner only; one that is there already is a FileExistsError.
-
-    The oldest format has no checksums that a kill would leave wrong; without the chunk cache rows go to the file
-    when they are written, before the index that makes them visible.
-    """
-    os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
-    return h5py.File(path, "w", libver="earliest", rdcc_nbytes=0)
+def empty_session(
+    header: SessionHeader, camera: Camera, calibration: Calibration, raw_depth_unit_m: float | None = None
+) -> bytes:
+    """A session file without rows, as its bytes; with a depth unit its frames bring their pictures."""
+    with h5py.File("session", "w", driver="core", backing_store=False, libver="earliest") as file:
+        layout = TableLayout(header.protocol, header.joint_names)
+        write_header(file, header, camera)
+        write_calibration(file, layout, calibration)
+        create_growing(file, layout, raw_depth_unit_m)
+        file.flush()
+        return bytes(file.id.get_file_image())
 
 
 def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None:
@@ -44,7 +46,7 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
         "format": schema.FORMAT,
         "format_version": version_for(camera),
         "protocol": header.protocol.name,
-        "complete": False,
+        "complete": True,  # it gets its name only then
     }
     for name in schema.ROOT_ATTRIBUTES:
         file.attrs[name] = values[name] if name in values else getattr(header, name)
@@ -71,7 +73,7 @@ def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibra
     }
     for field in schema.CALIBRATION_FIELDS:
         value = elsewhere[field.attribute] if field.attribute in elsewhere else getattr(calibration, field.attribute)
-        describe(create_checked(file, field.path, checked(field, value, layout.row_shape(field))), field, layout)
+        describe(create_checked(file, field.path, check_shape(field, value, layout.row_shape(field))), field, layout)
     findings = json.dumps([_known(asdict(finding)) for finding in verdict.findings])
     straight = np.array(calibration.clicks.straight_fingers, dtype=np.uint8)
     said = (verdict.hand_length_mm * 1e-3, np.radians(verdict.tilt_deg), verdict.distance_m, verdict.frames_used)
@@ -79,42 +81,41 @@ def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibra
         file["/calibration"].attrs[name] = value
 
 
-def create_growing(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float | None) -> dict[str, h5py.Dataset]:
-    """Every dataset that grows while the session runs, still without rows; ``/raw`` only with a depth unit."""
+def create_growing(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float | None) -> None:
+    """Every dataset that rows are added to, still without; ``/raw`` only with a depth unit."""
     raw = (*schema.RAW_STREAMS, *schema.RAW_ENDS) if raw_depth_unit_m is not None else ()
     detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
-    growing: dict[str, h5py.Dataset] = {}
     for field in (*schema.FRAME_FIELDS, *detections, *READINGS, *schema.EVENT_FIELDS, *raw):
         if layout.has(field):
-            growing[field.path] = _create_growing(file, field, layout)
+            create_dataset(file, field, layout)
     for group, names in layout.group_names().items():
         file[group].attrs["names"] = names
     if raw_depth_unit_m is not None:
         file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = raw_depth_unit_m
-    return growing
 
 
-def create_smoothed(file: h5py.File, layout: TableLayout) -> dict[str, h5py.Dataset]:
+def create_smoothed(file: h5py.File, layout: TableLayout) -> None:
     """The datasets of the smoother's result, still without rows."""
-    fields = [field for field in schema.SMOOTHED_FIELDS if layout.has(field)]
-    growing = {field.path: _create_growing(file, field, layout) for field in fields}
+    for field in filter(layout.has, schema.SMOOTHED_FIELDS):
+        create_dataset(file, field, layout)
     for group, names in layout.group_names().items():
         if "/smoothed" + group in file:
             file["/smoothed" + group].attrs["names"] = names
-    return growing
 
 
-def _create_growing(file: h5py.File, field: Field, layout: TableLayout) -> h5py.Dataset:
+def create_dataset(file: h5py.File, field: Field, layout: TableLayout) -> h5py.Dataset:
+    """The dataset of a field that rows are added to: packed without loss, but for pictures, which are that already."""
     row = layout.row_shape(field)
+    packing: dict[str, Any] = {"compression": "gzip", "compression_opts": _GZIP_LEVEL, "shuffle": True}
     dataset = file.create_dataset(
         field.path,
         shape=(0, *row),
         maxshape=(None, *row),
-        chunks=(_SURFACE_ROWS if field in READINGS else _CHUNK_ROWS[str(field.shape[0])], *row),
+        chunks=(_READING_ROWS if field in READINGS else _CHUNK_ROWS[str(field.shape[0])], *row),
         fletcher32=True,
         dtype=field.h5_dtype,
         fillvalue=None if field.dtype == "text" else field.fill,
-        fill_time="never" if field in schema.RAW_STREAMS else "ifset",
+        **({} if field in schema.RAW_STREAMS else packing),
     )
     describe(dataset, field, layout)
     return dataset
@@ -145,14 +146,6 @@ def describe(dataset: h5py.Dataset, field: Field, layout: TableLayout) -> None:
     dataset.attrs["description"] = field.description
     if field.named_axis:
         dataset.attrs["names"] = layout.names(field.named_axis)
-
-
-def checked(field: Field, value: Any, shape: tuple[int, ...]) -> Any:
-    """``value`` as an array of the field's type; a wrong shape is a mistake of the caller and is not stretched."""
-    data = np.asarray(value, dtype=field.h5_dtype)
-    if data.shape != shape:
-        raise ValueError(f"{field.path} got {data.shape}, {shape} expected")
-    return data
 
 
 def _known(facts: dict[str, Any]) -> dict[str, Any]:

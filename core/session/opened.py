@@ -63,6 +63,11 @@ def session_in(path: Path, file: h5py.File) -> Session:
     return _Source(path, file).session()
 
 
+def layout_of(path: Path, file: h5py.File) -> TableLayout:
+    """What the axis letters mean in a file that is open."""
+    return _Source(path, file).layout
+
+
 def read_outline(path: Path) -> SessionOutline:
     """Header, length and state of a session, without its data: quick enough for a whole folder."""
     with open_session(path) as file:
@@ -189,7 +194,7 @@ class _Source:
         self._path = path
         self._file = file
         self._header = self._read_header()
-        self._layout = TableLayout(self._header.protocol, self._header.joint_names)
+        self.layout = TableLayout(self._header.protocol, self._header.joint_names)
         self._complete = bool(self._attribute("complete"))
         self._rows = self._read_rows()
 
@@ -213,13 +218,21 @@ class _Source:
             ),
             quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
             events=tuple(map(Event, *(self._list(field) for field in schema.EVENT_FIELDS))),
-            smoothed=self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None,
+            smoothed=self._smoothed(),
             complete=self._complete,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
             repetitions=self._repetitions(),
         )
         check_values(self._path, session)
         return session
+
+    def _smoothed(self) -> Motion | None:
+        """None where no smoother ran; of a session that was cut short also where half of its result is there."""
+        if "/smoothed" not in self._file:
+            return None
+        with contextlib.suppress(*(() if self._complete else (SessionUnreadable, OSError, RuntimeError))):
+            return self._motion(schema.SMOOTHED_FIELDS)
+        return None
 
     def _repetitions(self) -> Repetitions | None:
         path = schema.REPETITIONS.path
@@ -304,7 +317,7 @@ class _Source:
         return ends
 
     def _sizes(self, field: Field) -> tuple[int, ...]:
-        row = self._layout.row_shape(field)
+        row = self.layout.row_shape(field)
         return (0, *row) if field.shape[0] in schema.GROWING_AXES else row
 
     def _list(self, field: Field) -> list[Any]:
@@ -374,7 +387,7 @@ class _Source:
         rows = self._rows.frames
         nothing = {2: (rows, 0), 3: (rows, 0, 3)}
         values = {
-            field.attribute: self.array(field) if self._layout.has(field) else np.empty(nothing[len(field.shape)])
+            field.attribute: self.array(field) if self.layout.has(field) else np.empty(nothing[len(field.shape)])
             for field in fields
         }
         return Motion(**values)

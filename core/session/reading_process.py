@@ -19,9 +19,9 @@ from typing import Any
 from carpus.core.errors import CarpusFault
 from carpus.core.session import opened, rewriting
 
-CPU_S, BYTES_PER_CPU_S = 1.2, 20e6
+CPU_S, BYTES_PER_CPU_S = 1.2, 5e6
 """A question may take so much of a processor's time, and a second more for so many bytes of the file."""
-MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 3
+MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 10
 """Room for an answer, and so much more for each byte of the file, up to :data:`MOST_MEMORY_BYTES`."""
 MOST_MEMORY_BYTES = 6_000_000_000
 

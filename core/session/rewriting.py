@@ -4,7 +4,9 @@ further result."""
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 
 import h5py
@@ -13,73 +15,85 @@ from carpus.core.durable import write_fault
 from carpus.core.errors import SessionUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
-from carpus.core.session.disk import allow_written_bytes, free_name, part_path, publish, target_of_part
-from carpus.core.session.new_file import new_file
-from carpus.core.session.opened import open_session, read_session, verify
-from carpus.core.session.rows import growing_fields, readable_rows, unchecked_chunk, whole_rows
+from carpus.core.session.disk import allow_written_bytes, free_name, publish, target_of_part, temporary_path
+from carpus.core.session.new_file import create_dataset
+from carpus.core.session.opened import layout_of, open_session, verify
+from carpus.core.session.rows import Rows, growing_fields, readable_rows, rows_of, whole_rows
 from carpus.core.session.seal import ATTRIBUTE, seal_of
 
 
 def finish_part(part: Path, when: str) -> Path | None:
-    """Finish one part file: what every dataset holds stays, and the file gets its name, or a free one beside it.
+    """Write a session anew from a part file of Carpus 0.2.0: the rows that every dataset holds. The part file is never
+    written to, and goes once the session has its name, or a free one beside it.
 
-    Returns the session's path. None, and the file stays, where it ended before the first frame was stored.
+    Returns the session's path; None, and the file stays, where it ended before the first frame was stored.
     """
     own_name = target_of_part(part)
     if own_name is None:
         raise SessionUnreadable(part, phrase("not the part file of a session"))
-    if own_name.exists() and own_name.samefile(
-        part
-    ):  # ended between the last two steps: only the old name is left over
+    if own_name.exists() and own_name.samefile(part):  # ended between the last two steps: the old name is left over
         part.unlink()
         return own_name
-    if not _holds_anything(part):
-        return None
-    if not _is_reachable(part):
-        allow_written_bytes(part)
-    with open_session(part) as file:
-        finished = bool(file.attrs["complete"])
-        if not finished and whole_rows(file).frames == 0:
-            return None
-    if not finished:
-        _finish(part, when)
-    read_session(part)
     target = free_name(own_name)
-    publish(part, target)
+    copy, new = temporary_path(target), temporary_path(target)
+    try:
+        shutil.copyfile(part, copy)
+        copy.chmod(0o600)
+        if not _holds_anything(copy):
+            return None
+        allow_written_bytes(copy)
+        with open_session(copy) as old:
+            rows = whole_rows(old)
+            if rows.frames == 0:
+                return None
+            with h5py.File(new, "x", libver="earliest") as file:
+                new.chmod(0o600)
+                _copy_whole_rows(old, file, rows)
+                file.attrs["complete"] = True
+                file.attrs.setdefault(schema.RECOVERED, when)
+                file.attrs[ATTRIBUTE] = seal_of(file)
+        with new.open("r+b") as written:
+            os.fsync(written.fileno())
+        verify(new)
+        publish(new, target)
+    except SessionUnreadable as fault:
+        raise SessionUnreadable(part, fault.detail) from fault
+    except OSError as cause:
+        raise write_fault(target, cause) from cause
+    finally:
+        copy.unlink(missing_ok=True)
+        new.unlink(missing_ok=True)
+    part.unlink()
     return target
 
 
-def _finish(part: Path, when: str) -> None:
-    """Cut every dataset to the rows that all of them hold, and mark the file."""
-    try:
-        with h5py.File(part, "r+") as file:
-            rows = whole_rows(file)
-            for field, dataset in growing_fields(file):
-                end = rows.along(str(field.shape[0]))
-                _mend_last_chunk(dataset, end)
-                dataset.resize(end, axis=0)
-            if "/smoothed" in file and not _smoothed_is_whole(file, rows.frames):
-                del file["/smoothed"]  # half of a result that can be computed again
-            file.attrs[schema.RECOVERED] = when
-            file.attrs.modify("complete", True)
-            file.attrs[ATTRIBUTE] = seal_of(file)
-    except (OSError, RuntimeError, KeyError) as cause:
-        if isinstance(cause, KeyError):
-            raise SessionUnreadable(part, phrase("damaged: {what}", what=cause.args[0])) from cause
-        raise write_fault(part, cause) from cause
-
-
-def _mend_last_chunk(dataset: h5py.Dataset, end: int) -> None:
-    """A chunk that the program was adding to when it ended has the check sum of another moment: write it again."""
-    if end == 0 or not dataset.fletcher32 or dataset.dtype.kind == "O":
-        return
-    last = (end - 1) // dataset.chunks[0] * dataset.chunks[0]
-    try:
-        dataset[last:end]
-    except (OSError, RuntimeError):
-        rows = unchecked_chunk(dataset, last)
-        dataset.resize(last + dataset.chunks[0], axis=0)  # a whole chunk is written without being read before
-        dataset[last:] = rows
+def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: Rows) -> None:
+    """All of a part file, each dataset cut to the rows that all of them hold; half of a smoother's result is left out,
+    since it can be computed again, and so is a table of repetitions that cannot be read."""
+    for name in old.attrs:
+        if name != ATTRIBUTE:
+            file.attrs[name] = old.attrs[name]
+    for name in ("camera", "calibration"):
+        old.copy(name, file)
+    layout = layout_of(Path(old.filename), old)
+    smoothed = {field.path: field for field in schema.SMOOTHED_FIELDS if layout.has(field)}
+    fields = {field.path: field for field, _ in growing_fields(old)}
+    with suppress(OSError, RuntimeError, KeyError):
+        if all(readable_rows(old[path]) == rows.frames for path in smoothed):
+            fields |= smoothed
+    for path, field in fields.items():
+        end = rows.along(str(field.shape[0]))
+        dataset = create_dataset(file, field, layout)
+        dataset.resize(end, axis=0)
+        dataset[:] = rows_of(old[path], end)
+    for name, names in layout.group_names().items():
+        for group in (name, f"/smoothed{name}"):
+            if group in file:
+                file[group].attrs["names"] = names
+    if "/raw" in file:
+        file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = old["/raw"].attrs[schema.RAW_DEPTH_UNIT]
+    with suppress(OSError, RuntimeError, KeyError):
+        old.copy(schema.REPETITIONS.path, file)
 
 
 def _holds_anything(part: Path) -> bool:
@@ -91,23 +105,6 @@ def _holds_anything(part: Path) -> bool:
     return False
 
 
-def _smoothed_is_whole(file: h5py.File, frames: int) -> bool:
-    fields = [f for f in schema.SMOOTHED_FIELDS if not f.fingers_only or "/joints" in file]
-    try:
-        return all(file[field.path][()].shape[0] == frames for field in fields)
-    except (KeyError, OSError, RuntimeError):
-        return False
-
-
-def _is_reachable(part: Path) -> bool:
-    """Whether every row that the file announces can be read."""
-    try:
-        with h5py.File(part, "r") as file:
-            return all(readable_rows(dataset) == dataset.shape[0] for _, dataset in growing_fields(file))
-    except (OSError, RuntimeError, KeyError):
-        return False
-
-
 def write_anew(path: Path, target: Path, said: Mapping[str, str]) -> None:
     """Write a session as ``target`` with other attributes: all else stays, and not a byte of what they said before.
 
@@ -116,9 +113,10 @@ def write_anew(path: Path, target: Path, said: Mapping[str, str]) -> None:
     """
     verify(path)
     with open_session(path) as old:
-        part = part_path(target, str(old.attrs["session_id"]))
+        part = temporary_path(target)
         try:
-            with new_file(part) as file:
+            with h5py.File(part, "x", libver="earliest") as file:
+                part.chmod(0o600)
                 _copy(old, file, said)
             with part.open("rb") as written:
                 os.fsync(written.fileno())

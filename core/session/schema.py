@@ -37,7 +37,7 @@ ROOT_ATTRIBUTES = {
     "software_version": "of the Carpus that wrote the file",
     "parameters": "JSON of all settings; `set_up` has repetitions and targets (pronosupination from palm down) and, "
     "within a set of exercises, `set`: `run` (the same for all its sessions), `part`, `of`, `seconds`",
-    "complete": "false while written, true once closed",
+    "complete": "always true; false in a part file of Carpus 0.2.0",
     "origin": "session_id of the session this one was tracked again from, else empty",
 }
 RECOVERED = "recovered"
@@ -322,9 +322,6 @@ SMOOTHED_FIELDS = tuple(
     )
     for field in MOTION_FIELDS
 )
-
-COMMIT_FIELDS = (FRAME_FIELDS[0], EVENT_FIELDS[0])
-"""The times, written after everything else of their rows: a row counts from the moment its time is there."""
 
 ALL_FIELDS = (
     *CALIBRATION_FIELDS,

@@ -7,7 +7,7 @@ texts, attributes, names and what was left out. It has no key: whoever changes a
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import h5py
@@ -18,26 +18,8 @@ PREFIX = "sha256:"
 _BLOCK_BYTES = 1 << 23
 
 
-class Digests:
-    """Running digests of datasets that grow, so that nothing is read back when a session ends."""
-
-    def __init__(self) -> None:
-        self._running: dict[str, Any] = {}
-        self._rows: dict[str, int] = {}
-
-    def rows(self, path: str) -> int:
-        return self._rows.get(path, 0)
-
-    def add(self, path: str, rows: Any) -> None:
-        self._rows[path] = self.rows(path) + len(rows)
-        self._running.setdefault(path, hashlib.sha256()).update(_bytes_of(np.asarray(rows)))
-
-    def known(self) -> dict[str, str]:
-        return {path: running.hexdigest() for path, running in self._running.items()}
-
-
-def seal_of(file: h5py.File, known: dict[str, str] | None = None) -> str:
-    """The seal that belongs to a file as it is; ``known`` digests of datasets need not be read again."""
+def seal_of(file: h5py.File, known: Mapping[str, str] | None = None) -> str:
+    """The seal that belongs to a file as it is; datasets whose digests are ``known`` need not be read again."""
     known = known or {}
     whole = hashlib.sha256()
     for place, thing in _everything(file):
@@ -55,14 +37,14 @@ def digest_of(dataset: h5py.Dataset) -> str:
     """The digest of all values of a dataset, read in pieces."""
     out = hashlib.sha256()
     if dataset.shape == ():
-        out.update(_bytes_of(np.asarray(dataset[()])))
+        out.update(bytes_of(np.asarray(dataset[()])))
         return out.hexdigest()
     row_bytes = max(1, int(np.prod(dataset.shape[1:])) * dataset.dtype.itemsize)
     step = max(1, _BLOCK_BYTES // row_bytes)
     if dataset.chunks:
         step = max(dataset.chunks[0], step // dataset.chunks[0] * dataset.chunks[0])
     for begin in range(0, dataset.shape[0], step):
-        out.update(_bytes_of(np.asarray(dataset[begin : begin + step])))
+        out.update(bytes_of(np.asarray(dataset[begin : begin + step])))
     return out.hexdigest()
 
 
@@ -75,7 +57,8 @@ def _everything(file: h5py.File) -> Iterator[tuple[str, Any]]:
         yield "/" + place, file[place]
 
 
-def _bytes_of(values: np.ndarray) -> bytes:
+def bytes_of(values: np.ndarray) -> bytes:
+    """Values as they go into a digest."""
     if values.dtype.kind != "O":
         return np.ascontiguousarray(values).astype(values.dtype.newbyteorder("<"), copy=False).tobytes()
     texts = [text if isinstance(text, bytes) else str(text).encode() for text in values.ravel().tolist()]

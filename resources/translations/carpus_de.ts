@@ -3529,7 +3529,7 @@
     </message>
     <message>
         <source>A session that was recorded while the folder of the sessions was away is there now: {subject}.</source>
-        <translation>Eine Sitzung, aufgenommen, während der Ordner der Sitzungen weg war, ist jetzt da: {subject}.</translation>
+        <translation type="vanished">Eine Sitzung, aufgenommen, während der Ordner der Sitzungen weg war, ist jetzt da: {subject}.</translation>
     </message>
     <message>
         <source>A setting cannot be used: {subject} ({detail}).</source>
@@ -3717,7 +3717,7 @@
     </message>
     <message>
         <source>Connect the disk or the network again, or choose another folder.</source>
-        <translation>Verbinden Sie den Datenträger oder das Netz wieder, oder wählen Sie einen anderen Ordner.</translation>
+        <translation type="vanished">Verbinden Sie den Datenträger oder das Netz wieder, oder wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
         <source>Copy the recording again from where it was made, or correct the list.</source>
@@ -3785,7 +3785,7 @@
     </message>
     <message>
         <source>Everything that was recorded is stored there.</source>
-        <translation>Alles Aufgenommene ist dort gespeichert.</translation>
+        <translation type="vanished">Alles Aufgenommene ist dort gespeichert.</translation>
     </message>
     <message>
         <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
@@ -3825,7 +3825,7 @@
     </message>
     <message>
         <source>Go on; connect the disk or the network again later, and Carpus brings the session home when it starts.</source>
-        <translation>Machen Sie weiter; verbinden Sie Datenträger oder Netz später wieder, dann holt Carpus die Sitzung beim Start zurück.</translation>
+        <translation type="vanished">Machen Sie weiter; verbinden Sie Datenträger oder Netz später wieder, dann holt Carpus die Sitzung beim Start zurück.</translation>
     </message>
     <message>
         <source>Go on; the pause is marked in the session.</source>
@@ -3909,7 +3909,7 @@
     </message>
     <message>
         <source>Look at the disk or the network. If it stays silent, the recording goes on on this computer.</source>
-        <translation>Sehen Sie nach dem Datenträger oder dem Netz. Bleibt er stumm, läuft die Aufnahme auf diesem Computer weiter.</translation>
+        <translation type="vanished">Sehen Sie nach dem Datenträger oder dem Netz. Bleibt er stumm, läuft die Aufnahme auf diesem Computer weiter.</translation>
     </message>
     <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
@@ -4009,7 +4009,7 @@
     </message>
     <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
-        <translation>Antwortet der Datenträger wieder, starten Sie Carpus neu: Es schließt die Aufnahme ab.</translation>
+        <translation type="vanished">Antwortet der Datenträger wieder, starten Sie Carpus neu: Es schließt die Aufnahme ab.</translation>
     </message>
     <message>
         <source>OpenNI2</source>
@@ -4325,7 +4325,7 @@
     </message>
     <message>
         <source>The disk of {subject} has not answered for {detail}.</source>
-        <translation>Der Datenträger antwortet nicht: {subject} (seit {detail}).</translation>
+        <translation type="vanished">Der Datenträger antwortet nicht: {subject} (seit {detail}).</translation>
     </message>
     <message>
         <source>The driver of the camera has stopped: {subject} ({detail}).</source>
@@ -4353,11 +4353,11 @@
     </message>
     <message>
         <source>The folder of the recording is gone: {subject} ({detail}).</source>
-        <translation>Der Ordner der Aufnahme ist weg: {subject} ({detail}).</translation>
+        <translation type="vanished">Der Ordner der Aufnahme ist weg: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The folder of the sessions is gone; the recording goes on in {subject} ({detail}).</source>
-        <translation>Der Ordner der Sitzungen ist weg; die Aufnahme läuft hier weiter: {subject} ({detail}).</translation>
+        <translation type="vanished">Der Ordner der Sitzungen ist weg; die Aufnahme läuft hier weiter: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
@@ -4437,11 +4437,11 @@
     </message>
     <message>
         <source>The recording could not be ended: the disk of {subject} does not answer.</source>
-        <translation>Die Aufnahme ließ sich nicht beenden, der Datenträger antwortet nicht: {subject}.</translation>
+        <translation type="vanished">Die Aufnahme ließ sich nicht beenden, der Datenträger antwortet nicht: {subject}.</translation>
     </message>
     <message>
         <source>The recording goes on; what came since waits in memory.</source>
-        <translation>Die Aufnahme läuft weiter; was seitdem kam, wartet im Speicher.</translation>
+        <translation type="vanished">Die Aufnahme läuft weiter; was seitdem kam, wartet im Speicher.</translation>
     </message>
     <message>
         <source>The recording has no usable depth: {subject} ({detail}).</source>
@@ -4641,7 +4641,7 @@
     </message>
     <message>
         <source>What was stored before it went is there when it comes back.</source>
-        <translation>Was vorher gespeichert wurde, ist da, wenn er wiederkommt.</translation>
+        <translation type="vanished">Was vorher gespeichert wurde, ist da, wenn er wiederkommt.</translation>
     </message>
     <message>
         <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
@@ -4841,7 +4841,7 @@
     </message>
     <message>
         <source>damaged: {what}</source>
-        <translation>beschädigt: {what}</translation>
+        <translation type="vanished">beschädigt: {what}</translation>
     </message>
     <message>
         <source>damaged: {what} is beyond all measure</source>
@@ -5349,7 +5349,7 @@
     </message>
     <message>
         <source>the first {stored} rows stay in {lost_folder}</source>
-        <translation>die ersten {stored} Zeilen bleiben in {lost_folder}</translation>
+        <translation type="vanished">die ersten {stored} Zeilen bleiben in {lost_folder}</translation>
     </message>
     <message>
         <source>the focal length is known to {share} % only</source>
@@ -5621,7 +5621,7 @@
     </message>
     <message>
         <source>{place} is packed, which a session is not</source>
-        <translation>{place} ist gepackt, eine Sitzung ist das nicht</translation>
+        <translation type="vanished">{place} ist gepackt, eine Sitzung ist das nicht</translation>
     </message>
     <message>
         <source>{place} keeps its values in another file</source>
@@ -6678,6 +6678,46 @@
     <message>
         <source>another filter than Carpus’ own tracked it</source>
         <translation>ein anderer Filter als der von Carpus hat sie verfolgt</translation>
+    </message>
+    <message>
+        <source>Record this exercise again.</source>
+        <translation>Nehmen Sie diese Übung noch einmal auf.</translation>
+    </message>
+    <message>
+        <source>A recording ended before its first second was stored: {subject}. There is nothing to recover.</source>
+        <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war: {subject}. Es gibt nichts wiederherzustellen.</translation>
+    </message>
+    <message>
+        <source>A session that waited on this computer is in the folder of the sessions now: {subject}.</source>
+        <translation>Eine Sitzung, die auf diesem Computer gewartet hat, liegt jetzt im Ordner der Sitzungen: {subject}.</translation>
+    </message>
+    <message>
+        <source>Everything that was recorded before is safe.</source>
+        <translation>Alles, was vorher aufgenommen wurde, ist sicher.</translation>
+    </message>
+    <message>
+        <source>Go on. Connect the disk or the network again; Carpus then moves the session by itself.</source>
+        <translation>Arbeiten Sie weiter. Verbinden Sie den Datenträger oder das Netz wieder; Carpus verschiebt die Sitzung dann automatisch.</translation>
+    </message>
+    <message>
+        <source>no answer for {seconds} s</source>
+        <translation>keine Antwort seit {seconds} s</translation>
+    </message>
+    <message>
+        <source>not a recording journal</source>
+        <translation>kein Aufnahmejournal</translation>
+    </message>
+    <message>
+        <source>{place} is packed in a way that a session is not</source>
+        <translation>{place} ist auf eine Weise gepackt, wie es eine Sitzung nicht ist</translation>
+    </message>
+    <message>
+        <source>what was written is not what is read</source>
+        <translation>was geschrieben wurde, wird anders gelesen</translation>
+    </message>
+    <message>
+        <source>The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.</source>
+        <translation>Der Ordner der Sitzungen ist nicht erreichbar ({detail}); die Sitzung wird in {subject} aufbewahrt.</translation>
     </message>
 </context>
 <context>

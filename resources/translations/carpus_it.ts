@@ -3529,7 +3529,7 @@
     </message>
     <message>
         <source>A session that was recorded while the folder of the sessions was away is there now: {subject}.</source>
-        <translation>Una seduta registrata mentre mancava la cartella delle sedute ora è al suo posto: {subject}.</translation>
+        <translation type="vanished">Una seduta registrata mentre mancava la cartella delle sedute ora è al suo posto: {subject}.</translation>
     </message>
     <message>
         <source>A setting cannot be used: {subject} ({detail}).</source>
@@ -3721,7 +3721,7 @@
     </message>
     <message>
         <source>Connect the disk or the network again, or choose another folder.</source>
-        <translation>Ricollegare il disco o la rete, o scegliere un’altra cartella.</translation>
+        <translation type="vanished">Ricollegare il disco o la rete, o scegliere un’altra cartella.</translation>
     </message>
     <message>
         <source>Copy the recording again from where it was made, or correct the list.</source>
@@ -3789,7 +3789,7 @@
     </message>
     <message>
         <source>Everything that was recorded is stored there.</source>
-        <translation>Tutto ciò che è stato registrato è salvato lì.</translation>
+        <translation type="vanished">Tutto ciò che è stato registrato è salvato lì.</translation>
     </message>
     <message>
         <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
@@ -3829,7 +3829,7 @@
     </message>
     <message>
         <source>Go on; connect the disk or the network again later, and Carpus brings the session home when it starts.</source>
-        <translation>Continuare; ricollegare più tardi il disco o la rete, e all’avvio Carpus riporta la seduta al suo posto.</translation>
+        <translation type="vanished">Continuare; ricollegare più tardi il disco o la rete, e all’avvio Carpus riporta la seduta al suo posto.</translation>
     </message>
     <message>
         <source>Go on; the pause is marked in the session.</source>
@@ -3905,7 +3905,7 @@
     </message>
     <message>
         <source>Look at the disk or the network. If it stays silent, the recording goes on on this computer.</source>
-        <translation>Guardare il disco o la rete. Se non risponde, la registrazione prosegue su questo computer.</translation>
+        <translation type="vanished">Guardare il disco o la rete. Se non risponde, la registrazione prosegue su questo computer.</translation>
     </message>
     <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
@@ -4005,7 +4005,7 @@
     </message>
     <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
-        <translation>Quando il disco risponde, riavviare Carpus: conclude la registrazione.</translation>
+        <translation type="vanished">Quando il disco risponde, riavviare Carpus: conclude la registrazione.</translation>
     </message>
     <message>
         <source>OpenNI2</source>
@@ -4313,7 +4313,7 @@
     </message>
     <message>
         <source>The disk of {subject} has not answered for {detail}.</source>
-        <translation>Il disco di {subject} non risponde da {detail}.</translation>
+        <translation type="vanished">Il disco di {subject} non risponde da {detail}.</translation>
     </message>
     <message>
         <source>The driver of the camera has stopped: {subject} ({detail}).</source>
@@ -4341,11 +4341,11 @@
     </message>
     <message>
         <source>The folder of the recording is gone: {subject} ({detail}).</source>
-        <translation>La cartella della registrazione non c’è più: {subject} ({detail}).</translation>
+        <translation type="vanished">La cartella della registrazione non c’è più: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The folder of the sessions is gone; the recording goes on in {subject} ({detail}).</source>
-        <translation>La cartella delle sedute non c’è più; la registrazione prosegue in {subject} ({detail}).</translation>
+        <translation type="vanished">La cartella delle sedute non c’è più; la registrazione prosegue in {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
@@ -4425,11 +4425,11 @@
     </message>
     <message>
         <source>The recording could not be ended: the disk of {subject} does not answer.</source>
-        <translation>La registrazione non si è potuta concludere: il disco di {subject} non risponde.</translation>
+        <translation type="vanished">La registrazione non si è potuta concludere: il disco di {subject} non risponde.</translation>
     </message>
     <message>
         <source>The recording goes on; what came since waits in memory.</source>
-        <translation>La registrazione prosegue; ciò che è arrivato da allora attende in memoria.</translation>
+        <translation type="vanished">La registrazione prosegue; ciò che è arrivato da allora attende in memoria.</translation>
     </message>
     <message>
         <source>The recording has no usable depth: {subject} ({detail}).</source>
@@ -4629,7 +4629,7 @@
     </message>
     <message>
         <source>What was stored before it went is there when it comes back.</source>
-        <translation>Ciò che era stato salvato prima si ritrova quando la cartella torna.</translation>
+        <translation type="vanished">Ciò che era stato salvato prima si ritrova quando la cartella torna.</translation>
     </message>
     <message>
         <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
@@ -4829,7 +4829,7 @@
     </message>
     <message>
         <source>damaged: {what}</source>
-        <translation>danneggiato: {what}</translation>
+        <translation type="vanished">danneggiato: {what}</translation>
     </message>
     <message>
         <source>damaged: {what} is beyond all measure</source>
@@ -5337,7 +5337,7 @@
     </message>
     <message>
         <source>the first {stored} rows stay in {lost_folder}</source>
-        <translation>le prime {stored} righe restano in {lost_folder}</translation>
+        <translation type="vanished">le prime {stored} righe restano in {lost_folder}</translation>
     </message>
     <message>
         <source>the focal length is known to {share} % only</source>
@@ -5609,7 +5609,7 @@
     </message>
     <message>
         <source>{place} is packed, which a session is not</source>
-        <translation>{place} è compresso, cosa che una seduta non è</translation>
+        <translation type="vanished">{place} è compresso, cosa che una seduta non è</translation>
     </message>
     <message>
         <source>{place} keeps its values in another file</source>
@@ -6678,6 +6678,46 @@
     <message>
         <source>another filter than Carpus’ own tracked it</source>
         <translation>è stata tracciata con un filtro diverso da quello di Carpus</translation>
+    </message>
+    <message>
+        <source>Record this exercise again.</source>
+        <translation>Registri di nuovo questo esercizio.</translation>
+    </message>
+    <message>
+        <source>A recording ended before its first second was stored: {subject}. There is nothing to recover.</source>
+        <translation>Una registrazione è terminata prima che il suo primo secondo fosse salvato: {subject}. Non c&apos;è nulla da recuperare.</translation>
+    </message>
+    <message>
+        <source>A session that waited on this computer is in the folder of the sessions now: {subject}.</source>
+        <translation>Una seduta che attendeva su questo computer è ora nella cartella delle sedute: {subject}.</translation>
+    </message>
+    <message>
+        <source>Everything that was recorded before is safe.</source>
+        <translation>Tutto ciò che è stato registrato prima è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Go on. Connect the disk or the network again; Carpus then moves the session by itself.</source>
+        <translation>Continui. Ricolleghi il disco o la rete; Carpus sposterà poi la seduta automaticamente.</translation>
+    </message>
+    <message>
+        <source>no answer for {seconds} s</source>
+        <translation>nessuna risposta da {seconds} s</translation>
+    </message>
+    <message>
+        <source>not a recording journal</source>
+        <translation>non è un giornale di registrazione</translation>
+    </message>
+    <message>
+        <source>{place} is packed in a way that a session is not</source>
+        <translation>{place} è compresso in un modo che una seduta non usa</translation>
+    </message>
+    <message>
+        <source>what was written is not what is read</source>
+        <translation>ciò che è stato scritto non è ciò che viene letto</translation>
+    </message>
+    <message>
+        <source>The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.</source>
+        <translation>La cartella delle sedute non è raggiungibile ({detail}); la seduta è conservata in {subject}.</translation>
     </message>
 </context>
 <context>

@@ -25,20 +25,21 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import opened as opened_store
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+from tests.session.test_golden import unpacked
 
 
 def stored(path: Path, subject: str = "Linden 42", *, finished: bool = True) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
+    if not finished:
+        part = unpacked("v2-wrist6.h5.0123abcd.part", path.parent)
+        os.utime(part, (0, 0))
+        return part.rename(part.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.part"))
     header = make_header(session_id=uuid.uuid4(), subject=subject)
     writer = SessionWriter.create(path, header, CAMERA, make_calibration())
     for row in range(12):
         writer.append(make_frame(row))
-    writer.flush()
-    if finished:
-        writer.close()
-        return path
-    writer.abandon()
-    return writer.part_path
+    writer.close()
+    return path
 
 
 def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
@@ -68,6 +69,7 @@ def test_bad_files_do_not_keep_the_program_from_starting(tmp_path: Path, monkeyp
         bad[path] = change
         with h5py.File(path, "r+") as file:
             BAD[change](file)
+        os.utime(path, (0, 0))
     patients, faults = started(tmp_path)
     assert "Heron 17" in patients
     assert all(isinstance(fault, SessionUnreadable) for fault in faults)
@@ -138,11 +140,13 @@ def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
 def test_a_part_without_a_header_is_told_once(tmp_path: Path) -> None:
     part = stored(tmp_path / "sessions" / "s.h5", finished=False)
     part.write_bytes(b"\x89HDF" + bytes(3000))
+    os.utime(part, (0, 0))
     patients, faults = started(tmp_path)
     assert (patients, len(faults)) == ([], 1)
     assert started(tmp_path)[1] == []
     reserved = part.with_name("t.h5.01234567.part")
     reserved.write_bytes(bytes(600_000))  # ended before its first byte
+    os.utime(reserved, (0, 0))
     assert started(tmp_path)[1] == []
     assert part.exists()
     assert reserved.exists()

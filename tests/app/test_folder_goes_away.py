@@ -1,95 +1,119 @@
-"""The data folder goes away while a session is recorded: it goes on elsewhere, says so, and comes home."""
+"""The data folder goes away while a session is recorded: it waits on this computer, says so, and comes home."""
 
 from __future__ import annotations
 
-import shutil
-import time
+import threading
+from collections.abc import Iterator
 from contextlib import closing
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
+import pytest
 
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.files.raw import LOOK_EVERY_S, RawRecording, RawWriter
-from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, RecordingReturned, ShareEmpty, WaitingErased
-from carpus.core.pipeline.live import LiveSession
+from carpus.core.errors import (
+    CarpusFault,
+    DiskFull,
+    FolderMissing,
+    NothingRecorded,
+    RecordingReturned,
+    RecordingWaits,
+    ShareEmpty,
+    WaitingErased,
+)
+from carpus.core.records import new_sessions
 from carpus.core.records.erasure import erase, plan_patient
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import NewSessions, fallback_place, recover
+from carpus.core.records.new_sessions import NewSessions, recover
+from carpus.core.records.recordings import recordings_folder
 from carpus.core.records.values import PatientEntry
-from carpus.core.session.writer import Fallback, SessionWriter
-from carpus.core.types import Frame
 from tests.app.test_library import set_up
-from tests.pipeline.live_fakes import HeldSource
 from tests.records.samples import record
-from tests.session.samples import CAMERA, CREATED, make_calibration, make_frame, make_header
-
-INFO = SourceInfo("x", replace(DEFAULT_CAMERA, width_px=64, height_px=48), False, None, 30.0, {})
+from tests.session.samples import CREATED, stored_journal
 
 
-def picture(row: int) -> Frame:
-    return Frame(row, row / 30.0, np.full((48, 64, 3), row, np.uint8), None, 1e-3)
+def recorded(library: Library, patient_id: str, pseudonym: str = "Linden 42") -> Path:
+    """A session that has just been recorded, and has not been entered."""
+    return record(NewSessions(library).new_path(set_up(patient_id, pseudonym)), pseudonym, CREATED, "left")
 
 
-def test_raw_pictures_go_on_too(tmp_path: Path) -> None:
-    home, other = tmp_path / "home", tmp_path / "other"
-    home.mkdir()
-    other.mkdir()
-    now_s = 0.0
-    writer = RawWriter(home / "s.carpusraw", INFO, lossless=True, fallback=lambda: other, clock=lambda: now_s)
-    for row in range(5):
-        writer.append_frame(picture(row))
-    shutil.rmtree(home)
-    for row in range(5, 12):
-        now_s += 2 * LOOK_EVERY_S
-        writer.append_frame(picture(row))
-    writer.close()
-    assert writer.path == other / "s.carpusraw"
-    recording = RawRecording(writer.path)
-    assert [int(frame.color_rgb[0, 0, 0]) for frame in recording.frames()] == list(range(12))
-    assert recording.complete
+@pytest.fixture
+def library(tmp_path: Path) -> Iterator[Library]:
+    with closing(Library(tmp_path / "data")) as opened:
+        yield opened
 
 
-def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -> None:
-    """From the live session's own events to the next start of the program."""
-    data = tmp_path / "data"
-    library = Library(data)
+def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, library: Library) -> None:
     key = library.patients.add(PatientEntry("Linden 42", "left"))
-    path = library.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
-    source = HeldSource()
-    source.let(10_000)
-    with LiveSession(source) as live:
-        fallback = Fallback(lambda: NewSessions(library).fallback_folder(key), live.notice)
-        writer = SessionWriter.create(path, make_header(), CAMERA, make_calibration(), fallback=fallback)
-        for row in range(20):
-            writer.append(make_frame(row))
-        gone_s = time.monotonic()
-        data.rename(tmp_path / "unplugged")
-        row, told = 20, []
-        while not told:
-            assert time.monotonic() - gone_s < 60.0
-            writer.append(make_frame(row))
-            row += 1
-            time.sleep(0.01)
-            told = [event.cause for event in live.drain_events() if isinstance(event.cause, RecordingMoved)]
-        writer.close()
-    assert writer.path.parent == fallback_place(data) / key
-    assert writer.path.parent.stat().st_mode & 0o777 == 0o700
-    session_id = NewSessions(library).entered(set_up(key, "Linden 42"), writer.path)
-    assert len(library.session(session_id)) == row  # it can be reviewed although the register is gone
+    told: list[CarpusFault] = []
+    library.log_fault = told.append
+    path = recorded(library, key)
+    assert path.parent == recordings_folder(tmp_path / "data") / key
+    assert path.parent.stat().st_mode & 0o777 == 0o700
+    (tmp_path / "data").rename(tmp_path / "unplugged")
+    session_id = NewSessions(library).entered(set_up(key, "Linden 42"), path)
+    assert [type(fault) for fault in told] == [RecordingWaits]
+    assert not (tmp_path / "data").exists(), "what is made in the place of a disk would hide under it"
+    assert len(library.session(session_id)) > 0  # it can be reviewed although the register is gone
     library.close()
+    (tmp_path / "unplugged").rename(tmp_path / "data")
+    with closing(Library(tmp_path / "data")) as again:
+        assert [type(fault) for fault in recover(again)[1]] == [RecordingReturned]
+        (entry,) = again.sessions(key)
+        assert again.session(entry.session_id).header.session_id == session_id
+        assert list(recordings_folder(tmp_path / "data").iterdir()) == []
 
-    (tmp_path / "unplugged").rename(data)  # the disk is back, with what was flushed before
-    library = Library(data)
-    _, faults = recover(library)
-    assert [type(fault) for fault in faults] == [RecordingReturned]
-    (entry,) = library.sessions(key)
-    assert entry.frames == row
-    assert library.session(entry.session_id).header.session_id == session_id
-    assert list(fallback_place(data).iterdir()) == []
-    library.close()
+
+def test_share_that_hangs_is_not_waited_for(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
+    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    told: list[CarpusFault] = []
+    library.log_fault = told.append
+    monkeypatch.setattr(new_sessions, "PUBLISHED_WITHIN_S", 0.1)
+    answers, copy = threading.Event(), new_sessions.copy_session
+
+    def hang(path: Path, folder: Path) -> Path:
+        answers.wait(20.0)
+        return copy(path, folder)
+
+    monkeypatch.setattr(new_sessions, "copy_session", hang)
+    path = recorded(library, key)
+    session_id = NewSessions(library).entered(set_up(key, "Linden 42"), path)
+    assert [type(fault) for fault in told] == [RecordingWaits]
+    assert len(library.session(session_id)) > 0
+    answers.set()
+    for thread in threading.enumerate():
+        if thread.name == "publishing":
+            thread.join()
+    assert [type(fault) for fault in recover(library)[1]] == [RecordingReturned]
+    assert [entry.session_id for entry in library.sessions(key)] == [session_id]
+    assert not path.exists()
+
+
+def test_full_data_folder_keeps_the_session_here_until_there_is_room(
+    library: Library, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(_: Path, folder: Path) -> Path:
+        raise DiskFull(folder)
+
+    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    told: list[CarpusFault] = []
+    library.log_fault = told.append
+    with monkeypatch.context() as patched:
+        patched.setattr(new_sessions, "copy_session", full)
+        NewSessions(library).entered(set_up(key, "Linden 42"), recorded(library, key))
+    assert [type(fault) for fault in told] == [RecordingWaits]
+    NewSessions(library).cut_short()  # as when the list of patients is shown
+    assert len(library.sessions(key)) == 1
+
+
+def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(library: Library) -> None:
+    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    path = NewSessions(library).new_path(set_up(key, "Linden 42"))
+    stored_journal(path.with_suffix(".journal"), 40)
+    stored_journal(path.with_name("first second.journal"), 0)
+    found, faults = recover(library)
+    assert [(one.patient_id, round(one.kept_s, 1)) for one in found] == [(key, 1.3)]
+    assert [type(fault) for fault in faults] == [NothingRecorded]
+    assert [entry.session_id for entry in library.sessions(key)] == [found[0].session_id]
+    assert recover(library) == ([], [])
 
 
 def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: Path) -> None:
@@ -100,11 +124,9 @@ def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: P
         told: list[CarpusFault] = []
         library.log_fault = told.append
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
-        choice = set_up(linden, "Linden 42")
-        path = record(NewSessions(library).new_path(choice), "Linden 42", CREATED, "left")
-        assert path.parent == fallback_place(data) / linden
-        assert [type(fault) for fault in told] == [RecordingMoved]
-        NewSessions(library).entered(choice, path)
+        path = recorded(library, linden)
+        NewSessions(library).entered(set_up(linden, "Linden 42"), path)
+        assert [type(fault) for fault in told] == [RecordingWaits]
         recover(library)
         assert path.exists()
         assert not share.exists()
@@ -122,7 +144,7 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
     with closing(Library(tmp_path / "data", sessions=share)) as library:
         assert share.stat().st_mode & 0o777 == 0o770
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
-        NewSessions(library).new_path(set_up(linden, "Linden 42"))
+        NewSessions(library).entered(set_up(linden, "Linden 42"), recorded(library, linden))
     assert share.stat().st_mode & 0o777 == 0o770
     assert (share / linden).stat().st_mode & 0o777 == 0o700
 
@@ -131,11 +153,12 @@ def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back
     data, share = tmp_path / "data", tmp_path / "share"
     with closing(Library(data, sessions=share)) as library:
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
-        path = record(NewSessions(library).new_path(set_up(linden, "Linden 42")), "Linden 42", CREATED, "left")
+        path = recorded(library, linden)
         path.with_name("damaged.h5").write_bytes(b"of a kill")
         path.with_name("pictures.carpusraw").write_bytes(b"without a session")
+        stored_journal(path.with_name("killed.journal"), 3)
         heron = library.patients.add(PatientEntry("Heron 17", "left"))
-        record(NewSessions(library).new_path(set_up(heron, "Heron 17")), "Heron 17", CREATED, "left")
+        recorded(library, heron, "Heron 17")
         library.patients.change(heron, PatientEntry("Heron 18", "left"))
         erase(library.store, plan_patient(library.store, linden), library.log)
         share.mkdir()
@@ -152,17 +175,14 @@ def test_the_empty_place_of_a_share_is_not_taken_for_the_share(tmp_path: Path) -
     with closing(Library(data, sessions=share)) as library:
         assert recover(library) == ([], []), "a new one is empty"
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
-        choice = set_up(linden, "Linden 42")
-        places = NewSessions(library)
-        places.entered(choice, record(places.new_path(choice), "Linden 42", CREATED, "left"))
+        choice, places = set_up(linden, "Linden 42"), NewSessions(library)
+        places.entered(choice, recorded(library, linden))
         share.rename(tmp_path / "unplugged")
         share.mkdir()
         assert [type(fault) for fault in recover(library)[1]] == [ShareEmpty]
-        path = record(places.new_path(choice), "Linden 42", CREATED, "left")
-        assert path.is_relative_to(fallback_place(data)), "under the share it would be hidden"
-        places.entered(choice, path)
-        assert list(share.iterdir()) == []
+        places.entered(choice, recorded(library, linden))
+        assert list(share.iterdir()) == [], "under the share it would be hidden"
         share.rmdir()
         (tmp_path / "unplugged").rename(share)
-        assert [type(fault) for fault in recover(library)[1]] == [RecordingMoved, RecordingReturned]
+        assert [type(fault) for fault in recover(library)[1]] == [RecordingWaits, RecordingReturned]
         assert len(library.sessions(linden)) == 2

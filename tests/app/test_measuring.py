@@ -19,7 +19,7 @@ from carpus.core.pipeline import looking_back
 from carpus.core.pipeline.correction import correct, task_of
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import PIECE_S, LookingBack, TrackedHand
-from carpus.core.pipeline.measuring import LivePipeline, SmoothedSession
+from carpus.core.pipeline.measuring import LivePipeline, RecordedSession
 from carpus.core.pipeline.track import (
     NOT_LOOKED_BACK,
     FramePipeline,
@@ -28,9 +28,9 @@ from carpus.core.pipeline.track import (
     parameters_json,
     retrack_session,
 )
+from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session, new_header
-from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.smoother_record import KeptSteps
 from carpus.core.tracking.tracker import Tracker
@@ -78,8 +78,8 @@ def live_pipeline() -> LivePipeline:
     return LivePipeline(FramePipeline(Blobs(), tracker, SamplingSettings()), neutral_ends_s=10.0)  # type: ignore[arg-type]
 
 
-def open_session(path: Path, looker: LookingBack | None) -> SmoothedSession:
-    return SmoothedSession(SessionWriter.create(path, make_header(), CAMERA, calibration()), looker)
+def open_session(path: Path, looker: LookingBack | None) -> RecordedSession:
+    return RecordedSession(RecordingJournal(path.with_suffix(".journal"), make_header(), CAMERA, calibration()), looker)
 
 
 def begin_looking_back(piece_s: float = PIECE_S) -> LookingBack:
@@ -189,7 +189,9 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
         live.begin_tracking(pipeline)
         for count in range(1, 91):
             if count == begun_at:
-                live.start_recording(lambda: SessionWriter.create(path, header, CAMERA, wrong))
+                live.start_recording(
+                    lambda: RecordedSession(RecordingJournal(path.with_suffix(".journal"), header, CAMERA, wrong), None)
+                )
             if count == said_at:
                 view = live.newest()
                 assert not np.isfinite(view.tracked.marker_measured_px[MCP3]).any()

@@ -23,7 +23,7 @@ from carpus.core.session.writer import SessionWriter
 from carpus.ui.controls.text import plain_tooltip
 from tests.commands import Command
 from tests.formats.takes import stored
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, stored_journal
 
 ROOT = Path(__file__).parents[2]
 
@@ -35,9 +35,11 @@ def mode(path: Path) -> int:
 def test_sessions_and_raw_pictures_are_for_their_owner(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     with SessionWriter.create(path, make_header(session_id=uuid.uuid4()), CAMERA, make_calibration()) as writer:
-        assert mode(writer.part_path) == 0o600
+        (hidden,) = tmp_path.iterdir()
+        assert mode(hidden) == 0o600
         writer.append(make_frame(0))
     assert mode(path) == 0o600
+    assert mode(stored_journal(tmp_path / "s.journal", 0)) == 0o600
     with RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", Camera(500, 500, 320, 240), True, None, 30.0, {})):
         assert mode(tmp_path / "s.carpusraw") == 0o600
 

@@ -7,13 +7,11 @@ import signal
 import time
 
 from carpus.app.batch.work import Outcome, Task, fault_of
-from carpus.core.session.disk import part_path
-from carpus.core.session.recovery import Heartbeat
 
 
 def deadly(task: Task) -> Outcome:
     """``dies`` always kills its process, ``once`` the first time; ``waits`` until it is told to stop; ``hangs`` deaf to
-    that, with a half session and its heartbeat beside it; ``stutters`` succeeds the second time, ``refuses`` never."""
+    that; ``stutters`` succeeds the second time, ``refuses`` never."""
     mark = task.place.session
     if task.subject_id == "dies" or (task.subject_id == "once" and not mark.exists()):
         mark.touch()
@@ -28,9 +26,6 @@ def deadly(task: Task) -> Outcome:
             raise
     if task.subject_id == "hangs":
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        part = part_path(mark, "0123abcd")
-        part.write_bytes(b"half")
-        Heartbeat(part)
         time.sleep(60.0)
     if task.subject_id in ("stutters", "refuses"):
         tries = mark.with_suffix(".tries")

@@ -123,7 +123,7 @@ def test_a_client_that_is_killed_begins_again(made_in_python: str, recordings: P
     words += ["--scheduler", made_in_python]
     client = subprocess.Popen([sys.executable, "-m", "carpus", *words], stderr=subprocess.DEVNULL)
     until = time.monotonic() + 120.0
-    while not list(out.glob("*.part")) and time.monotonic() < until:
+    while not list(out.glob(".*.tmp")) and time.monotonic() < until:
         time.sleep(0.01)
     client.kill()
     client.wait()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import multiprocessing
-import threading
 import time
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -11,14 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.batch import processes, work
+from carpus.app.batch import work
 from carpus.app.batch.processes import DIED, cores, outcomes
 from carpus.app.batch.work import Task
 from carpus.app.sources import TrackingInput
-from carpus.core.errors import OutputBusy, OutputExists
+from carpus.core.errors import OutputExists
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.session.disk import part_path
-from carpus.core.session.recovery import Heartbeat
 from tests.batch.deadly import deadly
 from tests.records.samples import record
 
@@ -38,25 +35,9 @@ def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
     assert found["r1.h5"].said == (DIED,)
 
 
-def test_what_hangs_is_given_up_and_tidied(tmp_path: Path) -> None:
+def test_what_hangs_is_given_up(tmp_path: Path) -> None:
     (outcome,) = outcomes([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
     assert "0.1 minutes" in outcome.said[0]
-    assert not list(tmp_path.iterdir()), "half session and heartbeat are gone"
-
-
-def test_what_somebody_is_still_writing_is_the_fault_of_its_recording(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def busy(session: Path) -> None:
-        raise OutputBusy(session)
-
-    monkeypatch.setattr(processes, "clear_leftovers", busy)
-    monkeypatch.setattr(processes._Child, "ask", lambda *_: None)
-    children = processes.Children()
-    outcome = children.outcome(task(tmp_path, "r0"), 60.0, deadly)
-    children.end()
-    assert (outcome.result, outcome.may_pass) == ("fault", True)
-    assert "r0.h5" in outcome.said[0]
 
 
 def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
@@ -64,27 +45,6 @@ def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
     found = {outcome.place.name: outcome.result for outcome in outcomes(tasks, 2, deadly)}
     assert found == {"r0.h5": "tracked", "r1.h5": "fault"}
     assert [(tmp_path / f"r{k}.tries").read_text() for k in (0, 1)] == ["xx", "x"]
-
-
-def test_what_another_run_is_writing_is_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(work, "BUSY_STEP_S", 0.01)
-    session = tmp_path / "r0.h5"
-    part = part_path(session, "0123abcd")
-    part.write_bytes(b"half")
-    heart = Heartbeat(part)  # of this process, which lives
-    other = part_path(tmp_path / "r01.h5", "0123abcd")
-    other.write_bytes(b"half")
-    monkeypatch.setattr(work, "BUSY_S", 0.1)
-    with pytest.raises(OutputBusy):
-        work.clear_leftovers(session)
-    assert part.exists()
-    monkeypatch.setattr(work, "BUSY_S", 60.0)
-    threading.Timer(0.3, heart.end).start()
-    work.clear_leftovers(session)
-    assert [path.name for path in tmp_path.iterdir()] == [other.name], "only its own"
-    heart.path.write_text("{}")  # a heartbeat alone, of a process that was killed as it ended
-    work.clear_leftovers(session)
-    assert [path.name for path in tmp_path.iterdir()] == [other.name]
 
 
 def test_what_another_run_finished_meanwhile_was_done_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

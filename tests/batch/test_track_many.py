@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import os
 import shutil
 from dataclasses import fields
 from pathlib import Path
@@ -75,8 +76,9 @@ def test_faults_are_gathered_and_what_is_done_is_left(made: Path, tmp_path: Path
 
     # Mended, and begun again with something that a killed process left: only what is missing is tracked.
     shutil.copy(recordings / "second" / CLICKS_FILE, recordings / "third" / CLICKS_FILE)
-    left = out / "third.h5.0123abcd.part"
+    left = out / ".third.h5.0123abcd.tmp"
     left.write_bytes(b"half")
+    os.utime(left, (0, 0))
     before = {path: path.stat().st_mtime_ns for path in out.rglob("*.h5")}
     assert command(*words, table).code == 0
     assert {path: path.stat().st_mtime_ns for path in before} == before

@@ -18,7 +18,6 @@ from carpus.core.formats.formats import FORMATS, Wanted
 from carpus.core.formats.provenance import Deidentification, move_pixels
 from carpus.core.hand.protocols import HAND21
 from carpus.core.results.figures import session_figures
-from carpus.core.session.disk import part_path
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.writer import SessionWriter
 from tests.formats.takes import stored
@@ -46,18 +45,6 @@ def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bo
     for one, other in zip((*mine.rows, *mine.joint_rows), (*theirs.rows, *theirs.joint_rows), strict=True):
         assert (one.key, one.count) == (other.key, other.count)
         assert np.allclose(one.mean_deg, other.mean_deg, atol=1e-4, equal_nan=True)
-
-
-def test_what_a_killed_export_left_of_a_copy_does_not_stop_the_next_but_one_that_runs_does(tmp_path: Path) -> None:
-    path, out = stored(tmp_path), tmp_path / "out"
-    out.mkdir()
-    header = read_session(path).header
-    writer = begun(out / path.name, header)
-    assert export_sessions([Wanted.stored(path)], out, ["h5"]).refused
-    writer.abandon()
-    part_path(out / path.name, header.session_id).with_suffix(".part.alive").write_text("{}")
-    assert not export_sessions([Wanted.stored(path)], out, ["h5"]).refused
-    assert [file.name for file in out.iterdir()] == [path.name]
 
 
 def test_each_session_of_an_export_to_a_disk_that_can_only_be_read_is_told(

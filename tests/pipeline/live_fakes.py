@@ -149,7 +149,7 @@ class FakeSession:
     def add_event(self, time_s: float, kind: str, text: str) -> None:
         self.events.append((time_s, kind, text))
 
-    def flush(self) -> None:
+    def prepare(self) -> None:
         self.flushed = len(self.rows)
 
     def close(self) -> None:

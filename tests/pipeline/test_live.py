@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from carpus.core.errors import CameraLost, CameraReturned, DiskTooSlow, OutputExists, PictureDamaged
-from carpus.core.pipeline import recording
+from carpus.core.pipeline import backlog
+from carpus.core.pipeline.backlog import PREVIEW_WAITING
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
-from carpus.core.pipeline.recording import PREVIEW_WAITING
 from carpus.core.types import Frame, TrackedFrame
 from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, frame, held_by, tracked, wait_until
 
@@ -108,7 +108,7 @@ def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_store
 
 
 def test_a_computer_with_little_memory_lets_fewer_pictures_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(recording, "free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
+    monkeypatch.setattr(backlog, "free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
     source, gate = HeldSource(), Gate()
 
     with LiveSession(source) as live:

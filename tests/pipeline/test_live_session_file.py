@@ -1,4 +1,4 @@
-"""The live session with the real session file, read back by plain h5py."""
+"""The live session with the real journal and session file, read back by plain h5py."""
 
 from __future__ import annotations
 
@@ -10,17 +10,18 @@ import pytest
 
 from carpus.core.errors import OutputExists
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.session.writer import SessionWriter
+from carpus.core.pipeline.measuring import RecordedSession
+from carpus.core.session.journal import RecordingJournal
 from tests.pipeline.live_fakes import HeldSource, tracked, wait_until
 from tests.session.samples import CAMERA, make_calibration, make_header
 
 
-def begin(path: Path) -> SessionWriter:
-    return SessionWriter.create(path, make_header(), CAMERA, make_calibration())
+def begin(path: Path) -> RecordedSession:
+    return RecordedSession(RecordingJournal(path, make_header(), CAMERA, make_calibration()), None)
 
 
-def test_a_live_recording_is_a_whole_session_file(tmp_path: Path) -> None:
-    source, path = HeldSource(dropped_before=1), tmp_path / "session.h5"
+def test_live_recording_becomes_a_whole_session_file(tmp_path: Path) -> None:
+    source, path = HeldSource(dropped_before=1), tmp_path / "session.journal"
     with LiveSession(source) as live:
         live.begin_tracking(tracked)
         live.start_recording(lambda: begin(path))
@@ -28,9 +29,9 @@ def test_a_live_recording_is_a_whole_session_file(tmp_path: Path) -> None:
             source.let(1)
             wait_until(lambda count=count: live.counters().tracked == count)
         live.add_event("note", "elbow lifted")
-        assert live.stop_recording() == path
+        assert live.stop_recording() == tmp_path / "session.h5"
         assert live.drain_events() == []
-    with h5py.File(path) as file:
+    with h5py.File(tmp_path / "session.h5") as file:
         assert file.attrs["complete"]
         np.testing.assert_allclose(file["frames/timestamp"][:], 100.0 + np.arange(40) / 30.0)
         assert (file["quality/dropped_frames"][:] == 1).all()
@@ -39,10 +40,10 @@ def test_a_live_recording_is_a_whole_session_file(tmp_path: Path) -> None:
     assert [entry.name for entry in tmp_path.iterdir()] == ["session.h5"]
 
 
-def test_a_file_that_is_there_is_kept(tmp_path: Path) -> None:
-    path = tmp_path / "session.h5"
+def test_journal_that_is_there_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "session.journal"
     path.write_bytes(b"mine")
     with LiveSession(HeldSource()) as live, pytest.raises(OutputExists):
         live.start_recording(lambda: begin(path))
     assert path.read_bytes() == b"mine"
-    assert [entry.name for entry in tmp_path.iterdir()] == ["session.h5"]
+    assert [entry.name for entry in tmp_path.iterdir()] == ["session.journal"]

@@ -15,15 +15,17 @@ or angles has `names` for it. This page is made from `core/session/schema.py`.
 
 Axes: {{axes}}.
 
-While a session runs it is `NAME.xxxxxxxx.part` beside its place, with `complete` false. Frame by frame the time is \
-written last: a row with a time has all the rest. `carpus recover FOLDER` finishes what was cut short; the attribute \
-`{schema.RECOVERED}` then says when.
+While a session runs, what is measured goes to a recording journal on the computer's own disk \
+(`core/session/journal.py`), synchronised twice a second. The file is made from it at the end, under a hidden name \
+(`.NAME.h5.xxxxxxxx.tmp`), read back, sealed and renamed. `carpus recover FOLDER` does the same for what was cut short; the attribute \
+`{schema.RECOVERED}` then says when. It also finishes the part files (`NAME.h5.xxxxxxxx.part`) of Carpus 0.2.0.
 
+Datasets that have a row for each frame, blob or event are packed (gzip and shuffle, which any HDF5 library unpacks). \
 Every chunk has a Fletcher32 check sum, which any HDF5 library checks when it reads. A finished session has the \
 attribute `{ATTRIBUTE}`: SHA-256 over all datasets, attributes and names but itself; \
 `carpus verify FILE` compares it. It has no key: it shows changes by accident, not who made them. Only \
 hard links and plain chunked or contiguous storage inside the file \
-are read, unpacked.
+are read, packed by nothing else.
 """
 
 
@@ -46,7 +48,8 @@ def format_page() -> str:
     )
     parts.append(
         f"`/repetitions` has the attributes `{schema.REPETITION_ANGLE}`, the angle that was trained (empty: none), "
-        "`column_units` and `column_descriptions`. A recovered session is without. What a person leaves out or moves "
+        "`column_units` and `column_descriptions`. A session that Carpus 0.2.0 recovered is without. "
+        "What a person leaves out or moves "
         "later is not in the file.\n"
         "A longer text than fits goes on in the next rows of `/events`, which have the same time and kind.\n"
         "`/smoothed/wrist` and `/smoothed/joints` hold what `/wrist` and `/joints` hold, by the smoother; "

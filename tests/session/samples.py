@@ -14,6 +14,7 @@ import numpy as np
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.values import RawPictures, SessionHeader, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import Detections, Moment, TrackedFrame, TrackStatus
@@ -139,11 +140,26 @@ def begun(
     calibration: Calibration | None = None,
     **options: Any,
 ) -> SessionWriter:
-    """A session in the making with so many rows, each with its ``pictures`` where these are kept; its clock stands
-    still unless the ``options`` of :meth:`SessionWriter.create` say otherwise."""
+    """A session in the making with so many rows, each with its ``pictures`` where these are kept."""
     header = header or make_header()
-    options = {"clock": lambda: 0.0, "raw_depth_unit_m": None if pictures is None else 1e-3} | options
+    options = {"raw_depth_unit_m": None if pictures is None else 1e-3} | options
     session = SessionWriter.create(path, header, camera, calibration or make_calibration(header.protocol), **options)
     for row in range(rows):
         session.append(make_frame(row, header.protocol), None if pictures is None else pictures(row))
     return session
+
+
+def stored_journal(path: Path, rows: int) -> Path:
+    """A journal that nobody adds to any more."""
+    journal_of(path, rows).close()
+    return path
+
+
+def journal_of(path: Path, rows: int = 0, protocol: MarkerProtocol = WRIST6, **options: Any) -> RecordingJournal:
+    """A journal with so many rows that are stored; its clock stands still."""
+    header = make_header(protocol, session_id=uuid.uuid4())
+    journal = RecordingJournal(path, header, CAMERA, make_calibration(protocol), **{"clock": lambda: 0.0} | options)
+    for row in range(rows):
+        journal.append(make_frame(row, protocol))
+    journal.flush()
+    return journal

@@ -77,9 +77,11 @@ ELSE: dict[str, tuple[Callable[[h5py.File, Path], object], str]] = {
     "a pipe": (lambda file, folder: outside(file, folder, "pipe"), "in another file"),
     "a virtual dataset": (virtual, "in another file"),
     "one dataset under two names": (of(lambda file, _: file["/wrist/position"]), "two names"),
-    # It could unpack itself into memory.
-    "a packed one": (
-        lambda file, _: file.create_dataset(ANGLES, data=np.zeros((ROWS, 3)), compression="gzip"), "is packed",
+    "one packed by what no session is packed by": (
+        lambda file, _: file.create_dataset(ANGLES, data=np.zeros((ROWS, 3)), compression="lzf"), "is packed",
+    ),
+    "one that claims more than gzip can pack": (
+        lambda file, _: file.create_dataset(ANGLES, (1 << 30, 3), "f8", chunks=(1024, 3), compression="gzip"), "claims",
     ),
     "a group": (lambda file, _: file.create_group(ANGLES), ANGLES),
     "one number": (of(lambda *_: 1.0), ANGLES),

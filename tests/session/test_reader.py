@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -125,24 +123,6 @@ def test_anything_else_is_one_typed_fault(tmp_path: Path, case: str) -> None:
     assert caught.value.subject == str(path)
     assert fact in caught.value.detail
     assert "\n" not in caught.value.detail
-
-
-def test_a_session_still_being_written_says_so(tmp_path: Path) -> None:
-    session = begun(tmp_path / "s.h5")
-    program = """if True:
-        import sys
-        from pathlib import Path
-        from carpus.core.errors import SessionUnreadable
-        from carpus.core.session.reader import read_session
-        try:
-            read_session(Path(sys.argv[1]))
-        except SessionUnreadable as fault:
-            print(fault.detail)
-    """
-    command = [sys.executable, "-c", program, str(session.part_path)]
-    elsewhere = subprocess.run(command, cwd=Path(__file__).parents[2], capture_output=True, text=True, check=True)
-    assert elsewhere.stdout.strip() == "still being recorded"
-    session.discard()
 
 
 def test_a_file_with_only_what_the_contract_asks_is_read(tmp_path: Path) -> None:

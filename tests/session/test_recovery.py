@@ -1,12 +1,11 @@
-"""Recovery finishes what was cut short and leaves alone what it cannot."""
+"""Interrupted recordings are finished from their journals, and part files of Carpus 0.2.0 still are."""
 
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
-import uuid
+from dataclasses import fields
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -15,171 +14,195 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import RecordingMissing, SessionUnreadable
-from carpus.core.session.disk import part_path, target_of_part
-from carpus.core.session.reader import read_detections, read_raw, read_session
-from carpus.core.session.recovery import Recovery, interrupted_sessions, recover_folder
-from carpus.core.session.values import RawPictures, motion_of
-from tests.session.samples import begun, make_frame, make_header, time_of
+from carpus.core.records.recordings import Recovery, SessionDraft, publish_session, recover_recordings, write_session
+from carpus.core.session.reader import read_detections, read_session, verify
+from carpus.core.session.values import Motion, motion_of
+from tests.session.samples import journal_of, make_frame, time_of
+from tests.session.test_golden import unpacked
 
 ROOT = Path(__file__).parents[2]
 N = 10
 NOW = datetime(2026, 11, 14, 8, 0, tzinfo=UTC)
+PART = "v2-wrist6.h5.0123abcd.part"
 
 
-def interrupt(target: Path, rows: int = N, smoothed: int = 0) -> Path:
-    """A part file as a kill leaves it."""
-    session = begun(target, make_header(session_id=uuid.uuid4()), rows)
+def interrupt(path: Path, rows: int = N, smoothed: int = 0) -> Path:
+    """A journal as a kill leaves it."""
+    journal = journal_of(path, rows)
     if rows:
-        session.add_event(time_of(1), "note", "x")
+        journal.add_event(time_of(1), "note", "x")
     if smoothed:
-        session.add_smoothed(motion_of([make_frame(row) for row in range(smoothed)]))
-    session.abandon()
-    return session.part_path
+        journal.add_smoothed(motion_of([make_frame(row + 100) for row in range(smoothed)]))
+    journal.close()
+    return path
 
 
-def test_an_interrupted_session_is_finished(tmp_path: Path) -> None:
-    folder = tmp_path / "Linden-42"
-    folder.mkdir()
-    interrupt(folder / "s.h5", smoothed=N)
-    recovery = recover_folder(tmp_path, NOW)
-    assert recovery.recovered == (folder / "s.h5",)
-    session = read_session(folder / "s.h5")
+def old_part(folder: Path, name: str = PART) -> Path:
+    """12 rows of wrist6, an event, and 5 rows of the smoother's result, of a killed Carpus 0.2.0."""
+    path = unpacked(PART, folder).rename(folder / name)
+    os.utime(path, (0, 0))
+    return path
+
+
+def test_interrupted_recording_becomes_the_session_that_stop_would_have_made(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    whole = write_session(interrupt(tmp_path / "whole.journal", smoothed=N))
+    interrupt(tmp_path / "a" / "s.journal", smoothed=N)
+    recovery = recover_recordings(tmp_path / "a", NOW)
+    assert recovery == Recovery((tmp_path / "a" / "s.h5",), (), ())
+    assert [path.name for path in (tmp_path / "a").iterdir()] == ["s.h5"]
+    session, other = read_session(tmp_path / "a" / "s.h5"), read_session(whole)
     assert (len(session), session.complete, session.recovered) == (N, True, "2026-11-14T08:00:00+00:00")
-    assert session.smoothed is not None
-    assert recover_folder(tmp_path) == Recovery((), (), ())  # nothing left to do
-    assert [path.name for path in folder.iterdir()] == ["s.h5"]
+    assert session.repetitions == other.repetitions
+    assert [event.text for event in session.events] == ["x"]
+    assert verify(session.path).sealed
+    for field in fields(Motion):
+        expected = getattr(motion_of([make_frame(row + 100) for row in range(N)]), field.name)
+        np.testing.assert_array_equal(getattr(session.smoothed, field.name), expected)
 
 
-def test_a_folder_that_is_not_there_and_files_of_others(tmp_path: Path) -> None:
-    (tmp_path / "download.part").write_text("not ours")
-    assert interrupted_sessions(tmp_path) == []
-    assert target_of_part(tmp_path / "download.part") is None
-    assert recover_folder(tmp_path).recovered == ()
-    with pytest.raises(RecordingMissing):
-        recover_folder(tmp_path / "nowhere")
+def test_draft_that_follows_a_journal_ends_as_one_made_at_once(tmp_path: Path) -> None:
+    journal = journal_of(tmp_path / "s.journal", 1100)
+    draft = SessionDraft(journal.path)
+    draft.read()
+    journal.add_smoothed(motion_of([make_frame(row) for row in range(700)]))
+    for row in range(1100, 1130):
+        journal.append(make_frame(row))
+    journal.add_smoothed(motion_of([make_frame(row) for row in range(700, 1130)]))
+    journal.flush()
+    followed = draft.finish()
+    draft.discard()
+    once = write_session(journal.path.rename(tmp_path / "once.journal"))
+    journal.discard()
+    with h5py.File(followed) as one, h5py.File(once) as other:
+        assert one.attrs["seal"] == other.attrs["seal"]
+        assert one["/smoothed/wrist/angles"].shape[0] == 1130
 
 
-ROWS = ("frames", "wrist", "markers", "quality")
+def test_half_a_smoothed_result_is_left_out_and_broken_records_cost_only_themselves(tmp_path: Path) -> None:
+    path = interrupt(tmp_path / "s.journal", smoothed=N // 2)
+    data = bytearray(path.read_bytes())
+    data[data.rindex(b"/events/kind") + 500] ^= 1
+    path.write_bytes(data)
+    session = read_session(write_session(path))
+    assert (len(session), session.smoothed, session.events) == (N, None, ())
 
 
-def blobs_of(rows: int) -> int:
-    return sum(len(make_frame(row).detections) for row in range(rows))
-
-
-@pytest.mark.parametrize("short", ["/frames/timestamp", "/wrist/angles", "/markers/measured", "/quality/nis"])
-def test_rows_are_cut_to_what_every_dataset_holds(tmp_path: Path, short: str) -> None:
-    part = interrupt(tmp_path / "s.h5")
-    with h5py.File(part, "r+") as file:
-        file[short].resize(N - 3, axis=0)
-    assert len(read_session(part)) == N - 3
-    (target,) = recover_folder(tmp_path).recovered
-    with h5py.File(target, "r") as file:
-        assert {dataset.shape[0] for group in ROWS for dataset in file[group].values()} == {N - 3}
-        assert {table.shape[0] for name, table in file["detections"].items() if name != "count"} == {blobs_of(N - 3)}
-
-
-@pytest.mark.parametrize(("what", "whole"), [("blobs missing", 6), ("rows announced", N)])
-def test_a_frame_whose_blobs_are_missing_or_that_was_only_announced_is_cut_too(
-    tmp_path: Path, what: str, whole: int
-) -> None:
-    assert len(make_frame(6).detections) > 0
-    with h5py.File(interrupt(tmp_path / "s.h5"), "r+") as file:
-        if what == "blobs missing":
-            file["/detections/area"].resize(blobs_of(whole), axis=0)
-        else:
-            for dataset in (*(one for group in ROWS for one in file[group].values()), file["/detections/count"]):
-                dataset.resize(N + 5, axis=0)
-    (target,) = recover_folder(tmp_path).recovered
-    assert len(read_session(target)) == whole
-    assert len(read_detections(target).blobs) == blobs_of(whole)
-
-
-def test_pictures_are_cut_with_their_frames(tmp_path: Path) -> None:
-    session = begun(tmp_path / "s.h5", rows=N, pictures=lambda row: RawPictures(b"c" * (row + 1), b"d"))
-    session.abandon()
-    with h5py.File(session.part_path, "r+") as file:
-        file["/raw/color"].resize(sum(range(1, 8)), axis=0)
-    (target,) = recover_folder(tmp_path).recovered
-    assert len(read_session(target)) == 7
-    assert [len(raw.color) for raw in read_raw(target)] == [1, 2, 3, 4, 5, 6, 7]
-
-
-@pytest.mark.parametrize("half", ["of the frames", "of the tables"])
-def test_half_a_smoothed_result_is_left_out(tmp_path: Path, half: str) -> None:
-    part = interrupt(tmp_path / "s.h5", smoothed=N // 2 if half == "of the frames" else N)
-    if half == "of the tables":
-        with h5py.File(part, "r+") as file:
-            del file["/smoothed/wrist/angles"]
-    (target,) = recover_folder(tmp_path).recovered
-    session = read_session(target)
-    assert (len(session), session.smoothed) == (N, None)
-
-
-def test_an_end_of_file_written_too_early_is_mended(tmp_path: Path) -> None:
-    """HDF5 writes its end-of-file address last; a kill before that must not cost the data behind it."""
-    part = interrupt(tmp_path / "s.h5")
-    with part.open("r+b") as file:
-        file.seek(40)
-        length = int.from_bytes(file.read(8), "little")
-        assert length == part.stat().st_size
-        file.seek(40)
-        file.write((length // 2).to_bytes(8, "little"))
-    (target,) = recover_folder(tmp_path).recovered
-    session = read_session(target)
-    assert len(session) == N
-    np.testing.assert_array_equal(session.motion.position_m, motion_of([make_frame(r) for r in range(N)]).position_m)
-
-
-def test_a_running_session_is_left_alone(tmp_path: Path) -> None:
-    session = begun(tmp_path / "s.h5", rows=1)
-    recovery = recover_folder(tmp_path)
-    assert (recovery.recovered, recovery.busy, recovery.faults) == ((), (session.part_path,), ())
+def test_recording_that_runs_is_left_alone_by_other_programs(tmp_path: Path) -> None:
+    journal = journal_of(tmp_path / "s.journal", 1)
     program = """if True:
         import sys
         from pathlib import Path
-        from carpus.core.session.recovery import recover_folder
-        print(*recover_folder(Path(sys.argv[1])).busy)
+        from carpus.core.records.recordings import recover_recordings
+        print(*recover_recordings(Path(sys.argv[1])).busy)
     """
     command = [sys.executable, "-c", program, str(tmp_path)]
     elsewhere = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    assert elsewhere.stdout.split() == [str(session.part_path)]
-    session.close()
-    assert len(read_session(tmp_path / "s.h5")) == 1
+    assert elsewhere.stdout.split() == [str(journal.path)]
+    assert recover_recordings(tmp_path).busy == (journal.path,)
+    journal.close()
+    assert recover_recordings(tmp_path).recovered == (tmp_path / "s.h5",)
 
 
-def test_what_cannot_be_finished_stays_as_it_is(tmp_path: Path) -> None:
-    empty = interrupt(tmp_path / "empty.h5", rows=0)
-    junk = part_path(tmp_path / "junk.h5", str(uuid.uuid4()))
-    junk.write_bytes(b"not HDF5 at all")
-    good = interrupt(tmp_path / "whole.h5")
-    before = {path: path.read_bytes() for path in (empty, junk)}
-    recovery = recover_folder(tmp_path)
-    assert recovery.recovered == (tmp_path / "whole.h5",)
-    assert not good.exists()
-    assert [type(fault) for fault in recovery.faults] == [SessionUnreadable]
-    assert recovery.empty == (empty,)
-    assert {fault.subject for fault in recovery.faults} == {str(junk)}
-    assert {path: path.read_bytes() for path in (empty, junk)} == before
-
-
-def test_a_taken_name_is_not_overwritten(tmp_path: Path) -> None:
-    interrupt(tmp_path / "s.h5")
-    for name in ("s.h5", "s-2.h5"):
-        (tmp_path / name).write_text("mine")
-    assert recover_folder(tmp_path).recovered == (tmp_path / "s-3.h5",)
-    assert (tmp_path / "s.h5").read_text() == "mine"
-
-
-@pytest.mark.parametrize("linked", [True, False])
-def test_a_session_ended_between_the_last_two_steps(tmp_path: Path, linked: bool) -> None:
-    """Complete, but still under its part name, with or without the final one."""
-    target = tmp_path / "s.h5"
-    session = begun(target, rows=1)
-    session.close()
-    if linked:
-        os.link(target, session.part_path)
-    else:
-        shutil.move(target, session.part_path)
-    assert recover_folder(tmp_path).recovered == (target,)
+def test_recovery_that_ended_before_the_journal_went_makes_no_second_session(tmp_path: Path) -> None:
+    write_session(interrupt(tmp_path / "s.journal"))
+    assert recover_recordings(tmp_path).recovered == (tmp_path / "s.h5",)
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
-    assert read_session(target).recovered == ""
+
+
+def test_what_cannot_be_finished_stays_and_taken_names_are_kept(tmp_path: Path) -> None:
+    interrupt(tmp_path / "empty.journal", rows=0)
+    interrupt(tmp_path / "s.journal")
+    (tmp_path / "s.h5").write_text("mine")
+    (tmp_path / "junk.journal").write_bytes(b"not a journal at all")
+    (tmp_path / "junk.h5.01234567.part").write_bytes(b"not HDF5 at all")
+    (tmp_path / "download.part").write_text("not ours")
+    os.utime(tmp_path / "junk.h5.01234567.part", (0, 0))
+    recovery = recover_recordings(tmp_path)
+    assert recovery.recovered == (tmp_path / "s-2.h5",)
+    assert recovery.empty == (tmp_path / "empty.journal",)
+    assert [(type(fault), Path(fault.subject).name) for fault in recovery.faults] == [
+        (SessionUnreadable, "junk.h5.01234567.part"),
+        (SessionUnreadable, "junk.journal"),
+    ]
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "s.h5", "s-2.h5", "junk.journal", "junk.h5.01234567.part", "download.part",
+    }  # fmt: skip
+    assert (tmp_path / "s.h5").read_text() == "mine"
+    with pytest.raises(RecordingMissing):
+        recover_recordings(tmp_path / "nowhere")
+
+
+def test_part_file_of_an_older_carpus_is_recovered(tmp_path: Path) -> None:
+    old_part(tmp_path)
+    (tmp_path / f"{PART}.alive").write_text("{}")
+    assert recover_recordings(tmp_path, NOW).recovered == (tmp_path / "v2-wrist6.h5",)
+    assert [path.name for path in tmp_path.iterdir()] == ["v2-wrist6.h5"]
+    session = read_session(tmp_path / "v2-wrist6.h5")
+    assert (len(session), session.recovered, session.smoothed) == (12, "2026-11-14T08:00:00+00:00", None)
+    np.testing.assert_array_equal(
+        session.motion.angles_rad, np.array([make_frame(row).moment.angles_rad for row in range(12)])
+    )
+    assert [event.text for event in session.events] == ["Grüße"]
+    assert len(read_detections(session.path).blobs) == sum(len(make_frame(row).detections) for row in range(12))
+    assert verify(session.path).sealed
+
+
+@pytest.mark.parametrize("harm", ["end too early", "events broken", "rows missing"])
+def test_damaged_part_file_gives_the_rows_that_are_whole(tmp_path: Path, harm: str) -> None:
+    part = old_part(tmp_path)
+    data = bytearray(part.read_bytes())
+    if harm == "end too early":
+        data[40:48] = (len(data) // 2).to_bytes(8, "little")
+        part.write_bytes(data)
+    else:
+        with h5py.File(part, "r+") as file:
+            if harm == "rows missing":
+                file["/wrist/angles"].resize(9, axis=0)
+            else:
+                place = file["/events/time"].id.get_chunk_info(0).byte_offset
+                file["/events/kind"].resize(0, axis=0)
+        if harm == "events broken":
+            data = bytearray(part.read_bytes())
+            data[place : place + 8] = b"\xff" * 8
+            part.write_bytes(data)
+    os.utime(part, (0, 0))
+    (target,) = recover_recordings(tmp_path).recovered
+    session = read_session(target)
+    assert len(session) == (9 if harm == "rows missing" else 12)
+    assert len(session.events) == (0 if harm == "events broken" else 1)
+
+
+def test_part_file_that_is_added_to_is_left_alone(tmp_path: Path) -> None:
+    part = old_part(tmp_path)
+    os.utime(part)
+    assert recover_recordings(tmp_path).busy == (part,)
+    with h5py.File(part, "r+"):
+        os.utime(part, (0, 0))
+        assert recover_recordings(tmp_path).busy == (part,)
+
+
+@pytest.mark.parametrize("links", [True, False])
+def test_published_session_goes_on_where_a_kill_left_it(
+    tmp_path: Path, links: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(18, "another disk")
+
+    if not links:
+        monkeypatch.setattr(os, "link", refuse)
+    here, home = tmp_path / "here", tmp_path / "home"
+    here.mkdir()
+    path = write_session(interrupt(here / "s.journal"))
+    content = path.read_bytes()
+    path.with_suffix(".carpusraw").write_bytes(b"pictures")
+    home.mkdir()
+    (home / "s.h5").write_text("another's")
+    (home / "s-2.carpusraw").write_bytes(b"pictures")  # arrived before the kill
+    assert publish_session(path, home) == home / "s-2.h5"
+    assert (home / "s-2.h5").read_bytes() == content
+    assert (home / "s.h5").read_text() == "another's"
+    assert [one.name for one in here.iterdir()] == ["s.journal"]
+    (here / "s-2.h5").write_bytes(content)  # arrived, and not yet taken away here
+    assert publish_session(here / "s-2.h5", home) == home / "s-2.h5"
+    assert sorted(one.name for one in home.iterdir()) == ["s-2.carpusraw", "s-2.h5", "s.h5"]

@@ -11,14 +11,15 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import SessionChanged, SessionUnfinished, SessionUnreadable
+from carpus.core.records.recordings import write_session
 from carpus.core.session import opened
 from carpus.core.session.reader import verify
-from carpus.core.session.recovery import recover_folder
 from carpus.core.session.seal import seal_of
 from carpus.core.session.values import RawPictures, Verified, motion_of
 from carpus.core.session.writer import SessionWriter
 from tests.commands import Command
-from tests.session.samples import begun, make_frame, time_of, written_once
+from tests.session.samples import begun, make_frame, stored_journal, time_of, written_once
+from tests.session.test_golden import unpacked
 
 ROWS = 30
 
@@ -40,13 +41,10 @@ def stored(path: Path) -> Path:
     return path
 
 
-def test_a_recovered_session_is_sealed(tmp_path: Path) -> None:
-    session = filled(tmp_path / "s.h5")
-    session.abandon()
+def test_a_recovered_session_is_sealed_and_a_part_file_is_not(tmp_path: Path) -> None:
     with pytest.raises(SessionUnfinished):
-        verify(session.part_path)
-    (target,) = recover_folder(tmp_path).recovered
-    assert verify(target) == Verified(ROWS, sealed=True)
+        verify(unpacked("v2-wrist6.h5.0123abcd.part", tmp_path))
+    assert verify(write_session(stored_journal(tmp_path / "s.journal", ROWS))) == Verified(ROWS, sealed=True)
 
 
 def test_a_session_from_before_there_were_seals(tmp_path: Path) -> None:

@@ -7,7 +7,6 @@ import errno
 import os
 import subprocess
 import sys
-import uuid
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
@@ -18,41 +17,15 @@ import pytest
 
 from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.hand.protocols import HAND21
-from carpus.core.session import disk, part_file, writer
+from carpus.core.session import disk, writer
+from carpus.core.session.blocks import smoothed_blocks
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_raw, read_session, verify
-from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import Motion, RawPictures, motion_of
-from carpus.core.session.writer import FLUSH_EVERY_S, SessionWriter
+from carpus.core.session.writer import SessionWriter
 from tests.moments import with_moment
 from tests.session.samples import begun, make_frame, make_header
 
 ROOT = Path(__file__).parents[2]
-
-
-def rows_on_disk(session: SessionWriter) -> int:
-    """Read from a copy, as another program would see it."""
-    copy = session.part_path.with_suffix(".copy")
-    copy.write_bytes(session.part_path.read_bytes())
-    with h5py.File(copy, "r") as file:
-        return int(file["/frames/timestamp"].shape[0])
-
-
-def test_rows_reach_the_disk_within_a_second(tmp_path: Path) -> None:
-    now_s = 100.0
-    session = begun(tmp_path / "s.h5", clock=lambda: now_s)
-    for row in range(60):
-        now_s += 1 / 30
-        session.append(make_frame(row))
-        assert rows_on_disk(session) >= row + 1 - 30
-    assert FLUSH_EVERY_S < 1.0
-    session.close()
-
-
-def test_memory_held_is_bounded_when_the_clock_stands_still(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(writer, "ROWS_HELD", 8)
-    session = begun(tmp_path / "s.h5", rows=20)
-    assert rows_on_disk(session) == 16
-    session.close()
 
 
 def open_below(folder: Path) -> list[str]:
@@ -84,7 +57,7 @@ def test_the_name_appears_only_when_the_session_is_whole_and_never_on_another_fi
     target = tmp_path / "s.h5"
     session = begun(target, rows=1)
     session.flush()
-    assert [path.suffix for path in tmp_path.iterdir() if path.suffix != ".alive"] == [".part"]
+    assert [path.suffix for path in tmp_path.iterdir()] == [".tmp"]
     session.close()
     session.close()
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
@@ -92,38 +65,46 @@ def test_the_name_appears_only_when_the_session_is_whole_and_never_on_another_fi
     target.unlink()
     session = begun(target, rows=1)
     target.write_text("mine")
-    for end in (lambda: begun(target, make_header(session_id=uuid.uuid4())), session.close):
+    for end in (lambda: begun(target), session.close):
         with pytest.raises(OutputExists):
             end()
-    assert recover_folder(tmp_path).recovered == (tmp_path / "s-2.h5",)
-    assert len(read_session(tmp_path / "s-2.h5")) == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
     assert target.read_text() == "mine"
 
 
-def test_a_fault_on_the_way_leaves_the_part_and_no_session(tmp_path: Path) -> None:
+def test_a_killed_writer_leaves_what_the_next_one_takes_away(tmp_path: Path) -> None:
+    left, busy, fresh = (tmp_path / f".s.h5.0123456{number}.tmp" for number in range(3))
+    for path in (left, busy, fresh):
+        path.write_bytes(b"")
+    with h5py.File(busy, "w"):
+        os.utime(busy, (0, 0))
+        os.utime(left, (0, 0))
+        begun(tmp_path / "s.h5", rows=1).close()
+    assert {path.name for path in tmp_path.iterdir()} == {"s.h5", busy.name, fresh.name}
+
+
+def test_a_fault_on_the_way_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt), begun(tmp_path / "s.h5", rows=1):
         raise KeyboardInterrupt
-    (part,) = tmp_path.iterdir()
-    assert part.suffix == ".part"
-    assert len(read_session(part)) == 1
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
     ("place", "number", "kind"),
     [
         ("nowhere/s.h5", 0, OutputNotWritable), ("file/s.h5", 0, OutputNotWritable),
-        ("s.h5", errno.EACCES, OutputNotWritable), ("s.h5", errno.ENOSPC, DiskFull),
+        ("s.h5", errno.ENOSPC, DiskFull),
     ],
 )  # fmt: skip
 def test_what_cannot_be_begun_is_told_and_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str, number: int, kind: type[CarpusFault]
 ) -> None:
-    def refuse(*_: object) -> h5py.File:  # root passes every real lock
+    def refuse(*_: object, **__: object) -> None:
         raise OSError(number, "denied")
 
     (tmp_path / "file").write_text("")
     if number:
-        monkeypatch.setattr(*((os, "posix_fallocate") if kind is DiskFull else (part_file, "new_file")), refuse)
+        monkeypatch.setattr(writer, "open", refuse, raising=False)
     with pytest.raises(kind) as caught:
         begun(tmp_path / place)
     assert kind is DiskFull or caught.value.subject == str((tmp_path / place).parent)
@@ -143,35 +124,22 @@ def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> 
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_smoothed_result_that_comes_bit_by_bit_is_stored_as_one_that_comes_at_once(tmp_path: Path) -> None:
-    frames = [make_frame(row, HAND21) for row in range(9)]
-    smoothed = [make_frame(row + 100, HAND21) for row in range(9)]
-    whole, bits = (begun(tmp_path / name, make_header(HAND21)) for name in ("whole.h5", "bits.h5"))
-    for row, frame in enumerate(frames):
-        whole.append(frame)
-        bits.append(frame)
-        if row in (3, 4, 8):
-            bits.flush()
-            assert bits.stored == row + 1
-            bits.add_smoothed(motion_of(smoothed[bits.smoothed : row]))
-            assert bits.smoothed == row
+def test_a_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
+    session = begun(tmp_path / "s.h5", make_header(HAND21), rows=3)
+    smoothed = motion_of([make_frame(row + 100, HAND21) for row in range(3)])
     with pytest.raises(ValueError, match="/smoothed"):
-        whole.write_smoothed(motion_of(smoothed[:1]))
-    whole.write_smoothed(motion_of(smoothed))
-    bits.add_smoothed(motion_of(smoothed[8:]))
-    with pytest.raises(ValueError, match="/smoothed"):
-        bits.add_smoothed(motion_of(smoothed[8:]))
-    whole.close()
-    bits.close()
-    assert verify(tmp_path / "bits.h5") == verify(tmp_path / "whole.h5")
-    read = [read_session(tmp_path / name).smoothed for name in ("whole.h5", "bits.h5")]
+        session.write_smoothed(motion_of([make_frame(0, HAND21)]))
+    session.write_smoothed(smoothed)
+    session.close()
+    verify(tmp_path / "s.h5")
+    read = read_session(tmp_path / "s.h5").smoothed
     for field in fields(Motion):
-        np.testing.assert_array_equal(getattr(read[1], field.name), getattr(read[0], field.name))
+        np.testing.assert_array_equal(getattr(read, field.name), getattr(smoothed, field.name))
 
 
 def test_a_smoothed_result_that_does_not_come_to_all_frames_is_left_out(tmp_path: Path) -> None:
     session = begun(tmp_path / "s.h5", rows=4)
-    session.add_smoothed(motion_of([make_frame(0), make_frame(1)]))
+    session.add_smoothed(smoothed_blocks(session._layout, motion_of([make_frame(0), make_frame(1)])))
     session.drop_smoothed()
     session.close()
     verify(tmp_path / "s.h5")
@@ -200,43 +168,22 @@ from pathlib import Path
 from carpus.core.errors import DiskFull
 from carpus.core.hand.protocols import HAND21
 from tests.session.samples import begun, make_frame, make_header
-target = Path(sys.argv[1])
-resource.setrlimit(resource.RLIMIT_FSIZE, (8_000_000, 8_000_000))
-session = begun(target, make_header(HAND21))
-row = flushed = 0
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), int(sys.argv[2])))
 try:
-    while row < 5000:
-        session.append(make_frame(row, HAND21))
-        row += 1
-        if row % 25 == 0:
-            session.flush()
-            flushed = row
-except DiskFull as fault:
-    print(flushed, Path(fault.subject).name)
-    try:
-        session.append(make_frame(row, HAND21))
-    except DiskFull:
-        print("still full")
-    session.close()
+    with begun(Path(sys.argv[1]), make_header(HAND21)) as session:
+        for row in range(3000):
+            session.append(make_frame(row, HAND21))
+except DiskFull:
+    print("full")
 """
 
 
-def test_a_full_disk_is_told_and_what_was_stored_stays(tmp_path: Path) -> None:
-    target = tmp_path / "s.h5"
-    command = [sys.executable, "-c", BOUNDED, str(target)]
+@pytest.mark.parametrize("bytes_free", [10_000, 6_000_000])
+def test_a_full_disk_is_told_and_nothing_is_left_behind(tmp_path: Path, bytes_free: int) -> None:
+    command = [sys.executable, "-c", BOUNDED, str(tmp_path / "s.h5"), str(bytes_free)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    flushed, part_name, *rest = done.stdout.split()
-    assert rest == ["still", "full"]
-    assert int(flushed) > 0
-    assert not target.exists()
-    assert [path.name for path in tmp_path.iterdir()] == [part_name]
-    assert len(read_session(tmp_path / part_name)) == int(flushed)
-    assert recover_folder(tmp_path).recovered == (target,)
-    session = read_session(target)
-    assert len(session) == int(flushed)
-    np.testing.assert_array_equal(
-        session.motion.joint_position_m[-1], make_frame(len(session) - 1, HAND21).moment.joint_position_m
-    )
+    assert done.stdout.split() == ["full"]
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_disk_that_cannot_reserve_is_asked_how_much_is_free(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -250,31 +197,8 @@ def test_a_disk_that_cannot_reserve_is_asked_how_much_is_free(tmp_path: Path, mo
     monkeypatch.setattr(disk.shutil, "disk_usage", lambda _: usage)
     session.append(make_frame(1))
     with pytest.raises(DiskFull):
-        session.flush()
-    session.close()
-    (part,) = tmp_path.iterdir()
-    assert len(read_session(part)) == 1
-
-
-@pytest.mark.parametrize(
-    ("number", "kind"), [(errno.ENOSPC, DiskFull), (errno.EDQUOT, DiskFull), (errno.EIO, OutputNotWritable)]
-)
-def test_a_failing_write_is_a_typed_fault(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int, kind: type[CarpusFault]
-) -> None:
-    session = begun(tmp_path / "s.h5", rows=1)
-
-    def broken(_: int) -> None:
-        raise OSError(number, "broken")
-
-    monkeypatch.setattr(os, "fsync", broken)
-    with pytest.raises(kind):
-        session.flush()
-    monkeypatch.undo()
-    with pytest.raises(kind):
-        session.append(make_frame(1))
-    session.close()
-    assert not (tmp_path / "s.h5").exists()
+        session.close()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_finished_file_has_no_reserved_room_left(tmp_path: Path) -> None:

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from carpus.core.capture.files.raw import RawRecording
+from carpus.core.records.recordings import recover_recordings
 from carpus.core.session.reader import read_session, verify
-from carpus.core.session.recovery import recover_folder
 
 ROOT = Path(__file__).parents[2]
 KINDS = ("program", "program with pictures", "looking back", "capture", "clock set back and forth", "two programs")
@@ -51,7 +51,7 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
         assert program.stdout.readline() == "begun\n", program.stderr.read()
         time.sleep(after_s)
         if kind == "two programs":
-            assert recover_folder(folder).recovered == (), "a second program finished what the first is recording"
+            assert recover_recordings(folder).recovered == (), "a second program finished what the first is recording"
         if whole:
             for child in json.loads((folder / "children").read_text()):
                 os.kill(child, signal.SIGKILL)
@@ -70,7 +70,7 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
         assert not (folder / "s.h5").exists(), "wrongly complete"
         for name in list(folder.iterdir()):
             assert name.suffix != ".h5"
-        recovery = recover_folder(folder)
+        recovery = recover_recordings(folder)
         assert recovery.faults == (), recovery.faults
         assert recovery.busy == ()
         if recovery.empty:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import sqlite3
@@ -26,9 +27,10 @@ from carpus.core.types import Frame
 from tests.capture.oni_samples import CAMERA as SMALL
 from tests.capture.oni_samples import color_picture, depth_picture, write_sample
 from tests.records.samples import opened
-from tests.session.samples import CAMERA, CREATED, make_calibration, make_frame, make_header, time_of
+from tests.session.samples import CAMERA, CREATED, journal_of, make_calibration, make_frame, make_header, time_of
+from tests.session.test_golden import unpacked
 
-KINDS = ("session", "part", "raw", "tum", "clicks", "settings", "register", "oni")
+KINDS = ("session", "part", "raw", "tum", "clicks", "settings", "register", "oni", "journal")
 NUMBERS = (0, 1, 2, 255, 65_535, 65_536, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 1 << 40, 1 << 63, (1 << 64) - 1)
 WORDS = (
     "nan", "inf", "-1", "1e999", "9" * 400, "../../../etc/passwd", "/dev/zero", "\\u0000", "[" * 300, "=1+1", " ", "",
@@ -40,17 +42,25 @@ def sound(kind: str, folder: Path) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     info = SourceInfo("sample", SMALL, True, None, 30.0)
     frames = [Frame(n, n / 30.0, color_picture(n), depth_picture(n), 1e-3) for n in range(6)]
-    if kind in ("session", "part"):
+    if kind == "part":
+        return unpacked("v2-wrist6.h5.0123abcd.part", folder)
+    if kind == "journal":
+        journal = journal_of(folder / "s.journal", 30)
+        for row in range(30, 60):
+            journal.append(make_frame(row))
+            if row % 6 == 0:
+                journal.add_event(time_of(row), "note", "a note")
+                journal.flush()
+        journal.close()
+        return journal.path
+    if kind == "session":
         header = make_header(session_id=uuid.UUID(int=77))
         writer = SessionWriter.create(folder / "s.h5", header, CAMERA, make_calibration(), raw_depth_unit_m=1e-3)
         for row in range(30):
             writer.append(make_frame(row), RawPictures(b"c" * 90, b"d" * 30))
         writer.add_event(time_of(3), "note", "a note")
-        if kind == "session":
-            writer.close()
-            return writer.path
-        writer.abandon()
-        return writer.part_path
+        writer.close()
+        return writer.path
     if kind == "raw":
         with RawWriter(folder / "r.carpusraw", info) as raw:
             for frame in frames:
@@ -101,6 +111,8 @@ def mutated(kind: str, original: Path, number: int, folder: Path) -> Path:
         _damage(target, rng)
     if kind in ("session", "part"):
         _make_sparse(target)
+    if kind == "part":
+        os.utime(target, (0, 0))
     return target
 
 

@@ -117,6 +117,12 @@ def _read(kind: str, path: Path) -> None:
         read_detections(path)
         for _ in read_raw(path):
             pass
+    elif kind == "journal":
+        from carpus.core.records.recordings import write_session
+        from carpus.core.session.reader import verify
+
+        written = write_session(path)
+        assert written is None or verify(written).sealed
     elif kind in ("raw", "tum", "oni"):
         from carpus.app.sources import open_recording
 

@@ -26,9 +26,9 @@ from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
-from carpus.core.pipeline.measuring import LivePipeline, SmoothedSession
+from carpus.core.pipeline.measuring import LivePipeline, RecordedSession
 from carpus.core.pipeline.track import FramePipeline
-from carpus.core.session.writer import SessionWriter
+from carpus.core.session.journal import RecordingJournal
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Detections, Frame, Region, TrackedFrame
@@ -109,9 +109,9 @@ def main() -> None:
             os.pwrite(taken, struct.pack("<dq", frame.timestamp_s, 1), 0)
         return row
 
-    def open_session() -> SmoothedSession:
+    def open_session() -> RecordedSession:
         header = make_header(session_id=uuid.uuid4())
-        return SmoothedSession(SessionWriter.create(told.folder / "s.h5", header, CAMERA, calibration()), looker)
+        return RecordedSession(RecordingJournal(told.folder / "s.journal", header, CAMERA, calibration()), looker)
 
     pictures = (lambda: RawWriter(told.folder / "s.carpusraw", source.info)) if told.raw else None
     live.begin_tracking(noted)

@@ -17,7 +17,7 @@ import re
 import struct
 import time
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -30,10 +30,9 @@ from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.capture.files.pictures import Tiled, decode_color, decode_depth, encode_color, encode_depth, packed
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
-from carpus.core.durable import Writing, copy_open_file, is_still_there, private, write_fault
+from carpus.core.durable import Writing, private, write_fault
 from carpus.core.errors import (
     OutputExists,
-    OutputNotWritable,
     PictureSizeChanged,
     PicturesLost,
     RecordingDamaged,
@@ -54,7 +53,7 @@ VERSION = 2
 _START = struct.Struct("<8sI")
 _RECORD = struct.Struct("<4sIdIIII")
 _CHECKED_FROM = 8
-LOOK_EVERY_S = 0.8
+SYNC_EVERY_S = 0.5
 MAX_PICTURE_BYTES = 1 << 27
 MAX_FRAMES = 1 << 24
 """Six days at 30 a second: a record that says more, of frames or of missing ones, is damaged."""
@@ -63,11 +62,8 @@ _NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16
 
 
 class RawWriter(Writing):
-    """Writes one raw recording. Use as a context manager, or end it by :meth:`close`.
-
-    When its folder goes away it goes on in the one that ``fallback`` names, with what was recorded if that can still be
-    read.
-    """
+    """Writes one raw recording. Use as a context manager, or end it by :meth:`close`. Twice a second what was taken is
+    synchronised."""
 
     def __init__(
         self,
@@ -75,12 +71,9 @@ class RawWriter(Writing):
         info: SourceInfo,
         *,
         lossless: bool = False,
-        fallback: Callable[[], Path] | None = None,
-        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._path = path
-        self._fallback, self._clock = fallback, clock
-        self._looked_s = clock()
+        self._synced_at_s = time.monotonic()
         self._info = info
         self._lossless = lossless
         self._depth_unit_m: float | None = None
@@ -98,10 +91,6 @@ class RawWriter(Writing):
 
     def append_frame(self, frame: Frame) -> None:
         """Store one frame: depth without loss, colour as JPEG 95 or without loss. Times rise strictly."""
-        if self._fallback is not None and self._clock() - self._looked_s >= LOOK_EVERY_S:
-            self._looked_s = self._clock()
-            if self._file is not None and not is_still_there(self._file.fileno(), self._path):
-                self._move(self._fallback())
         if self._count == 0:
             self._depth_unit_m = frame.depth_unit_m
             self._put(_record(b"HEAD", 0.0, 0, 0, self._head(), b""))
@@ -111,17 +100,6 @@ class RawWriter(Writing):
         color = packed(frame.color_rgb, partial(encode_color, lossless=self._lossless))
         self._put(_record(b"FRAM", frame.timestamp_s, frame.dropped_before, self._count, color, depth))
         self._count += 1
-
-    def go_on_elsewhere(self, frame: Frame | None) -> RawWriter:
-        """A new recording in the fallback's folder, beginning with ``frame``, for another thread while the one that
-        writes hangs in the disk; what was stored stays there. Raises :class:`OutputNotWritable` without a fallback."""
-        if self._fallback is None:
-            raise OutputNotWritable(self._path)
-        folder, self._fallback = self._fallback(), None
-        new = RawWriter(folder / self._path.name, self._info, lossless=self._lossless, clock=self._clock)
-        if frame is not None:
-            new.append_frame(frame)
-        return new
 
     def close(self) -> None:
         """Mark the recording as whole and bring it to the disk; may be called twice."""
@@ -146,23 +124,6 @@ class RawWriter(Writing):
     def discard(self) -> None:
         self.abandon()
         self._path.unlink(missing_ok=True)
-
-    def _move(self, folder: Path) -> None:
-        """Go on elsewhere; what was recorded comes along where it can still be read."""
-        assert self._file is not None
-        path, old = folder / self._path.name, self._file
-        self._fallback = None  # one disaster at a time
-        try:
-            copy_open_file(old.fileno(), path)
-            self._file = path.open("r+b")
-            self._file.seek(self._end)
-        except OSError:
-            path.unlink(missing_ok=True)
-            self._file, self._end, self._count = _create(path), 0, 0
-            self._put(_START.pack(MAGIC, VERSION))
-        self._path = path
-        with suppress(OSError):
-            old.close()
 
     def _head(self) -> bytes:
         info, camera = self._info, self._info.camera
@@ -197,6 +158,9 @@ class RawWriter(Writing):
         try:
             self._file.write(data)
             self._file.flush()
+            if time.monotonic() - self._synced_at_s >= SYNC_EVERY_S:
+                self._synced_at_s = time.monotonic()
+                os.fsync(self._file.fileno())
         except OSError as cause:
             # half a record at the end would be passed over anyway, but a clean end is better
             with suppress(OSError):

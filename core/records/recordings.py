@@ -1,0 +1,287 @@
+"""Recordings on this computer's own disk: from the journal to the session file, at Stop or after a kill, and from there
+into the data folder, which may be a share."""
+
+from __future__ import annotations
+
+import filecmp
+import hashlib
+import logging
+import os
+import shutil
+import time
+from collections.abc import Callable, Collection
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+import platformdirs
+
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.durable import make_private, sync_folder, write_fault
+from carpus.core.errors import (
+    CarpusFault,
+    NothingRecorded,
+    OutputNotWritable,
+    RecordingMissing,
+    RecordingReturned,
+    SessionUnreadable,
+    WaitingErased,
+)
+from carpus.core.records.set_up import MARKERS_SUFFIX
+from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.session import reader
+from carpus.core.session.disk import (
+    LEFT_AFTER_S,
+    below,
+    free_name,
+    is_being_written,
+    publish,
+    remove_leftovers,
+    target_of_part,
+    temporary_path,
+)
+from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
+from carpus.core.session.journal import JournalReader, claim, unpack_arrays
+from carpus.core.session.reader import read_outline
+from carpus.core.session.writer import SessionWriter
+
+log = logging.getLogger(__name__)
+
+_BESIDE = (RAW_SUFFIX, MARKERS_SUFFIX, ".h5")
+"""What is published of a recording; the session last: what goes with it is there when it comes."""
+
+
+def recordings_folder(data_folder: Path) -> Path:
+    """On this computer's own disk, one folder for each data folder, and in it one for each patient; nothing is made."""
+    name = hashlib.sha256(str(data_folder.absolute()).encode()).hexdigest()[:12]
+    return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
+
+
+def write_session(journal: Path, recovered: str = "") -> Path | None:
+    """Write the session of a journal beside it; its path. None where no frame had been stored. The journal stays.
+
+    ``recovered`` is when an interrupted recording is finished, ISO 8601. Raises the faults of writing, and
+    :class:`SessionUnreadable` for what is no journal; then nothing is left behind.
+    """
+    draft = SessionDraft(journal)
+    try:
+        draft.read()
+        return draft.finish(recovered)
+    finally:
+        draft.discard()
+
+
+class SessionDraft:
+    """The session file of a journal in the making; may follow while the journal grows, so that the end is quick. It
+    knows nothing but the journal: a kill costs no more than to begin again."""
+
+    def __init__(self, journal: Path) -> None:
+        self._journal = JournalReader(journal)
+        self._target = journal.with_suffix(".h5")
+        self._writer: SessionWriter | None = None
+
+    def read(self) -> None:
+        """Take what the journal has by now."""
+        image = self._journal.image
+        for kind, content in self._journal.read():
+            if image is None or kind not in (b"ROWS", b"SMOO"):
+                continue
+            try:
+                blocks = unpack_arrays(content)
+            except ValueError:  # of another Carpus; what is whole counts
+                continue
+            if self._writer is None:
+                self._writer = SessionWriter(free_name(self._target), image)
+            (self._writer.add if kind == b"ROWS" else self._writer.add_smoothed)(blocks)
+
+    def flush(self) -> None:
+        """Write all that was taken: no more frames come."""
+        if self._writer is not None:
+            self._writer.flush()
+
+    def finish(self, recovered: str = "") -> Path | None:
+        """Write all of it; the file's path, None where there is no frame."""
+        self.read()
+        writer = self._writer
+        if writer is None or not len(writer):
+            return None
+        if _is_session(self._target, writer.session_id):  # ended after it had its name
+            return self._target
+        if writer.smoothed_rows != len(writer):  # half of a smoother's result is none
+            writer.drop_smoothed()
+        try:
+            writer.write_repetitions(repetitions_of(writer.read_back()))
+        except (ArithmeticError, ValueError, IndexError):  # what is reckoned from the rows never costs the rows
+            log.warning("the repetitions could not be counted", exc_info=True)
+        writer.close(recovered)
+        return writer.path
+
+    def discard(self) -> None:
+        """Let go of the journal, and of a file that is not finished. May be called twice."""
+        self._journal.close()
+        if self._writer is not None:
+            self._writer.discard()
+
+
+def _is_session(path: Path, session_id: str) -> bool:
+    with suppress(SessionUnreadable):
+        return path.exists() and read_outline(path).header.session_id == session_id
+    return False
+
+
+@dataclass(frozen=True, slots=True)
+class Recovery:
+    """``recovered`` the files finished; ``busy`` what is still being recorded; ``faults`` one for each file left;
+    ``empty`` recordings that had ended before their first frame was stored."""
+
+    recovered: tuple[Path, ...]
+    busy: tuple[Path, ...]
+    faults: tuple[CarpusFault, ...]
+    empty: tuple[Path, ...] = ()
+
+
+def recover_recordings(folder: Path, now: datetime | None = None, given_up: Collection[Path] = ()) -> Recovery:
+    """Finish every interrupted recording of a folder and the folders in it: journals, and part files of Carpus 0.2.0.
+    What cannot be finished stays as it is, and what is ``given_up`` is not looked at.
+
+    Raises :class:`RecordingMissing` when there is no such folder.
+    """
+    if not folder.is_dir():
+        raise RecordingMissing(folder)
+    when = (now or datetime.now().astimezone()).isoformat(timespec="seconds")
+    recovered: list[Path] = []
+    busy: list[Path] = []
+    empty: list[Path] = []
+    faults: list[CarpusFault] = []
+    for path in sorted(below(folder)):
+        is_part = target_of_part(path) is not None
+        if path in given_up or not (is_part or path.suffix == JOURNAL_SUFFIX):
+            continue
+        try:
+            target = _recover_part(path, when) if is_part else _recover_journal(path, when)
+            (busy if target is path else recovered if target else empty).append(target or path)
+        except CarpusFault as fault:
+            faults.append(fault)
+        except OSError as cause:
+            faults.append(SessionUnreadable(path, cause.strerror or ""))
+    return Recovery(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
+
+
+def _recover_journal(path: Path, when: str) -> Path | None:
+    """The session of a journal; the journal itself while it is recorded, None where nothing had been stored."""
+    own = claim(path)
+    if own is None:
+        return path
+    with own:
+        remove_leftovers(path.with_suffix(".h5"), after_s=0.0)
+        target = write_session(path, when)
+    path.unlink(missing_ok=True)
+    sync_folder(path.parent)
+    return target
+
+
+def _recover_part(part: Path, when: str) -> Path | None:
+    """As :func:`_recover_journal`; who records with an older Carpus, perhaps on another computer, adds to its file."""
+    if is_being_written(part) or abs(time.time() - part.stat().st_mtime) < LEFT_AFTER_S:
+        return part
+    target = reader.finish_part(part, when)
+    part.with_name(f"{part.name}.alive").unlink(missing_ok=True)
+    return target
+
+
+def publish_session(path: Path, folder: Path) -> Path:
+    """Move a finished session and what lies beside it into a folder, perhaps on another disk; where it is then.
+
+    Raises :class:`OutputNotWritable` and :class:`DiskFull`; then it is still here.
+    """
+    target = copy_session(path, folder)
+    remove_published(path)
+    return target
+
+
+def remove_published(path: Path) -> None:
+    """Take away what has been copied; the session last."""
+    for suffix in _BESIDE:
+        path.with_suffix(suffix).unlink(missing_ok=True)
+
+
+def copy_session(path: Path, folder: Path) -> Path:
+    """Put a finished session and what lies beside it into a folder as well. Run again after a kill it goes on: what has
+    arrived is not copied twice."""
+    make_private(folder)
+    there = [suffix for suffix in _BESIDE if path.with_suffix(suffix).is_file()]
+    target, number = folder / path.name, 1
+    try:
+        while any(_is_other(path.with_suffix(suffix), target.with_suffix(suffix)) for suffix in there):
+            number += 1
+            target = folder / f"{path.stem}-{number}{path.suffix}"
+        for suffix in there:
+            _place(path.with_suffix(suffix), target.with_suffix(suffix))
+        sync_folder(folder)
+    except OSError as cause:
+        raise write_fault(target, cause) from cause
+    return target
+
+
+def _is_other(source: Path, target: Path) -> bool:
+    """Whether another file has the name."""
+    return os.path.lexists(target) and not (target.is_file() and filecmp.cmp(source, target, shallow=False))
+
+
+def _place(source: Path, target: Path) -> None:
+    if os.path.lexists(target):
+        return
+    with suppress(OSError):  # another disk, or one without hard links
+        os.link(source, target)
+        return
+    remove_leftovers(target)
+    part = temporary_path(target)
+    try:
+        shutil.copyfile(source, part)
+        part.chmod(0o600)
+        with part.open("r+b") as copy:
+            os.fsync(copy.fileno())
+        publish(part, target)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) -> tuple[list[Path], list[CarpusFault]]:
+    """Finish what was interrupted on this computer, and publish what waits, into the folder of each patient, by
+    identity and pseudonym; of whom there is none, it is erased. The sessions that had been interrupted, as they lie
+    now, and what is to be told."""
+    place = recordings_folder(data_folder)
+    if not place.is_dir():
+        return [], []
+    found = recover_recordings(place)
+    recovered: list[Path] = []
+    told: list[CarpusFault] = [NothingRecorded(path.name) for path in found.empty]
+    erased = [one for one in sorted(place.iterdir()) if one.is_dir() and folder_of(one.name, "") is None]
+    for folder in erased if not found.busy else ():
+        try:
+            shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
+            told.append(WaitingErased())
+        except OSError as cause:
+            told.append(OutputNotWritable(place, cause.strerror or ""))
+    told += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
+    for path in sorted(one for one in place.rglob("*.h5") if not one.name.startswith(".")):
+        try:
+            home = folder_of(path.parent.name, read_outline(path).header.subject_id)
+            if home is None:
+                told.append(WaitingErased())
+                remove_published(path)
+            else:
+                arrived = publish_session(path, home)
+                if path in found.recovered:
+                    recovered.append(arrived)
+                else:
+                    told.append(RecordingReturned(arrived))
+            if path.parent != place:
+                with suppress(OSError):  # another recording waits in it
+                    path.parent.rmdir()
+        except CarpusFault as fault:
+            told.append(fault)
+        except OSError as cause:
+            told.append(OutputNotWritable(data_folder, cause.strerror or ""))
+    return recovered, told

@@ -1,0 +1,241 @@
+"""The recording journal: what is measured, record by record, in one file that is only ever added to.
+
+It lies on this computer's own disk while a session is recorded. From it :func:`core.records.recordings.write_session`
+makes the session file, at Stop or after a kill alike. Layout, little-endian: ``CARPUSRJ``, then records of 4 letters,
+u32 number, u32 length, u32 CRC-32 of the content, u32 CRC-32 of these 16 bytes, and the content:
+
+- ``SESS`` a session file without rows, as HDF5: header, camera, calibration
+- ``PATI`` whose it is: the patient's identity as text
+- ``ROWS`` arrays of frames or of an event, ``SMOO`` of the smoother's result: u32 length of a JSON list of path, type
+  and shape, that list, and the arrays
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import struct
+import time
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from io import FileIO
+from pathlib import Path
+from types import TracebackType
+from typing import BinaryIO, Self
+
+import numpy as np
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.durable import Writing, hold, private, sync_folder, write_fault
+from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, SessionUnreadable, TimesUnordered
+from carpus.core.phrase import phrase
+from carpus.core.session.blocks import Blocks, event_blocks, frame_blocks, smoothed_blocks
+from carpus.core.session.new_file import empty_session
+from carpus.core.session.schema import TableLayout
+from carpus.core.session.values import Event, Motion, SessionHeader
+from carpus.core.types import TrackedFrame
+
+SUFFIX = ".journal"
+MAGIC = b"CARPUSRJ"
+SYNC_EVERY_S = 0.5
+"""A kill or a power cut costs what came since; with the writing on a busy computer that stays below a second."""
+MAX_HELD = 256
+"""Rows held in memory, where frames come faster than the clock: a stored recording that is played."""
+_RECORD = struct.Struct("<4sIIII")
+
+
+class RecordingJournal(Writing):
+    """Adds to a journal; used by one thread. What is held is written and synchronised twice a second."""
+
+    def __init__(
+        self,
+        path: Path,
+        header: SessionHeader,
+        camera: Camera,
+        calibration: Calibration,
+        patient_id: str = "",
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then nothing is left."""
+        self.path = path
+        self.rows = self.smoothed_rows = 0
+        self._layout = TableLayout(header.protocol, header.joint_names)
+        self._clock, self._synced_at_s = clock, clock()
+        self._last_time_s = -np.inf
+        self._frames: list[TrackedFrame] = []
+        self._waiting: list[tuple[bytes, bytes]] = []
+        self._count = 0
+        self._fault: CarpusFault | None = None
+        try:
+            self._file: FileIO | None = FileIO(path, "xb", opener=private)
+        except FileExistsError as cause:
+            raise OutputExists(path) from cause
+        except OSError as cause:
+            raise OutputNotWritable(path.parent, cause.strerror or "") from cause
+        try:
+            hold(self._file)
+            self._waiting += [(b"SESS", empty_session(header, camera, calibration)), (b"PATI", patient_id.encode())]
+            self._write(MAGIC)
+        except BaseException:
+            self.discard()
+            raise
+        sync_folder(path.parent)
+
+    def append(self, tracked: TrackedFrame) -> None:
+        """Take one frame. Never drops: it raises :class:`DiskFull` instead."""
+        if tracked.timestamp_s <= self._last_time_s:
+            times = {"timestamp_s": f"{tracked.timestamp_s:.6f}", "last_time_s": f"{self._last_time_s:.6f}"}
+            raise TimesUnordered(self.path, phrase("{timestamp_s} s after {last_time_s} s", **times))
+        self._last_time_s = tracked.timestamp_s
+        self._frames.append(tracked)
+        self.rows += 1
+        self._write_when_due()
+
+    def add_event(self, time_s: float, kind: str, text: str = "") -> None:
+        """Note something that happened at a time of the recording."""
+        self._waiting.append((b"ROWS", pack_arrays(event_blocks(Event(time_s, kind, text)))))
+        self._write_when_due()
+
+    def add_smoothed(self, motion: Motion) -> None:
+        """Take the smoother's result for the next frames, from the first appended on."""
+        self._waiting.append((b"SMOO", pack_arrays(smoothed_blocks(self._layout, motion))))
+        self.smoothed_rows += len(motion.position_m)
+
+    def flush(self) -> None:
+        """Bring everything taken so far to the disk."""
+        if self._fault is not None:
+            raise self._fault
+        if self._frames:
+            self._waiting.append((b"ROWS", pack_arrays(frame_blocks(self._layout, self._frames))))
+            self._frames = []
+        self._write()
+
+    def close(self) -> None:
+        """Bring all to the disk and let go of the file, which stays. May be called twice."""
+        if self._file is not None:
+            try:
+                self.flush()
+            finally:
+                self._let_go()
+
+    def abandon(self) -> None:
+        """Stop after a fault; what was taken stays."""
+        with suppress(CarpusFault, ValueError):  # the exception on its way tells more
+            self.close()
+
+    def discard(self) -> None:
+        """Stop and remove the file: nothing was recorded, or the session has been written."""
+        self._let_go()
+        self.path.unlink(missing_ok=True)
+
+    def _let_go(self) -> None:
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+    def _write_when_due(self) -> None:
+        if self._clock() - self._synced_at_s >= SYNC_EVERY_S or len(self._frames) >= MAX_HELD:
+            self.flush()
+
+    def _write(self, start: bytes = b"") -> None:
+        """All that waits, in one write that is synchronised."""
+        self._synced_at_s = self._clock()
+        if not self._waiting:
+            return
+        if self._file is None:
+            raise ValueError("the journal is closed")
+        data = bytearray(start)
+        for kind, content in self._waiting:
+            head = struct.pack("<4sIII", kind, self._count, len(content), zlib.crc32(content))
+            data += head + struct.pack("<I", zlib.crc32(head)) + content
+            self._count += 1
+        self._waiting = []
+        try:
+            rest = memoryview(data)
+            while rest:
+                rest = rest[self._file.write(rest) or 0 :]
+            os.fsync(self._file.fileno())
+        except OSError as cause:
+            self._fault = write_fault(self.path, cause)
+            raise self._fault from cause
+
+
+class JournalReader:
+    """Reads a journal from its beginning on, and later what has come since; never writes.
+
+    Raises :class:`SessionUnreadable` where the beginning is not a journal's. ``image`` is the session file without
+    rows that every session begins with, None where the recording ended before that was stored.
+    """
+
+    def __init__(self, path: Path) -> None:
+        try:
+            self._file = path.open("rb")
+        except OSError as cause:
+            raise SessionUnreadable(path, cause.strerror or "") from cause
+        self._count, self._position = 0, len(MAGIC)
+        start = self._file.read(len(MAGIC))
+        if not MAGIC.startswith(start.rstrip(b"\0")):
+            self._file.close()
+            raise SessionUnreadable(path, phrase("not a recording journal"))
+        kind, content = next(self.read(), (b"", b""))
+        self.image = content if kind == b"SESS" else None
+
+    def read(self) -> Iterator[tuple[bytes, bytes]]:
+        """Kind and content of each further record that is whole. One whose content is damaged is passed over; at a
+        place where no record begins the journal ends."""
+        while True:
+            self._file.seek(self._position)
+            head = self._file.read(_RECORD.size)
+            if len(head) < _RECORD.size:
+                return
+            kind, number, length, content_sum, head_sum = _RECORD.unpack(head)
+            if head_sum != zlib.crc32(head[:16]) or number != self._count:
+                return
+            content = self._file.read(length)
+            if len(content) < length:
+                return
+            self._position += _RECORD.size + length
+            self._count += 1
+            if zlib.crc32(content) == content_sum:
+                yield kind, content
+
+    def close(self) -> None:
+        """May be called twice."""
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
+        self.close()
+
+
+def pack_arrays(blocks: Blocks) -> bytes:
+    """Arrays by path, as the content of a record."""
+    arrays = {path: np.ascontiguousarray(data) for path, data in blocks.items()}
+    table = json.dumps([(path, data.dtype.str, data.shape) for path, data in arrays.items()]).encode()
+    return b"".join((struct.pack("<I", len(table)), table, *(data.tobytes() for data in arrays.values())))
+
+
+def unpack_arrays(content: bytes) -> Blocks:
+    """What :func:`pack_arrays` packed. Raises ``ValueError`` for what it did not."""
+    (length,) = struct.unpack_from("<I", content)
+    position, blocks = 4 + length, {}
+    for path, dtype, shape in json.loads(content[4:position]):
+        count = int(np.prod(shape, dtype=np.int64))
+        blocks[path] = np.frombuffer(content, dtype, count, position).reshape(shape)
+        position += blocks[path].nbytes
+    return blocks
+
+
+def claim(path: Path) -> BinaryIO | None:
+    """The open file of a journal that nobody is adding to, which it is until closed; else None."""
+    file = path.open("r+b")
+    try:
+        hold(file)
+    except OSError:
+        file.close()
+        return None
+    return file
