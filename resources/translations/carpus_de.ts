@@ -3528,10 +3528,6 @@
         <translation>Ein Bild der Aufnahme ist nicht verwendbar: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>A session that was recorded while the folder of the sessions was away is there now: {subject}.</source>
-        <translation type="vanished">Eine Sitzung, aufgenommen, während der Ordner der Sitzungen weg war, ist jetzt da: {subject}.</translation>
-    </message>
-    <message>
         <source>A setting cannot be used: {subject} ({detail}).</source>
         <translation>Eine Einstellung ist nicht verwendbar: {subject} ({detail}).</translation>
     </message>
@@ -3716,10 +3712,6 @@
         <translation>Vergleichen Sie das Protokoll mit dem einer Sicherung.</translation>
     </message>
     <message>
-        <source>Connect the disk or the network again, or choose another folder.</source>
-        <translation type="vanished">Verbinden Sie den Datenträger oder das Netz wieder, oder wählen Sie einen anderen Ordner.</translation>
-    </message>
-    <message>
         <source>Copy the recording again from where it was made, or correct the list.</source>
         <translation>Kopieren Sie die Aufnahme noch einmal von ihrem Ursprung, oder berichtigen Sie die Liste.</translation>
     </message>
@@ -3784,10 +3776,6 @@
         <translation>Alles bis dahin Gespeicherte ist sicher.</translation>
     </message>
     <message>
-        <source>Everything that was recorded is stored there.</source>
-        <translation type="vanished">Alles Aufgenommene ist dort gespeichert.</translation>
-    </message>
-    <message>
         <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
         <translation>Schließen Sie sie mit „carpus recover“ ab, oder warten Sie, bis ihre Aufnahme endet.</translation>
     </message>
@@ -3822,10 +3810,6 @@
     <message>
         <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
         <translation>Kleben Sie die Tafel auf etwas Steifes, Flaches, geben Sie Licht, und halten Sie sie still.</translation>
-    </message>
-    <message>
-        <source>Go on; connect the disk or the network again later, and Carpus brings the session home when it starts.</source>
-        <translation type="vanished">Machen Sie weiter; verbinden Sie Datenträger oder Netz später wieder, dann holt Carpus die Sitzung beim Start zurück.</translation>
     </message>
     <message>
         <source>Go on; the pause is marked in the session.</source>
@@ -3906,10 +3890,6 @@
     <message>
         <source>Leave out the repetitions that should not count, or track the recording again with “carpus track”.</source>
         <translation>Lassen Sie Wiederholungen aus, die nicht zählen sollen, oder verfolgen Sie die Aufnahme neu mit „carpus track“.</translation>
-    </message>
-    <message>
-        <source>Look at the disk or the network. If it stays silent, the recording goes on on this computer.</source>
-        <translation type="vanished">Sehen Sie nach dem Datenträger oder dem Netz. Bleibt er stumm, läuft die Aufnahme auf diesem Computer weiter.</translation>
     </message>
     <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
@@ -4006,10 +3986,6 @@
     <message>
         <source>NumPy alone, which takes twice the time</source>
         <translation>NumPy allein, was doppelt so lange dauert</translation>
-    </message>
-    <message>
-        <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
-        <translation type="vanished">Antwortet der Datenträger wieder, starten Sie Carpus neu: Es schließt die Aufnahme ab.</translation>
     </message>
     <message>
         <source>OpenNI2</source>
@@ -4324,10 +4300,6 @@
         <translation>Der Datenträger ist zu langsam, darum endete die Aufnahme: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The disk of {subject} has not answered for {detail}.</source>
-        <translation type="vanished">Der Datenträger antwortet nicht: {subject} (seit {detail}).</translation>
-    </message>
-    <message>
         <source>The driver of the camera has stopped: {subject} ({detail}).</source>
         <translation>Der Treiber der Kamera ist stehen geblieben: {subject} ({detail}).</translation>
     </message>
@@ -4350,14 +4322,6 @@
     <message>
         <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
         <translation>Das erste Bild der Aufnahme ist nicht zu gebrauchen: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The folder of the recording is gone: {subject} ({detail}).</source>
-        <translation type="vanished">Der Ordner der Aufnahme ist weg: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The folder of the sessions is gone; the recording goes on in {subject} ({detail}).</source>
-        <translation type="vanished">Der Ordner der Sitzungen ist weg; die Aufnahme läuft hier weiter: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
@@ -4434,14 +4398,6 @@
     <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
         <translation>Die Aufnahme ist nicht lesbar: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The recording could not be ended: the disk of {subject} does not answer.</source>
-        <translation type="vanished">Die Aufnahme ließ sich nicht beenden, der Datenträger antwortet nicht: {subject}.</translation>
-    </message>
-    <message>
-        <source>The recording goes on; what came since waits in memory.</source>
-        <translation type="vanished">Die Aufnahme läuft weiter; was seitdem kam, wartet im Speicher.</translation>
     </message>
     <message>
         <source>The recording has no usable depth: {subject} ({detail}).</source>
@@ -4640,10 +4596,6 @@
         <translation>Was vorher gespeichert wurde, ist sicher.</translation>
     </message>
     <message>
-        <source>What was stored before it went is there when it comes back.</source>
-        <translation type="vanished">Was vorher gespeichert wurde, ist da, wenn er wiederkommt.</translation>
-    </message>
-    <message>
         <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
         <translation>Wer diesen Computer betreut, installiert Carpus neu, mit allen Teilen.</translation>
     </message>
@@ -4838,10 +4790,6 @@
     <message>
         <source>damaged: {value}</source>
         <translation>beschädigt: {value}</translation>
-    </message>
-    <message>
-        <source>damaged: {what}</source>
-        <translation type="vanished">beschädigt: {what}</translation>
     </message>
     <message>
         <source>damaged: {what} is beyond all measure</source>
@@ -5348,10 +5296,6 @@
         <translation>die Datei ändert sich, während sie gelesen wird</translation>
     </message>
     <message>
-        <source>the first {stored} rows stay in {lost_folder}</source>
-        <translation type="vanished">die ersten {stored} Zeilen bleiben in {lost_folder}</translation>
-    </message>
-    <message>
         <source>the focal length is known to {share} % only</source>
         <translation>die Brennweite ist nur auf {share} % bekannt</translation>
     </message>
@@ -5618,10 +5562,6 @@
     <message>
         <source>{path} is {dtype} {shape}, {dtype2} {expected} expected</source>
         <translation>{path} ist {dtype} {shape}, erwartet ist {dtype2} {expected}</translation>
-    </message>
-    <message>
-        <source>{place} is packed, which a session is not</source>
-        <translation type="vanished">{place} ist gepackt, eine Sitzung ist das nicht</translation>
     </message>
     <message>
         <source>{place} keeps its values in another file</source>

@@ -3528,10 +3528,6 @@
         <translation>Un’immagine della registrazione non si può usare: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>A session that was recorded while the folder of the sessions was away is there now: {subject}.</source>
-        <translation type="vanished">Una seduta registrata mentre mancava la cartella delle sedute ora è al suo posto: {subject}.</translation>
-    </message>
-    <message>
         <source>A setting cannot be used: {subject} ({detail}).</source>
         <translation>Un’impostazione non si può usare: {subject} ({detail}).</translation>
     </message>
@@ -3720,10 +3716,6 @@
         <translation>Confronti il registro con quello di una copia di sicurezza.</translation>
     </message>
     <message>
-        <source>Connect the disk or the network again, or choose another folder.</source>
-        <translation type="vanished">Ricollegare il disco o la rete, o scegliere un’altra cartella.</translation>
-    </message>
-    <message>
         <source>Copy the recording again from where it was made, or correct the list.</source>
         <translation>Copiare di nuovo la registrazione dall’originale, o correggere l’elenco.</translation>
     </message>
@@ -3788,10 +3780,6 @@
         <translation>Tutto ciò che è stato salvato fino a quel momento è al sicuro.</translation>
     </message>
     <message>
-        <source>Everything that was recorded is stored there.</source>
-        <translation type="vanished">Tutto ciò che è stato registrato è salvato lì.</translation>
-    </message>
-    <message>
         <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
         <translation>Concluderla con “carpus recover”, o attendere la fine della registrazione.</translation>
     </message>
@@ -3826,10 +3814,6 @@
     <message>
         <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
         <translation>Incollare la tavola su qualcosa di rigido e piano, illuminarla e tenerla ferma.</translation>
-    </message>
-    <message>
-        <source>Go on; connect the disk or the network again later, and Carpus brings the session home when it starts.</source>
-        <translation type="vanished">Continuare; ricollegare più tardi il disco o la rete, e all’avvio Carpus riporta la seduta al suo posto.</translation>
     </message>
     <message>
         <source>Go on; the pause is marked in the session.</source>
@@ -3902,10 +3886,6 @@
     <message>
         <source>Leave out the repetitions that should not count, or track the recording again with “carpus track”.</source>
         <translation>Escludere le ripetizioni che non devono contare, o rifare il tracciamento con “carpus track”.</translation>
-    </message>
-    <message>
-        <source>Look at the disk or the network. If it stays silent, the recording goes on on this computer.</source>
-        <translation type="vanished">Guardare il disco o la rete. Se non risponde, la registrazione prosegue su questo computer.</translation>
     </message>
     <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
@@ -4002,10 +3982,6 @@
     <message>
         <source>NumPy alone, which takes twice the time</source>
         <translation>solo NumPy, che impiega il doppio del tempo</translation>
-    </message>
-    <message>
-        <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
-        <translation type="vanished">Quando il disco risponde, riavviare Carpus: conclude la registrazione.</translation>
     </message>
     <message>
         <source>OpenNI2</source>
@@ -4312,10 +4288,6 @@
         <translation>Il disco è troppo lento per la registrazione, che si è conclusa: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The disk of {subject} has not answered for {detail}.</source>
-        <translation type="vanished">Il disco di {subject} non risponde da {detail}.</translation>
-    </message>
-    <message>
         <source>The driver of the camera has stopped: {subject} ({detail}).</source>
         <translation>Il driver della telecamera si è fermato: {subject} ({detail}).</translation>
     </message>
@@ -4338,14 +4310,6 @@
     <message>
         <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
         <translation>La prima immagine della registrazione non è utilizzabile: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The folder of the recording is gone: {subject} ({detail}).</source>
-        <translation type="vanished">La cartella della registrazione non c’è più: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The folder of the sessions is gone; the recording goes on in {subject} ({detail}).</source>
-        <translation type="vanished">La cartella delle sedute non c’è più; la registrazione prosegue in {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
@@ -4422,14 +4386,6 @@
     <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
         <translation>La registrazione non si può leggere: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The recording could not be ended: the disk of {subject} does not answer.</source>
-        <translation type="vanished">La registrazione non si è potuta concludere: il disco di {subject} non risponde.</translation>
-    </message>
-    <message>
-        <source>The recording goes on; what came since waits in memory.</source>
-        <translation type="vanished">La registrazione prosegue; ciò che è arrivato da allora attende in memoria.</translation>
     </message>
     <message>
         <source>The recording has no usable depth: {subject} ({detail}).</source>
@@ -4628,10 +4584,6 @@
         <translation>Ciò che era già salvato è al sicuro.</translation>
     </message>
     <message>
-        <source>What was stored before it went is there when it comes back.</source>
-        <translation type="vanished">Ciò che era stato salvato prima si ritrova quando la cartella torna.</translation>
-    </message>
-    <message>
         <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
         <translation>Chi si occupa di questo computer reinstalla Carpus, con tutte le sue parti.</translation>
     </message>
@@ -4826,10 +4778,6 @@
     <message>
         <source>damaged: {value}</source>
         <translation>danneggiato: {value}</translation>
-    </message>
-    <message>
-        <source>damaged: {what}</source>
-        <translation type="vanished">danneggiato: {what}</translation>
     </message>
     <message>
         <source>damaged: {what} is beyond all measure</source>
@@ -5336,10 +5284,6 @@
         <translation>il file cambia mentre viene letto</translation>
     </message>
     <message>
-        <source>the first {stored} rows stay in {lost_folder}</source>
-        <translation type="vanished">le prime {stored} righe restano in {lost_folder}</translation>
-    </message>
-    <message>
         <source>the focal length is known to {share} % only</source>
         <translation>la distanza focale è nota solo al {share} %</translation>
     </message>
@@ -5606,10 +5550,6 @@
     <message>
         <source>{path} is {dtype} {shape}, {dtype2} {expected} expected</source>
         <translation>{path} è {dtype} {shape}, atteso {dtype2} {expected}</translation>
-    </message>
-    <message>
-        <source>{place} is packed, which a session is not</source>
-        <translation type="vanished">{place} è compresso, cosa che una seduta non è</translation>
     </message>
     <message>
         <source>{place} keeps its values in another file</source>

@@ -18,7 +18,8 @@ Axes: {{axes}}.
 While a session runs, what is measured goes to a recording journal on the computer's own disk \
 (`core/session/journal.py`), synchronised twice a second. The file is made from it at the end, under a hidden name \
 (`.NAME.h5.xxxxxxxx.tmp`), read back, sealed and renamed. `carpus recover FOLDER` does the same for what was cut \
-short; the attribute `{schema.RECOVERED}` then says when. It also finishes the part files (`NAME.h5.xxxxxxxx.part`) of Carpus 0.2.0.
+short; the attribute `{schema.RECOVERED}` then says when. It also finishes the part files \
+(`NAME.h5.xxxxxxxx.part`) of Carpus 0.2.0.
 
 Datasets that have a row for each frame, blob or event are packed (gzip and shuffle, which any HDF5 library unpacks). \
 Every chunk has a Fletcher32 check sum, which any HDF5 library checks when it reads. A finished session has the \
