@@ -63,7 +63,5 @@ def run(arguments: argparse.Namespace) -> int:
     except CarpusFault as fault:  # of a folder that can only be read: the back-up is made all the same
         tell(fault)
     print(f"{made.name}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, read back and compared: all equal.")
-    if made.running:
-        print(f"Not in it: {made.running} recordings that are running.")
     thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
     return 0

@@ -37,7 +37,7 @@ from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.reserve import RESERVE_FILE
 from carpus.core.records.session_list import COPY_SUFFIX
 from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
-from carpus.core.session.disk import TEMPORARY, free_name, is_being_written
+from carpus.core.session.disk import TEMPORARY, free_name
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
@@ -63,7 +63,7 @@ class Kept:
 
 @dataclass(frozen=True, slots=True)
 class Backup:
-    """One back-up. ``sessions`` counts session files, ``running`` how many recordings ran and are not in it,
+    """One back-up. ``sessions`` counts session files,
     ``lacking`` what should be in it and could not be read; ``data_folder`` whose it is, empty where that is not
     known."""
 
@@ -72,7 +72,6 @@ class Backup:
     files: tuple[Kept, ...]
     sessions: int
     size_bytes: int
-    running: int
     lacking: int
     software_version: str
     data_folder: str
@@ -81,11 +80,10 @@ class Backup:
 @dataclass(frozen=True, slots=True)
 class BackupSources:
     """What a back-up is made of: ``snapshot`` of the store, empty for none; path in the back-up, file and size of all
-    else; how many recordings run; names of what is missing or cannot be read."""
+    else; names of what is missing or cannot be read."""
 
     snapshot: bytes
     files: tuple[tuple[str, Path, int], ...]
-    running: int
     lacking: tuple[str, ...]
 
     @property
@@ -153,7 +151,7 @@ def _back_up(
     name = free_name(place / BACKUPS / f"{when:%Y-%m-%dT%H%M%S}.json").stem  # two of one second are two all the same
     made = Backup(
         name, when, tuple(files), sum(one.path.endswith(".h5") for one in files), sum(one.size for one in files),
-        sources.running, len(lacking), software_version, str(data_folder.absolute()),
+        len(lacking), software_version, str(data_folder.absolute()),
     )  # fmt: skip
     replace_text(place / BACKUPS / f"{made.name}.json", json.dumps(told(made), indent=1))
     if lacking:
@@ -173,13 +171,8 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
     there = dict(walk_files(data_folder, place, lacking))
     if sessions is not None and sessions != data_folder / SESSIONS_FOLDER:
         there |= walk_files(sessions, place, lacking, SESSIONS_PREFIX)
-    parts = [path for name, path in there.items() if name.endswith(".part")]
-    busy = {path for path in parts if _is_written(path)}
-    stems = {path.name.split(".")[0] for path in busy}
     files = [
-        (name, path)
-        for name, path in sorted(there.items())
-        if not name.endswith(LEFT_OUT) and name != STORE_FILE and path.name.split(".")[0] not in stems
+        (name, path) for name, path in sorted(there.items()) if not (name.endswith(LEFT_OUT) or name == STORE_FILE)
     ]
     lacking += sorted(f"{SESSIONS_PREFIX}{one}" for one in wanted if f"{SESSIONS_PREFIX}{one}" not in there)
     for path in sorted(settings_folder.glob("*.toml")) if settings_folder else ():
@@ -188,7 +181,7 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
     for name, path in files:
         with contextlib.suppress(FileNotFoundError):
             sized.append((name, path, path.stat().st_size))
-    return BackupSources(snapshot, tuple(sized), len(busy), tuple(lacking))
+    return BackupSources(snapshot, tuple(sized), tuple(lacking))
 
 
 def backups(place: Path) -> list[Backup]:
@@ -228,8 +221,8 @@ def parsed(name: str, text: str) -> Backup:
     if made.tzinfo is None or not 2000 <= made.year < 9000 or len({one.path for one in files}) != len(files):
         raise ValueError("no such back-up was made")
     return Backup(
-        name, made, files, _count(said["sessions"]), _count(said["size_bytes"]), _count(said["running"]),
-        _count(said["lacking"]), str(said["software_version"]),
+        name, made, files, _count(said["sessions"]), _count(said["size_bytes"]), _count(said["lacking"]),
+        str(said["software_version"]),
         str(said.get("data_folder", "")),
     )  # fmt: skip
 
@@ -293,7 +286,7 @@ def told(made: Backup) -> dict[str, Any]:
         "data_folder": made.data_folder,
         "sessions": made.sessions,
         "size_bytes": made.size_bytes,
-        "running": made.running,
+        "running": 0,  # Carpus 0.2.0 asks for it
         "lacking": made.lacking,
         "files": [[one.path, one.sha256, one.size, one.changed_ns] for one in made.files],
     }
@@ -337,13 +330,6 @@ def walk_files(folder: Path, place: Path | None, lacking: list[str], prefix: str
                 yield path, Path(entry.path)
             elif entry.is_symlink():
                 lacking.append(path)
-
-
-def _is_written(part: Path) -> bool:
-    try:
-        return is_being_written(part)
-    except OSError:
-        return True
 
 
 def _of_store(path: Path) -> tuple[bytes, list[str]]:

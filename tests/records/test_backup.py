@@ -46,7 +46,6 @@ from carpus.core.records.patients import Patients
 from carpus.core.records.restoring import Past, is_restored, plan_restore, put_in_place, read_past, restore
 from carpus.core.records.store import Store
 from tests.records.samples import HERON, LINDEN, NAMES, T0, measure, opened, traces
-from tests.session.samples import begun
 
 NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
 
@@ -153,7 +152,7 @@ def test_everything_is_restored_on_another_computer(data: Path, place: Path, tmp
     with opened(data) as house:  # it runs
         made = backed_up(data, place, settings_folder=settings)
         first = [entry.session_id for entry in house.index.of_patient(house.patients.listed()[0].patient_id)]
-    assert (made.sessions, made.running) == (2, 0)
+    assert made.sessions == 2
     new, new_settings = tmp_path / "new" / "carpus", tmp_path / "new settings"
     new_settings.mkdir()
     (new_settings / "lab.toml").write_text("x = 2")
@@ -182,15 +181,6 @@ def test_a_restore_that_fails_leaves_no_settings(data: Path, place: Path, tmp_pa
     with pytest.raises(BackupUnequal):
         restored(place, made, tmp_path / "new", tmp_path / "new settings")
     assert list((tmp_path / "new settings").iterdir()) == []
-
-
-def test_a_running_recording_is_left_out_and_said(data: Path, place: Path) -> None:
-    path = data / "sessions" / "running.h5"
-    with begun(path, rows=1):
-        (path.with_suffix(".carpusraw")).write_bytes(b"growing")
-        made = backed_up(data, place)
-        assert made.running == 1
-        assert not [one.path for one in made.files if "running" in one.path]
 
 
 def test_the_same_content_is_stored_once(data: Path, place: Path) -> None:
@@ -350,7 +340,7 @@ def test_a_newer_or_foreign_list_is_refused(data: Path, place: Path) -> None:
         {"files": [["a", "../../../etc/passwd", 1, 1]]},
         {"made": "yesterday"},
         {"made": "2026-11-20T18:00:00"},
-        {"running": 1e999},
+        {"lacking": 1e999},
         {"made": "9999-12-31T23:59:59-23:59"},
         {"sessions": True},
         {"files": [["a", "0" * 64, -1, 1]]},
@@ -369,12 +359,12 @@ def test_when_a_person_is_reminded() -> None:
     assert is_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
 
 
-@pytest.mark.parametrize("text", ['{"running": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
+@pytest.mark.parametrize("text", ['{"lacking": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
 def test_one_damaged_entry_harms_no_other(data: Path, place: Path, tmp_path: Path, text: str) -> None:
     first = backed_up(data, place)
     path = place / BACKUPS / f"{first.name}.json"
-    said = json.dumps(json.loads(path.read_text()) | {"running": 0}).replace('"running": 0', '"running": 1e999')
-    bad = said if "running" in text else text
+    said = json.dumps(json.loads(path.read_text()) | {"lacking": 0}).replace('"lacking": 0', '"lacking": 1e999')
+    bad = said if "lacking" in text else text
     (place / BACKUPS / "2026-11-20T180001.json").write_bytes(bad.encode("utf-8", "surrogateescape"))
     assert backups(place) == [first]
     second = backed_up(data, place, NOW + timedelta(days=1))
