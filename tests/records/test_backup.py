@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import itertools
 import json
 import os
@@ -9,7 +10,7 @@ import shutil
 import sqlite3
 import uuid
 from datetime import UTC, datetime, timedelta
-from functools import partial, partialmethod
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from carpus.core.errors import (
     BackupPlaceUnsuited,
     BackupUnequal,
     BackupUnreadable,
+    DiskFull,
     NoDataFolder,
     OutputBusy,
     OutputExists,
@@ -28,7 +30,7 @@ from carpus.core.errors import (
     RegisterUnreadable,
 )
 from carpus.core.records import backup as module
-from carpus.core.records import erasure, restoring
+from carpus.core.records import erasure
 from carpus.core.records.backup import (
     BACKUPS,
     OBJECTS,
@@ -480,42 +482,74 @@ def test_a_file_that_cannot_be_read_is_told_and_the_rest_is_in_it(
     assert backups(place)[0].sessions == 2
 
 
-def test_a_restore_that_was_killed_loses_nothing_and_leaves_nothing(
-    data: Path, place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+class Trouble:
+    """At one step that changes a name or a file of the disk: a kill, which tidies nothing up, or a full disk."""
+
+    def __init__(self, number: int, kind: str, patched: pytest.MonkeyPatch) -> None:
+        self._left, self._kind, self._rmtree = number, kind, shutil.rmtree
+        self.is_met = False
+        for name in ("rename", "replace"):
+            named = partial(self._step, getattr(Path, name))
+            patched.setattr(Path, name, lambda path, *told, named=named: named(path, *told))
+        patched.setattr(os, "fsync", partial(self._step, os.fsync))
+        patched.setattr(shutil, "rmtree", self._tidied)
+
+    def _step(self, real: Any, *told: Any) -> Any:
+        self._left -= 1
+        if self._left == -1:
+            self.is_met = True
+            raise KeyboardInterrupt if self._kind == "killed" else OSError(errno.ENOSPC, "No space left on device")
+        return real(*told)
+
+    def _tidied(self, *told: Any, **named: Any) -> None:
+        if not self.is_met or self._kind == "full":
+            self._rmtree(*told, **named)
+
+
+@pytest.mark.parametrize("kind", ["killed", "full"])
+def test_a_back_up_that_fails_at_any_step_costs_no_other(
+    kind: str, data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Before each step that changes a name or a file of the disk."""
+    backed_up(data, place)
+    for number in itertools.count():
+        (data / "set_ups.json").write_text(f"{number}")
+        with monkeypatch.context() as patched:
+            trouble = Trouble(number, kind, patched)
+            try:
+                backed_up(data, place, NOW + timedelta(minutes=number))
+            except KeyboardInterrupt:
+                assert kind == "killed"
+            except DiskFull:
+                assert kind == "full"
+        for one in backups(place):
+            compare(place, one)
+        if not trouble.is_met:
+            break
+    assert number > 5
+    assert backups(place)[0].made == NOW + timedelta(minutes=number), "and the next one is whole"
+    thin_out(place, 99, 99, NOW + timedelta(days=1))
+    assert not [path for path in place.rglob(".*") if path.name != module.PLACE_LOCK]
+
+
+@pytest.mark.parametrize("kind", ["killed", "full"])
+def test_a_restore_that_fails_at_any_step_loses_nothing_and_leaves_nothing(
+    kind: str, data: Path, place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     made, before = backed_up(data, place), contents(data)
     (data / "set_ups.json").write_text("since")
-    deaths: list[int] = []
     for number in itertools.count():
-        steps = itertools.count()
-
-        def step(real: Any, *told: Any, **named: Any) -> Any:
-            if next(steps) == number:  # noqa: B023
-                deaths.append(number)  # noqa: B023
-                raise KeyboardInterrupt
-            return real(*told, **named)
-
-        def renamed(path: Path, *told: Any, real: Any) -> Any:
-            return step(real, path, *told)
-
-        def tidied(*told: Any, real: Any = shutil.rmtree, **named: Any) -> None:
-            if number not in deaths:  # noqa: B023  # who was killed tidies nothing up
-                real(*told, **named)
-
-        with monkeypatch.context() as killed:
-            for name in ("rename", "replace"):
-                killed.setattr(Path, name, partialmethod(renamed, real=getattr(Path, name)))
-            killed.setattr(restoring, "_fetch", partial(step, restoring._fetch))
-            killed.setattr(os, "fsync", partial(step, os.fsync))
-            killed.setattr(shutil, "rmtree", tidied)
+        with monkeypatch.context() as patched:
+            trouble = Trouble(number, kind, patched)
             try:
                 restore(made, place, data, Past(), replaces=True)
                 put_in_place(data, NOW)
             except KeyboardInterrupt:
-                pass
-            else:
-                break
+                assert kind == "killed"
+            except DiskFull:
+                assert kind == "full"
+                assert not list(tmp_path.glob(".*restoring")), "nothing half is left"
+        if not trouble.is_met:
+            break
         if is_restored(data):  # as at the next start
             put_in_place(data, NOW)
         asides = list(tmp_path.glob("data.before-restore-*"))
@@ -524,7 +558,7 @@ def test_a_restore_that_was_killed_loses_nothing_and_leaves_nothing(
             shutil.rmtree(data)
             aside.rename(data)
         assert (data / "set_ups.json").read_text() == "since", "what was there is kept"
-    assert number >= 20
+    assert number > 10
     assert contents(data) == before
     assert len(list(tmp_path.iterdir())) == 3, "what killed ones left is gone"
 

@@ -104,7 +104,7 @@ SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     RecordsSheet: _opened(RecordsSheet, "Done", "Archive", "", [ListedRecord("a", "Heron 17", "1 session", True)]),
     LogSheet: _opened(LogSheet, "Done", []),
     LockSheet: _opened(LockSheet, "Unlock", "", stored=True),
-    PinSheet: _opened(PinSheet, "Keep this PIN", is_set=True),
+    PinSheet: _opened(PinSheet, "Set PIN", is_set=True),
     HomeSheet: _home,
     LetterSheet: _opened(LetterSheet, "Show the letter", ["Dr A"], has_name=True),
     RetestSheet: _opened(RetestSheet, "Leave it as it is", retest_studies(), 0, date(2026, 11, 27)),
