@@ -37,6 +37,7 @@ validation: setup-test          ## resources/validation.md: accuracy, agreement,
 
 torture: setup-test             ## kills, damaged files, bad disks: what is lost and let in (an hour or two)
 	$(PY) -m tests.torture
+	$(PY) -m tests.torture.spreadsheets
 
 screenshots: setup-test         ## every screen, light and dark, into out/screenshots
 	$(PY) -m tests.screenshots

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 
 from carpus.core.capture.devices.cameras import CAMERAS, check_address
 from carpus.core.errors import CameraUnknown
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
 from carpus.core.names import known_names, nearest
 
 if TYPE_CHECKING:
@@ -143,6 +144,29 @@ class CommandParser(argparse.ArgumentParser):
         meant = nearest(word.partition("=")[0], self._option_string_actions) if word.startswith("-") else None
         also = f"; did you mean “{meant}”?" if meant else ""
         self.error(f"nothing here is called “{word}”{also}")
+
+
+def table_form(text: str) -> TableForm:
+    """The form of tables of a region; a region that there is not is wrong usage."""
+    from carpus.ui.saved_table import form_of
+
+    try:
+        return form_of(text)
+    except ValueError as cause:
+        raise argparse.ArgumentTypeError(str(cause)) from cause
+
+
+def add_region(parser: argparse.ArgumentParser) -> None:
+    """The option in whose form tables are written."""
+    parser.add_argument(
+        "--region",
+        type=table_form,
+        dest="form",
+        default=FOR_PROGRAMS,
+        metavar="REGION",
+        help="tables for a spreadsheet of this region, as de_DE, it_IT or en_GB: its separator and decimal sign, UTF-8 "
+        "with a mark; else for programs, with comma and point",
+    )
 
 
 def number(low: float = -math.inf, high: float = math.inf, unit: str = "") -> Callable[[str], float]:

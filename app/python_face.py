@@ -31,6 +31,7 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
 from carpus.core.formats.csv_tables import repetition_table, tables
 from carpus.core.formats.formats import FORMATS, Exported, Wanted, export_sessions
+from carpus.core.formats.new_output import FOR_PROGRAMS
 from carpus.core.formats.provenance import provenance
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import SITES, protocol_named
@@ -430,11 +431,13 @@ def export(
     formats: str | Sequence[str] = ("csv",),
     *,
     deidentified: bool = False,
+    region: str | None = None,
 ) -> Exported:
     """Write sessions as csv, json, c3d, trc, mot, bids or h5 into a folder, in which nothing is overwritten.
 
-    What could not be written stands in ``refused`` of the answer. Of sessions of a data folder it
-    stands in the log there. Raises ``SettingsInvalid`` for an unknown format, no format or no session.
+    Tables (csv) are for programs; with a ``region`` (``de_DE``) for a spreadsheet there: its separator and decimal
+    sign, UTF-8 with a mark. What could not be written stands in ``refused`` of the answer. Of sessions of a data folder
+    it stands in the log there. Raises ``SettingsInvalid`` for an unknown format or region, no format or no session.
     """
     where = "carpus.export"
     _check(where, "deidentified", deidentified, bool)
@@ -443,7 +446,13 @@ def export(
     into, chosen = _path(where, "folder", folder), _listed(where, "formats", formats)
     for name in chosen:
         _check(where, "formats", name, Literal[*FORMATS])
-    done = export_sessions(wanted, into, chosen, software_version=__version__, deidentified=deidentified)
+    from carpus.ui.saved_table import form_of  # Qt, which nothing else here loads
+
+    try:
+        form = FOR_PROGRAMS if region is None else form_of(region)
+    except ValueError as cause:
+        raise SettingsInvalid(where, str(cause)) from cause
+    done = export_sessions(wanted, into, chosen, software_version=__version__, deidentified=deidentified, form=form)
     note_exported(done, deidentified=deidentified)
     return done
 

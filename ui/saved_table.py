@@ -1,23 +1,45 @@
-"""A table that a person saves where they were asked, as comma-separated values for a spreadsheet."""
+"""A table that a person saves where they were asked, for a spreadsheet in the form of their region."""
 
 from __future__ import annotations
 
-import csv
 import io
 from collections.abc import Iterable, Sequence
 from itertools import count
 from pathlib import Path
 
-from carpus.core.formats.new_output import new_bytes, plain_cell
+from PySide6.QtCore import QLocale
+
+from carpus.core.formats.new_output import TableForm, new_bytes, write_rows
+from carpus.ui import language
+
+OFFERED = ("en_GB", "en_US", "de_DE", "de_AT", "de_CH", "it_IT", "it_CH")
+"""Regions that a sheet offers beside the person's own."""
 
 
-def table_text(head: Sequence[str], rows: Iterable[Iterable[object]]) -> str:
-    """All of it; no cell is calculated by a spreadsheet that opens it."""
+def form_of(region: str) -> TableForm:
+    """The form in which spreadsheets of a region (``de_DE``) read a table. Raises ValueError where there is none of
+    that name."""
+    locale = QLocale(region.replace("-", "_"))
+    asked = region.replace("-", "_").split("_")
+    if locale.language() == QLocale.Language.C or not set(asked) <= set(locale.name().split("_")):
+        raise ValueError(f"no region is called “{region}”; names are as de_DE, it_IT, en_GB")
+    decimal = "," if locale.decimalPoint() == "," else "."
+    # Spreadsheets of Switzerland part cells by a semicolon, with a decimal point.
+    is_swiss = locale.territory() in (QLocale.Country.Switzerland, QLocale.Country.Liechtenstein)
+    return TableForm(";" if decimal == "," or is_swiss else ",", decimal, has_mark=True)
+
+
+def own_region() -> str:
+    """The person's, by the computer's formats; by the language where the computer has none."""
+    system = QLocale.system()
+    return (language.locale() if system.language() == QLocale.Language.C else system).name()
+
+
+def table_bytes(head: Sequence[str], rows: Iterable[Iterable[object]]) -> bytes:
+    """All of it in the form of the person's region; no cell is calculated by a spreadsheet that opens it."""
     text = io.StringIO()
-    table = csv.writer(text)
-    table.writerow(head)
-    table.writerows([plain_cell(str(cell)) for cell in row] for row in rows)
-    return text.getvalue()
+    write_rows(text, head, (map(str, row) for row in rows), form_of(own_region()))
+    return text.getvalue().encode("utf-8-sig")
 
 
 def save_private(path: Path, content: bytes) -> None:
@@ -29,7 +51,7 @@ def save_private(path: Path, content: bytes) -> None:
 
 def save_table(path: Path, head: Sequence[str], rows: Iterable[Iterable[object]]) -> None:
     """Write a table; as :func:`save_private`."""
-    save_private(path, table_text(head, rows).encode("utf-8"))
+    save_private(path, table_bytes(head, rows))
 
 
 def named_beside(path: Path, ending: str, *, replaces: bool) -> Path:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.command_line import bar, tell
+from carpus.app.command_line import add_region, bar, tell
 from carpus.app.of_file import note_exported
 from carpus.core.errors import SessionsMissing
 from carpus.core.formats.formats import FORMATS
@@ -36,6 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="; ".join(f"{name}: {kind.words}" for name, kind in FORMATS.items()) + f"; {ALL} of them",
     )
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="files in it are not overwritten")
+    add_region(parser)
     parser.add_argument(
         "--deidentified",
         action="store_true",
@@ -55,6 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
             arguments.format,
             software_version=__version__,
             deidentified=arguments.deidentified,
+            form=arguments.form,
             progress=progress,
         )
     for refused in done.refused:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus import __version__
-from carpus.app.command_line import misused, tell
+from carpus.app.command_line import add_region, misused, tell
 from carpus.core.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.measures.change import ErrorLimits
 from carpus.core.names import folded, known_names
@@ -41,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help=".csv or .parquet: the table; .pdf: the progress report; may be given more than once; else CSV on stdout",
     )
+    add_region(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -74,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
             )  # fmt: skip
             del application
         else:
-            write_measures(rows, path)
+            write_measures(rows, path, arguments.form)
         print(f"Written: {path}")
     if not arguments.output:
         table = csv.writer(sys.stdout, lineterminator="\n")

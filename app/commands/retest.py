@@ -10,7 +10,7 @@ from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import tell
+from carpus.app.command_line import add_region, tell
 from carpus.app.of_file import read_figures
 from carpus.core.errors import ReferenceUnreadable, StudyUnsuited
 
@@ -46,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="put the limits into force in progress and reports of the data folder, with today's date",
     )
+    add_region(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -78,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
                 f"{f.step:12.2f}   {own}"
             )
     if arguments.output is not None:
-        print(f"Written: {write_study(found, arguments.output)}")
+        print(f"Written: {write_study(found, arguments.output, arguments.form)}")
     usable = [one for one in found if one.is_usable]
     if not any(one.people > 1 for one in found):
         raise StudyUnsuited(arguments.sessions[0], "nobody was measured twice, or fewer than two people were")

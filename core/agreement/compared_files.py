@@ -14,7 +14,7 @@ import numpy as np
 from carpus.core.agreement.compare import MOST_SHIFT_S, Compared, Pairs, compare
 from carpus.core.agreement.reference import read_reference
 from carpus.core.agreement.statistics import FEWEST, FEWEST_TO_JUDGE, Agreement, furthest, judged
-from carpus.core.formats.new_output import new_json, new_table
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, new_json, new_table
 from carpus.core.formats.provenance import provenance
 from carpus.core.formats.take import number
 from carpus.core.provenance import sha256_of_file
@@ -64,11 +64,11 @@ def compare_files(
     return Result(compared, session, reference_path)
 
 
-def write_files(result: Result, folder: Path, software_version: str) -> list[Path]:
+def write_files(result: Result, folder: Path, software_version: str, form: TableForm = FOR_PROGRAMS) -> list[Path]:
     """Write the tables into a folder; the files. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
     said = provenance(result.session, software_version)
     said["reference"] = {"file": result.reference.name, "sha256": sha256_of_file(result.reference)}
-    return write_tables(result.compared, folder, result.stem, said, result.reference.name)
+    return write_tables(result.compared, folder, result.stem, said, result.reference.name, form)
 
 
 HEAD = (
@@ -125,7 +125,12 @@ def content(compared: Compared, provenance: Mapping[str, Any], reference: str) -
 
 
 def write_tables(
-    compared: Compared, folder: Path, stem: str, provenance: Mapping[str, Any], reference: str
+    compared: Compared,
+    folder: Path,
+    stem: str,
+    provenance: Mapping[str, Any],
+    reference: str,
+    form: TableForm = FOR_PROGRAMS,
 ) -> list[Path]:
     """Write ``STEM.agreement.csv``, ``.json`` and the pairs as ``STEM.pairs.csv``; the files."""
     rows = (
@@ -138,9 +143,9 @@ def write_tables(
         for t, a, b in zip(one.time_s, np.degrees(one.measured_rad), np.degrees(one.reference_rad), strict=True)
     )
     return [
-        new_table(folder / f"{stem}.agreement.csv", (*HEAD, "remarks"), rows),
+        new_table(folder / f"{stem}.agreement.csv", (*HEAD, "remarks"), rows, form),
         new_json(folder / f"{stem}.agreement.json", content(compared, provenance, reference)),
-        new_table(folder / f"{stem}.pairs.csv", ("angle", "time_s", "carpus_deg", "reference_deg"), pairs),
+        new_table(folder / f"{stem}.pairs.csv", ("angle", "time_s", "carpus_deg", "reference_deg"), pairs, form),
     ]
 
 

@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
-from carpus.core.formats.new_output import cell, new_table
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, cell, new_table
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import FEWEST_PEOPLE, MDC95_FACTOR, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures
@@ -211,7 +211,7 @@ HEAD = (
 )  # fmt: skip
 
 
-def write_study(studies: Sequence[StudyFigures], path: Path) -> Path:
+def write_study(studies: Sequence[StudyFigures], path: Path, form: TableForm = FOR_PROGRAMS) -> Path:
     """One line for each figure. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
     rows = []
     for one in studies:
@@ -222,4 +222,4 @@ def write_study(studies: Sequence[StudyFigures], path: Path) -> Path:
             )  # fmt: skip
             counts = (str(f.people), str(f.readings))
             rows.append((one.protocol, one.exercise, of, movement, *counts, *map(cell, values)))
-    return new_table(path, HEAD, rows)
+    return new_table(path, HEAD, rows, form)

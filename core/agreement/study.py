@@ -20,7 +20,7 @@ from carpus.core.agreement.compared_files import HEAD, Result, cell, compare_fil
 from carpus.core.agreement.statistics import Agreement, Between, agreement_of_people, fewest_of_person
 from carpus.core.errors import CarpusFault, ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats import table_read as tables
-from carpus.core.formats.new_output import new_json, new_table
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, new_json, new_table
 from carpus.core.phrase import phrase
 from carpus.core.provenance import sha256_of_file
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -199,7 +199,9 @@ def _few(one: OfPeople) -> list[str]:
     return [str(words) for words in out]
 
 
-def write_study(study: AgreementStudy, folder: Path, software_version: str) -> list[Path]:
+def write_study(
+    study: AgreementStudy, folder: Path, software_version: str, form: TableForm = FOR_PROGRAMS
+) -> list[Path]:
     """Write ``STEM.study.csv`` (first all people, then each session) and ``STEM.study.json``; the files."""
     stem = study.table.stem
     rows = [
@@ -237,7 +239,10 @@ def write_study(study: AgreementStudy, folder: Path, software_version: str) -> l
         ],
         "left_out": [{"person": line.person, "session": line.session.name, "why": why} for line, why in study.left_out],
     }  # fmt: skip
-    return [new_table(folder / f"{stem}.study.csv", STUDY_HEAD, rows), new_json(folder / f"{stem}.study.json", said)]
+    return [
+        new_table(folder / f"{stem}.study.csv", STUDY_HEAD, rows, form),
+        new_json(folder / f"{stem}.study.json", said),
+    ]
 
 
 def study_lines(study: AgreementStudy) -> list[str]:

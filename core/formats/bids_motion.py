@@ -18,7 +18,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.errors import OutputExists
-from carpus.core.formats.new_output import new_json, new_table, new_text
+from carpus.core.formats.new_output import TABS, new_json, new_table, new_text
 from carpus.core.formats.provenance import DAY_NOUGHT
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number, rate_of
 from carpus.core.hand.protocols import WRIST_ANGLES
@@ -71,13 +71,13 @@ def write(take: Take, folder: Path) -> list[Path]:
     digits = [channel.digits for channel in found]
     rows = ([number(v, d) or MISSING for v, d in zip(row, digits, strict=True)] for row in table.tolist())
     out = [
-        new_table(place / f"{stem}_motion.tsv", (), rows, "\t"),
+        new_table(place / f"{stem}_motion.tsv", (), rows, TABS),
         new_json(place / f"{stem}_motion.json", _about(take, found, task)),
         new_table(
             place / f"{stem}_channels.tsv",
             ("name", "component", "type", "tracked_point", "units", "reference_frame", "description"),
             (channel[:7] for channel in found),
-            "\t",
+            TABS,
         ),
         new_json(place / f"{stem}_channels.json", _REFERENCE_FRAMES),
     ]
@@ -92,7 +92,7 @@ def write(take: Take, folder: Path) -> list[Path]:
         [_event_cell(value) for value in event] for event in sorted(events, key=lambda e: (math.isnan(e[0]), e[0]))
     )
     head = ("onset", "duration", "trial_type", "value", "peak", "arc", "counted")
-    out.append(new_table(place / f"{stem}_events.tsv", head, lines, "\t"))
+    out.append(new_table(place / f"{stem}_events.tsv", head, lines, TABS))
     out.append(new_json(place / f"{stem}_events.json", _EVENTS))
     scans = place.parent / f"{subject}_{day}_scans.tsv"
     line = f"motion/{stem}_motion.tsv\t{_moment(take)}\n"
@@ -128,7 +128,7 @@ def complete(folder: Path, written: Sequence[Mapping[str, Any]]) -> list[Path]:
             },
         ),
         new_text(folder / "README", _README),
-        new_table(folder / "participants.tsv", ("participant_id", "pseudonym", "simulated"), rows, "\t"),
+        new_table(folder / "participants.tsv", ("participant_id", "pseudonym", "simulated"), rows, TABS),
         new_json(
             folder / "participants.json",
             {

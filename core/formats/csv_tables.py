@@ -1,5 +1,6 @@
 """CSV: tidy tables with a unit in each column's name, and a page that explains every column.
 
+In the form of a person's region for a spreadsheet, or, with ``.for-programs`` before ``.csv``, the same everywhere:
 ``NAME.wrist.csv`` one row a picture; ``NAME.joints.csv`` one row a picture and joint angle; ``NAME.markers.csv`` one
 row a picture and marker; ``NAME.events.csv``; ``NAME.repetitions.csv``; ``NAME.measures.csv`` one row a figure;
 ``NAME.by-hand.csv`` where somebody measured by hand that day; ``NAME.csv.json``. Every column of an estimate says whose
@@ -16,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.formats.measures_files import HEAD, csv_rows
-from carpus.core.formats.new_output import cell, new_json, new_table
+from carpus.core.formats.new_output import FOR_PROGRAMS, cell, new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import COLUMNS, rows_of
@@ -115,22 +116,25 @@ Table = dict[str, Column]
 def write(take: Take, folder: Path) -> list[Path]:
     """Write the tables; the files written."""
     out = []
+    end = ".for-programs.csv" if take.form == FOR_PROGRAMS else ".csv"
     said = {
         "wrist": WRIST_COLUMNS, "joints": JOINT_COLUMNS, "markers": MARKER_COLUMNS, "events": EVENT_COLUMNS,
         "repetitions": REPETITION_COLUMNS, "measures": MEASURE_COLUMNS,
     }  # fmt: skip
     for name, table in (tables(take.session) | {"repetitions": repetition_table(take.session, take.figures)}).items():
-        out.append(new_table(folder / f"{take.name}.{name}.csv", list(table), _rows(table)))
+        out.append(new_table(folder / f"{take.name}.{name}{end}", list(table), _rows(table), take.form))
     measures = csv_rows(measure_rows(take.figures, take.name))
-    out.append(new_table(folder / f"{take.name}.measures.csv", HEAD, measures))
+    out.append(new_table(folder / f"{take.name}.measures{end}", HEAD, measures, take.form))
     if take.by_hand:
         rows = ([cell(text) for text in row] for row in rows_of(take.by_hand))
-        out.append(new_table(folder / f"{take.name}.by-hand.csv", list(COLUMNS), rows))
+        out.append(new_table(folder / f"{take.name}.by-hand{end}", list(COLUMNS), rows, take.form))
         said["by-hand"] = COLUMNS
     content = {
         "provenance": take.provenance,
         "missing": "empty",
-        "tables": {path.name: said[path.name.split(".")[-2]] for path in out},
+        "separator": take.form.separator,
+        "decimal": take.form.decimal,
+        "tables": {path.name: said[path.name.removesuffix(end).split(".")[-1]] for path in out},
     }
     return [*out, new_json(folder / f"{take.name}.csv.json", content)]
 

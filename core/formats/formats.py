@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 from carpus.core.durable import write_fault
 from carpus.core.errors import CarpusFault
-from carpus.core.formats.new_output import new_text
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, new_text
 from carpus.core.formats.provenance import LEGAL, Deidentification, provenance
 from carpus.core.formats.take import Take
 from carpus.core.measures.by_hand import HandValue, of_session
@@ -34,7 +34,10 @@ class Format(NamedTuple):
 
 
 FORMATS = {
-    "csv": Format("csv_tables", "tables of angles, joints, markers, events and measures"),
+    "csv": Format(
+        "csv_tables",
+        "tables of angles, joints, markers, events and measures",
+    ),
     "json": Format("json_measures", "measures with provenance"),
     "c3d": Format("c3d_write", "markers for motion capture programs"),
     "trc": Format("trc", "markers for OpenSim"),
@@ -118,11 +121,13 @@ def export_sessions(
     *,
     software_version: str,
     deidentified: bool = False,
+    form: TableForm = FOR_PROGRAMS,
     progress: Callable[[int, int], None] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> Exported:
     """Write sessions in formats into a folder. A session that cannot be read or written is told, the others go on.
 
+    ``form`` is that of the tables (CSV).
     ``progress`` hears (done, total) steps, one for each session and format; ``cancelled`` is asked before each. Raises
     :class:`OutputExists` or :class:`OutputNotWritable` for what is known before the first session.
     """
@@ -145,7 +150,7 @@ def export_sessions(
     names: set[str] = set()
     for one in sessions:
         try:
-            take = _take(one, nobody, names, software_version)
+            take = replace(_take(one, nobody, names, software_version), form=form)
             for writer in writers:
                 stopped = stopped or cancelled()
                 if stopped:

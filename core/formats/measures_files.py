@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.errors import ExtraMissing, OutputExists
-from carpus.core.formats.new_output import cell, new_bytes, plain_cell
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, cell, new_bytes, new_table, plain_cell
 from carpus.core.results.measures_table import SessionFigure
 
 PARQUET = ".parquet"
@@ -83,8 +83,10 @@ def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[S
             store()
 
 
-def write_measures(rows: Sequence[SessionFigure], path: Path) -> Path:
-    """Write the whole table, as :func:`measures_file`."""
+def write_measures(rows: Sequence[SessionFigure], path: Path, form: TableForm = FOR_PROGRAMS) -> Path:
+    """Write the whole table, as :func:`measures_file`; ``form`` of a CSV."""
+    if path.suffix.lower() != PARQUET:
+        return new_table(path, HEAD, csv_rows(rows), form)
     with measures_file(path) as take:
         take(rows)
     return path

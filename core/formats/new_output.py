@@ -10,8 +10,9 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, Protocol
 
 from carpus.core.durable import private, write_fault
 from carpus.core.errors import OutputExists, OutputNotWritable
@@ -19,6 +20,12 @@ from carpus.core.errors import OutputExists, OutputNotWritable
 HALF = ".half"
 _CALCULATED = tuple("=+-@\t\r\n")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+
+
+class SupportsWrite(Protocol):
+    """What :mod:`csv` writes to."""
+
+    def write(self, text: str, /) -> int: ...
 
 
 @contextmanager
@@ -70,16 +77,51 @@ def new_json(path: Path, content: Any, *, replaces: bool = False) -> Path:
     return new_text(path, json.dumps(without_nan(content), indent=2, ensure_ascii=False) + "\n", replaces=replaces)
 
 
+@dataclass(frozen=True, slots=True)
+class TableForm:
+    """How a table of texts is written. ``has_mark``: begins with the byte order mark, by which a spreadsheet knows
+    UTF-8."""
+
+    separator: str = ","
+    decimal: str = "."
+    has_mark: bool = False
+
+    def to_cell(self, text: str) -> str:
+        """A cell as a spreadsheet shows it and does not calculate it, numbers with the form's decimal sign.
+
+        >>> TableForm(";", ",").to_cell("-1.5"), TableForm(";", ",").to_cell("=1+2")
+        ('-1,5', "'=1+2")
+        """
+        text = plain_cell(text)
+        return text.replace(".", self.decimal) if self.decimal != "." and _NUMBER.fullmatch(text) else text
+
+
+FOR_PROGRAMS = TableForm()
+"""The same in every country."""
+TABS = TableForm("\t")
+
+
 def new_table(
-    path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], separator: str = ",", *, replaces: bool = False
-) -> Path:
+    path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], form: TableForm = FOR_PROGRAMS, *,
+    replaces: bool = False,
+) -> Path:  # fmt: skip
     """Write a table row by row; ``head`` may be empty. No cell is calculated by a spreadsheet that opens it."""
     with new_bytes(path, replaces=replaces) as file:
-        table = csv.writer(_Encoded(file), delimiter=separator, lineterminator="\n")
-        if head:
-            table.writerow(head)
-        table.writerows([plain_cell(cell) for cell in row] for row in rows)
+        text = _Encoded(file)
+        if form.has_mark:
+            text.write("\ufeff")
+        write_rows(text, head, rows, form)
     return path
+
+
+def write_rows(
+    text: SupportsWrite, head: Sequence[str], rows: Iterable[Iterable[str]], form: TableForm = FOR_PROGRAMS
+) -> None:
+    """Write a table into a text; ``head`` may be empty."""
+    table = csv.writer(text, delimiter=form.separator, lineterminator="\n")
+    if head:
+        table.writerow(head)
+    table.writerows([form.to_cell(cell) for cell in row] for row in rows)
 
 
 def plain_cell(text: str) -> str:

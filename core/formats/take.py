@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from carpus.core.camera import Camera
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.repetition_rows import on_clock
@@ -137,6 +138,8 @@ class Take:
     """What a person measured by hand on the day of the session, of its hand and of the person; never in the figures."""
     recorded_by: Camera | None = None
     """Whose pixels the session's file has; the session's own camera may be a rounded one."""
+    form: TableForm = FOR_PROGRAMS
+    """Of its tables."""
 
     @property
     def even(self) -> EvenTimes:

@@ -20,6 +20,7 @@ from carpus.core.errors import (
     SessionUnreadable,
 )
 from carpus.core.formats.formats import Wanted, export_sessions
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS
@@ -294,6 +295,7 @@ class Library:
         cancelled: Callable[[], bool] = lambda: False,
         deidentified: bool = False,
         software_version: str = "",
+        form: TableForm = FOR_PROGRAMS,
     ) -> Sequence[str]:
         """Write a session as open formats into a folder, as it is listed and with a person's choices; the names of the
         files. Raises what kept it from being written."""
@@ -306,6 +308,7 @@ class Library:
             formats,
             software_version=software_version,
             deidentified=deidentified,
+            form=form,
             progress=progress,
             cancelled=cancelled,
         )

@@ -8041,7 +8041,7 @@
     </message>
     <message>
         <source>Nobody can be found by it: random name, no dates (day 1, 2 …), no notes</source>
-        <translation>Niemand ist daran zu erkennen: Zufallsname, kein Datum (Tag 1, 2 …), keine Notizen</translation>
+        <translation>Anonym: Zufallsname, Tag 1, 2 … statt Datum, keine Notizen</translation>
     </message>
     <message>
         <source>How far the export is</source>
@@ -8061,7 +8061,7 @@
     </message>
     <message>
         <source>&amp;Other formats: settings…</source>
-        <translation>&amp;Weitere Formate: Einstellungen…</translation>
+        <translation>&amp;Weitere Formate…</translation>
     </message>
     <message>
         <source>JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on.</source>
@@ -8070,6 +8070,18 @@
     <message>
         <source>Stop</source>
         <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>programs: 1.5 and a comma, the same everywhere</source>
+        <translation>Programme: 1.5 und ein Komma, überall gleich</translation>
+    </message>
+    <message>
+        <source>&amp;Tables for</source>
+        <translation>&amp;Tabellen für</translation>
+    </message>
+    <message>
+        <source>a spreadsheet in {region}: {example}</source>
+        <translation>eine Tabellenkalkulation in {region}: {example}</translation>
     </message>
 </context>
 <context>

@@ -8041,7 +8041,7 @@
     </message>
     <message>
         <source>Nobody can be found by it: random name, no dates (day 1, 2 …), no notes</source>
-        <translation>Nessuno è riconoscibile: nome casuale, nessuna data (giorno 1, 2 …), nessuna nota</translation>
+        <translation>Anonima: nome casuale, giorno 1, 2 … al posto della data, senza note</translation>
     </message>
     <message>
         <source>How far the export is</source>
@@ -8061,7 +8061,7 @@
     </message>
     <message>
         <source>&amp;Other formats: settings…</source>
-        <translation>&amp;Altri formati: impostazioni…</translation>
+        <translation>&amp;Altri formati…</translation>
     </message>
     <message>
         <source>JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on.</source>
@@ -8070,6 +8070,18 @@
     <message>
         <source>Stop</source>
         <translation>Ferma</translation>
+    </message>
+    <message>
+        <source>programs: 1.5 and a comma, the same everywhere</source>
+        <translation>programmi: 1.5 e una virgola, ovunque uguale</translation>
+    </message>
+    <message>
+        <source>&amp;Tables for</source>
+        <translation>&amp;Tabelle per</translation>
+    </message>
+    <message>
+        <source>a spreadsheet in {region}: {example}</source>
+        <translation>un foglio di calcolo in {region}: {example}</translation>
     </message>
 </context>
 <context>

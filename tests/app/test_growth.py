@@ -70,7 +70,7 @@ if __name__ == "__main__":
     done("export", "s.h5", "--format", "csv,c3d,mot,bids,h5", "--output", "out")
     copy = carpus.open_session("out/s.h5")
     assert np.array_equal(copy.motion.joint_angles_rad, session.motion.joint_angles_rad)
-    table = Path("out/s.joints.csv").read_text(encoding="utf-8")
+    table = Path("out/s.joints.for-programs.csv").read_text(encoding="utf-8")
     assert "PIP5_flexion" in table and "CMC1" not in table
     done("report", "s.h5", "--output", "report.pdf")
     done("track", "s.h5", "--output", "again.h5")

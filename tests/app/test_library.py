@@ -206,7 +206,7 @@ def test_another_order_of_the_angles_is_read_everywhere_but_in_files(library: Li
     assert not np.allclose(turned.motion.angles_rad, plain.motion.angles_rad, equal_nan=True)
     assert [figures.angle_order for figures in library.history(patient_id)] == ["isb"]
     library.export(session_id, str(tmp_path))
-    with next(tmp_path.rglob("*.wrist.csv")).open(encoding="utf-8") as file:
+    with next(tmp_path.rglob("*.wrist.for-programs.csv")).open(encoding="utf-8") as file:
         first = next(row for row in csv.DictReader(file) if row["filter_flexion_deg"])
     row = int(np.flatnonzero(np.isfinite(plain.motion.angles_rad[:, 1]))[0])
     assert float(first["filter_flexion_deg"]) == pytest.approx(math.degrees(plain.motion.angles_rad[row, 1]), abs=1e-3)

@@ -16,7 +16,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import RecordingUnreadable, SettingsInvalid
-from carpus.core.formats.new_output import new_table, plain_cell
+from carpus.core.formats.new_output import TableForm, new_table, plain_cell
 from carpus.core.records.library import Library
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import SessionWriter
@@ -89,7 +89,9 @@ def test_numbers_and_plain_words_of_a_table_stay_as_they_are(text: str) -> None:
 
 @pytest.mark.parametrize("separator", [",", "\t"])
 def test_no_table_that_is_written_calculates(tmp_path: Path, separator: str) -> None:
-    path = new_table(tmp_path / "t.tsv", ("a", "b", "c"), [("=1+2", "-3.5", "@SUM(A1)"), ("-2+3", "+", "x")], separator)
+    path = new_table(
+        tmp_path / "t.tsv", ("a", "b", "c"), [("=1+2", "-3.5", "@SUM(A1)"), ("-2+3", "+", "x")], TableForm(separator)
+    )
     assert [line.split(separator) for line in path.read_text().splitlines()[1:]] == [
         ["'=1+2", "-3.5", "'@SUM(A1)"], ["'-2+3", "'+", "x"],
     ]  # fmt: skip

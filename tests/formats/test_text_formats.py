@@ -34,9 +34,10 @@ def test_the_wrist_is_one_row_a_picture(tmp_path: Path) -> None:
     take = wrist_take(tmp_path)
     written = csv_tables.write(take, tmp_path / "out")
     assert {path.name for path in written} == {
-        "one.wrist.csv", "one.markers.csv", "one.events.csv", "one.repetitions.csv", "one.measures.csv", "one.csv.json",
-    }  # fmt: skip
-    rows, motion = rows_of(tmp_path / "out" / "one.wrist.csv"), take.session.motion
+        *(f"one.{name}.for-programs.csv" for name in ("wrist", "markers", "events", "repetitions", "measures")),
+        "one.csv.json",
+    }
+    rows, motion = rows_of(tmp_path / "out" / "one.wrist.for-programs.csv"), take.session.motion
     assert len(rows) == len(take.session)
     for k, name in enumerate(WRIST_ANGLES):
         assert np.allclose(
@@ -47,7 +48,7 @@ def test_the_wrist_is_one_row_a_picture(tmp_path: Path) -> None:
     assert [row["status"] for row in rows] == [TrackStatus(s).name.lower() for s in take.session.status]
     lost = [row for row in rows if row["status"] == "lost"]
     assert {lost[0][name] for name in lost[0] if name not in ("timestamp_s", "status")} == {""}
-    events = rows_of(tmp_path / "out" / "one.events.csv")
+    events = rows_of(tmp_path / "out" / "one.events.for-programs.csv")
     assert [(event["kind"], event["text"]) for event in events] == [("repetition", "1"), ("note", "Mrs Miller, pain")]
     assert float(events[0]["since_start_s"]) == pytest.approx(0.1, abs=1e-5)
 
@@ -56,11 +57,11 @@ def test_joints_and_markers_are_one_row_each(tmp_path: Path) -> None:
     take = hand_take(tmp_path)
     csv_tables.write(take, tmp_path / "out")
     session = take.session
-    joints = rows_of(tmp_path / "out" / "one.joints.csv")
+    joints = rows_of(tmp_path / "out" / "one.joints.for-programs.csv")
     names = session.header.joint_names
     assert len(joints) == len(session) * len(names)
     assert [row["joint"] for row in joints[: len(names)]] == list(names)
-    markers = rows_of(tmp_path / "out" / "one.markers.csv")
+    markers = rows_of(tmp_path / "out" / "one.markers.for-programs.csv")
     assert len(markers) == len(session) * 21
     motion, seen = session.motion, session.markers
     for rows, column, values in (
@@ -76,8 +77,8 @@ def test_joints_and_markers_are_one_row_each(tmp_path: Path) -> None:
         assert np.isfinite(values).any()
         assert np.allclose(numbers(rows, column), values.ravel(), atol=6e-4, equal_nan=True), column
     about = json.loads((tmp_path / "out" / "one.csv.json").read_text(encoding="utf-8"))
-    assert set(about["tables"]["one.markers.csv"]) == set(markers[0])
-    assert set(about["tables"]["one.joints.csv"]) == set(joints[0])
+    assert set(about["tables"]["one.markers.for-programs.csv"]) == set(markers[0])
+    assert set(about["tables"]["one.joints.for-programs.csv"]) == set(joints[0])
 
 
 def opensim_cells(line: str) -> list[str]:
@@ -198,18 +199,18 @@ def test_every_column_says_whose_estimate_it_is_and_every_row_has_one_sign(tmp_p
         said = json.loads((out / "one.csv.json").read_text(encoding="utf-8"))["tables"]
         assert all(text for table in said.values() for text in table.values())
         estimates = {"filter", "smoother"} if take.session.smoothed is not None else {"filter"}
-        head = list(rows_of(out / "one.wrist.csv")[0])
+        head = list(rows_of(out / "one.wrist.for-programs.csv")[0])
         assert {column.split("_")[0] for column in head[2:]} == estimates
         assert {
             f"{one}_{part}" for one in estimates for part in ("flexion_deg", "zyz_beta_deg", "isb_flexion_deg")
         } < set(head)
         assert len(set(head)) == len(head)
-        for row in rows_of(out / "one.measures.csv"):
+        for row in rows_of(out / "one.measures.for-programs.csv"):
             assert row["positive"]
             assert row["estimate"] in estimates
             joint = row["of"][:3] in ("CMC", "MCP", "PIP", "DIP", "IP1")
             assert not (joint and row["measure"] in ("flexion", "extension")), "of a joint: largest and smallest"
-    rows = {(row["measure"], row["of"]): row for row in rows_of(out / "one.measures.csv")}
+    rows = {(row["measure"], row["of"]): row for row in rows_of(out / "one.measures.for-programs.csv")}
     assert rows["largest", "MCP2_flexion"]["positive"] == rows["smallest", "MCP2_flexion"]["positive"] == "flexed"
     assert "index finger" in rows["smallest", "CMC1_extension"]["positive"]
 
@@ -219,7 +220,7 @@ def test_repetitions_are_in_every_format_that_can_say_them(tmp_path: Path) -> No
     figures = take.figures
     for module in (csv_tables, json_measures, bids_motion):
         module.write(take, tmp_path / "out")
-    table = rows_of(tmp_path / "out" / "stops.repetitions.csv")
+    table = rows_of(tmp_path / "out" / "stops.repetitions.for-programs.csv")
     content = json.loads((tmp_path / "out" / "stops.measures.json").read_text(encoding="utf-8"))
     assert len(table) == len(content["repetitions"]) == len(figures.repetitions) == 3
     for row, told, shown in zip(table, content["repetitions"], figures.repetitions, strict=True):

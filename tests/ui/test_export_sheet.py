@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.formats.formats import FORMATS
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
 from carpus.core.records.store import Store
 from carpus.ui.background import Background
 from carpus.ui.export.flow import Exporting
@@ -27,14 +28,16 @@ class Stored:
 
     def __init__(self) -> None:
         self.calls: list[tuple[Sequence[str], bool]] = []
+        self.forms: list[TableForm] = []
         self.waits = threading.Event()
         self.waits.set()
 
     def export(
         self, session_id: str, folder: str, formats: Sequence[str], progress: Callable[[int, int], None],
-        cancelled: Callable[[], bool], deidentified: bool, software_version: str,
+        cancelled: Callable[[], bool], deidentified: bool, software_version: str, form: TableForm,
     ) -> Sequence[str]:  # fmt: skip
         self.calls.append((formats, deidentified))
+        self.forms.append(form)
         progress(1, 2)
         while not self.waits.wait(0.005):
             if cancelled():
@@ -69,6 +72,18 @@ def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, par
     assert stored.calls == [(["c3d"], True)]
     assert not exporting.formats.isVisible()
     assert not told.faults
+
+
+def test_tables_have_the_form_of_the_region_that_is_chosen(qtbot: QtBot, parts: Parts) -> None:
+    exporting, stored, told = parts
+    choice = exporting.formats.tables_for
+    for words, form in (("1,5", TableForm(";", ",", has_mark=True)), ("programs", FOR_PROGRAMS)):
+        exporting.ask("s1")
+        choice.setCurrentIndex(next(k for k in range(choice.count()) if words in choice.itemText(k)))
+        before = len(told.asked)
+        exporting.formats.take.click()
+        qtbot.waitUntil(lambda before=before: len(told.asked) > before)
+        assert stored.forms[-1] == form
 
 
 def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None:

@@ -190,7 +190,7 @@ def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: 
     view.show_plot(SessionPlot(curves, plot.exercise, plot.repetitions))
     view.show_window((10.0, 14.0))
     view.menu.save(tmp_path / "curves.csv")
-    head, *rows = csv.reader(io.StringIO((tmp_path / "curves.csv").read_text("utf-8")))
+    head, *rows = csv.reader(io.StringIO((tmp_path / "curves.csv").read_text("utf-8-sig")))
     assert head[:4] == ["time_s", "flexion_deg", "flexion_sd_deg", "flexion_measured"]
     assert len(rows) == pytest.approx(120, abs=2)
     assert 10.0 <= float(rows[0][0]) <= float(rows[-1][0]) <= 14.0

@@ -164,7 +164,7 @@ def test_the_progress_report_of_a_hand_names_the_finger(store: FakeHandSessions,
 def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHandSessions, tmp_path: Path) -> None:
     course = progress(store.history("x"), None, finger_keys(0))
     write_table(tmp_path / "t.csv", course)
-    with (tmp_path / "t.csv").open(encoding="utf-8", newline="") as file:
+    with (tmp_path / "t.csv").open(encoding="utf-8-sig", newline="") as file:
         lines = list(csv.DictReader(file))
     last = {(line["joint"], line["movement"]): line for line in lines if line["session"] == "hand-7"}
     figures = figures_once(store.session("hand-7"))

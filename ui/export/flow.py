@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QFileDialog
 
+from carpus.core.formats.new_output import TableForm
 from carpus.ui.export.sheet import ExportSheet
 from carpus.ui.flow import ScreenContext
 from carpus.ui.messages.messages import tell_written
@@ -33,7 +34,7 @@ class Exporting(QObject):
         self._session_id = session_id
         self.formats.begin()
 
-    def _export(self, formats: Sequence[str], deidentified: bool) -> None:
+    def _export(self, formats: Sequence[str], deidentified: bool, form: TableForm) -> None:
         """Beside the window; the sheet shows how far it is and stops it."""
         context, session_id = self._context, self._session_id
         start = context.places.folder("exports")
@@ -46,7 +47,7 @@ class Exporting(QObject):
 
         def write() -> Sequence[str]:
             return context.library.export(
-                session_id, folder, formats, self._stepped.emit, self._stop.is_set, deidentified, context.version
+                session_id, folder, formats, self._stepped.emit, self._stop.is_set, deidentified, context.version, form
             )
 
         def written(names: Sequence[str]) -> None:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, Signal
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, QLocale, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.formats.formats import FORMATS
+from carpus.core.formats.new_output import FOR_PROGRAMS
 from carpus.ui.controls.button import Button, Tick
+from carpus.ui.controls.field import Combo, Labelled
 from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.saved_table import OFFERED, form_of, own_region
 from carpus.ui.theme import Theme
 
 CONTEXT = "ExportSheet"
@@ -29,10 +32,10 @@ NAMES = {
 
 
 class ExportSheet(Sheet):
-    """``wanted`` carries the formats and whether nobody shall be found by it; ``stop`` ends an export on the way;
-    ``more`` asks for the settings that offer all formats instead."""
+    """``wanted`` carries the formats, whether nobody shall be found by it and the form of tables; ``stop`` ends an
+    export on the way; ``more`` asks for the settings that offer all formats instead."""
 
-    wanted = Signal(object, bool)
+    wanted = Signal(object, bool, object)
     stop = Signal()
     more = Signal()
 
@@ -51,6 +54,8 @@ class ExportSheet(Sheet):
         self.plain = Text(theme, words, 14, wrap=True)
         self.plain.hide()
         fill(body, self.plain, 8)
+        self.tables_for = self._region_choice()
+        fill(body, Labelled(theme, self.tr("&Tables for"), self.tables_for), 8)
         self.nobody = self._tick(self.tr("Nobody can be found by it: random name, no dates (day 1, 2 …), no notes"))
         self.bar = ThinBar(theme, self.tr("How far the export is"))
         fill(body, 8, self.bar, 8)
@@ -110,12 +115,27 @@ class ExportSheet(Sheet):
         self.card.body.addLayout(in_line(tick, STRETCH))
         return tick
 
+    def _region_choice(self) -> Combo:
+        """Offers the person's own region first, and programs last."""
+        own = own_region()
+        regions = [own, *(region for region in OFFERED if region != own)]
+        choices = [(form_of(region), self._region_words(region)) for region in regions]
+        field = Combo()
+        field.offer([*choices, (FOR_PROGRAMS, self.tr("programs: 1.5 and a comma, the same everywhere"))])
+        return field
+
+    def _region_words(self, region: str) -> str:
+        locale = QLocale(region)
+        name = f"{locale.nativeTerritoryName()} ({locale.nativeLanguageName()})"
+        example = f"1{form_of(region).decimal}5"
+        return self.tr("a spreadsheet in {region}: {example}").format(region=name, example=example)
+
     def _check(self) -> None:
         self.take.setEnabled(bool(self.formats))
 
     def _take(self) -> None:
         if self.formats and not self._runs:
-            self.wanted.emit(self.formats, self.nobody.isChecked())
+            self.wanted.emit(self.formats, self.nobody.isChecked(), self.tables_for.currentData())
 
     def _ask_for_more(self) -> None:
         self.close_sheet()
@@ -128,5 +148,5 @@ class ExportSheet(Sheet):
         self.take.setVisible(not runs)
         self.close_button.setEnabled(True)
         self.close_button.set_face(self.tr("Stop") if runs else self.tr("Cancel"))
-        for box in (*self.boxes.values(), self.nobody):
+        for box in (*self.boxes.values(), self.nobody, self.tables_for):
             box.setEnabled(not runs)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
 from carpus.ui.plot.style import PlotStyle, paper_style
-from carpus.ui.saved_table import save_private, table_text
+from carpus.ui.saved_table import save_private, table_bytes
 from carpus.ui.theme import LIGHT
 
 WIDTH_MM, DPI = 170.0, 300.0
@@ -85,7 +85,7 @@ def save(plot: Printable, path: Path) -> None:
     if kind == ".svg":
         content = drawing(plot)
     elif kind == ".csv":
-        content = table_text(*plot.table()).encode("utf-8")
+        content = table_bytes(*plot.table())
     else:
         store = QByteArray()
         buffer = QBuffer(store)

@@ -108,12 +108,10 @@ class TumFolder:
         color_s = np.array([time_s for time_s, _ in color])
         partner = nearest_pairs(color_s, np.array([time_s for time_s, _ in depth]))
         if need_depth and not any(index is not None for index in partner):
+            limit = f"{PAIRING_LIMIT_S * 1000.0:.0f}"
             raise DepthMissing(
                 folder,
-                phrase(
-                    "no depth picture within {pairing_limit_s} ms of a colour picture",
-                    pairing_limit_s=f"{PAIRING_LIMIT_S * 1000.0:.0f}",
-                ),
+                phrase("no depth picture within {pairing_limit_s} ms of a colour picture", pairing_limit_s=limit),
             )
         self.stored = tuple(
             StoredFrame(time_s, path, None if index is None else depth[index][1], dropped)
@@ -125,9 +123,7 @@ class TumFolder:
             raise FirstPictureDamaged(fault.subject, fault.detail) from fault
         self._size = (first.shape[1], first.shape[0])
         camera_info = _camera(folder, *self._size)
-        self._depth_unit_m = camera_info.depth_unit_m or _likely_unit_m(self.stored, camera_info.camera)
-        if camera_info.depth_unit_m is None and self._depth_unit_m != DEPTH_UNIT_M:
-            notice(UnitAssumed(folder, phrase("depth in millimetres, not 5000 per metre")))
+        self._depth_unit_m = camera_info.depth_unit_m or _likely_unit_m(folder, self.stored, camera_info.camera, notice)
         self.info = SourceInfo(
             name=folder.resolve().name,
             camera=camera_info.camera,
@@ -261,9 +257,9 @@ def _depth_list(folder: Path, need_depth: bool, notice: Notice) -> list[_Entry]:
     return depth
 
 
-def _likely_unit_m(stored: Sequence[StoredFrame], camera: Camera) -> float:
-    """Metres per count of the depth pictures: as the format has it, or a millimetre where half of what is seen would
-    else be far nearer than the sensor sees."""
+def _likely_unit_m(folder: Path, stored: Sequence[StoredFrame], camera: Camera, notice: Notice) -> float:
+    """Metres per count of the depth pictures: as the format has it, or a millimetre, of which ``notice`` hears, where
+    half of what is seen would else be far nearer than the sensor sees."""
     for frame in [frame for frame in stored if frame.depth is not None][:_LOOKS_AT]:
         assert frame.depth is not None
         try:
@@ -271,9 +267,11 @@ def _likely_unit_m(stored: Sequence[StoredFrame], camera: Camera) -> float:
         except PictureDamaged:  # told when it is read
             continue
         if (counts > 0).any():
-            middle, sensor = float(np.median(counts[counts > 0])), camera.sensor
-            is_too_near = middle * DEPTH_UNIT_M < _NO_CAMERA_SEES * sensor.nearest_m
-            return _MILLIMETRE_M if is_too_near and middle * _MILLIMETRE_M >= sensor.nearest_m else DEPTH_UNIT_M
+            middle, nearest_m = float(np.median(counts[counts > 0])), camera.sensor.nearest_m
+            if middle * DEPTH_UNIT_M >= _NO_CAMERA_SEES * nearest_m or middle * _MILLIMETRE_M < nearest_m:
+                return DEPTH_UNIT_M
+            notice(UnitAssumed(folder, phrase("depth in millimetres, not 5000 per metre")))
+            return _MILLIMETRE_M
     return DEPTH_UNIT_M
 
 

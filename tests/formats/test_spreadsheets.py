@@ -1,0 +1,103 @@
+"""Tables for a spreadsheet of a region hold the same numbers as those for programs, by that region's own rules."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QLocale
+
+from carpus.core.formats.csv_tables import write
+from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
+from carpus.core.formats.table_read import read_table
+from carpus.core.hand.protocols import HAND21
+from carpus.core.session.reader import read_session
+from carpus.ui.saved_table import OFFERED, form_of, own_region, save_table
+from tests.commands import Command
+from tests.formats.takes import stored, take_of
+
+
+def cells(path: Path, form: TableForm) -> list[list[str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        assert file.read(1) == "\ufeff" or not form.has_mark
+        file.seek(0)
+        rows = list(csv.reader(file, delimiter=form.separator))
+    rows[0][0] = rows[0][0].removeprefix("\ufeff")
+    return rows
+
+
+def read_as(cell: str, region: str) -> float | str:
+    """What a spreadsheet of the region takes a cell for: a number by its decimal and thousands signs, else a text."""
+    value, is_number = QLocale(region).toDouble(cell)
+    return value if is_number else cell
+
+
+def as_python(cell: str) -> float | str:
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
+
+
+@pytest.mark.parametrize("region", OFFERED)
+def test_a_spreadsheet_of_a_region_finds_the_same_numbers(region: str, tmp_path: Path) -> None:
+    take, form = take_of(read_session(stored(tmp_path, HAND21)), "s"), form_of(region)
+    plain = [path for path in write(take, tmp_path / "plain") if path.suffix == ".csv"]
+    assert all(path.name.endswith(".for-programs.csv") for path in plain)
+    numbers = 0
+    for path in plain:
+        wanted = cells(path, FOR_PROGRAMS)[:200]
+        if not (tmp_path / region).exists():
+            write(replace(take, form=form), tmp_path / region)
+        found = cells(tmp_path / region / path.name.replace(".for-programs", ""), form)[:200]
+        for one, other in zip(wanted, found, strict=True):
+            assert [read_as(cell, region) for cell in other] == [as_python(cell) for cell in one]
+            numbers += sum(isinstance(as_python(cell), float) for cell in one)
+    assert numbers > 1000
+
+
+def test_the_rules_of_a_region_see_the_fault_that_they_are_for() -> None:
+    assert (read_as("91.947", "de_DE"), read_as("91,947", "de_DE")) == (91947.0, 91.947)
+
+
+@pytest.mark.parametrize(
+    ("region", "form"),
+    [
+        ("de_DE", TableForm(";", ",", has_mark=True)), ("it-IT", TableForm(";", ",", has_mark=True)),
+        ("en_GB", TableForm(",", ".", has_mark=True)), ("de_CH", TableForm(";", ".", has_mark=True)),
+        ("fr", TableForm(";", ",", has_mark=True)),
+    ],
+)  # fmt: skip
+def test_a_region_has_its_form(region: str, form: TableForm) -> None:
+    assert form_of(region) == form
+
+
+@pytest.mark.parametrize("region", ["", "xx_YY", "de_XX", "C", "germany", "de_DE; rm"])
+def test_a_region_that_there_is_not_is_refused(region: str) -> None:
+    with pytest.raises(ValueError, match="no region"):
+        form_of(region)
+
+
+def test_the_command_writes_in_the_form_of_a_region(tmp_path: Path, command: Command) -> None:
+    path = stored(tmp_path)
+    done = command("export", path, "--region", "de_DE", "--output", tmp_path / "out")
+    assert done.code == 0
+    (table,) = (tmp_path / "out").glob("*.measures.csv")
+    assert table.read_bytes().startswith(b"\xef\xbb\xbfsession;")
+    refused = command("export", path, "--region", "nowhere", "--output", tmp_path / "none")
+    assert (refused.code, "no region is called “nowhere”" in refused.err) == (2, True)
+
+
+def test_a_table_saved_in_the_window_is_in_the_persons_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("carpus.ui.saved_table.own_region", lambda: "it_IT")
+    save_table(tmp_path / "t.csv", ("angle", "mean_deg"), [("flexion", -1.5), ("=1+1", 91.947)])
+    assert (tmp_path / "t.csv").read_text(encoding="utf-8-sig").split() == [
+        "angle;mean_deg", "flexion;-1,5", "'=1+1;91,947",
+    ]  # fmt: skip
+    assert read_table(tmp_path / "t.csv", ()).column("mean_deg") == ["-1,5", "91,947"]
+
+
+def test_the_persons_region_is_one_that_there_is() -> None:
+    form_of(own_region())
