@@ -10,7 +10,6 @@ import json
 import logging
 import os
 import tomllib
-import types
 import typing
 from collections.abc import Mapping
 from contextlib import suppress
@@ -30,6 +29,7 @@ from carpus.core.pipeline.live_values import LiveSettings, StartMode
 from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
+from carpus.core.typed_value import path_of, typed_value
 
 if TYPE_CHECKING:
     from carpus.core.pipeline.track import TrackSettings
@@ -40,7 +40,6 @@ LAST_FOLDER_FILE = "last-data-folder.txt"
 
 TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
-MOST_NUMBER = 1e15
 DATA_VARIABLE = "CARPUS_DATA"
 GONE = {"report.agreement_limit_deg", "report.retest_days", "screen.keys"}
 """Settings of earlier versions: accepted and ignored."""
@@ -184,7 +183,7 @@ class Settings:
         if self.run_folder is not None:
             return self.run_folder
         named = os.environ.get(DATA_VARIABLE) or self.recording.folder
-        return _path(named) if named else default_data_folder()
+        return path_of(named) if named else default_data_folder()
 
 
 def default_data_folder() -> Path:
@@ -194,7 +193,7 @@ def default_data_folder() -> Path:
 
 def sessions_folder(settings: Settings) -> Path | None:
     """The shared folder of the sessions; None for the data folder's own."""
-    return _path(settings.records.sessions) if settings.records.sessions else None
+    return path_of(settings.records.sessions) if settings.records.sessions else None
 
 
 def settings_folder() -> Path:
@@ -320,14 +319,6 @@ def note_data_folder(data_folder: Path, folder: Path | None = None) -> Path | No
     return Path(before) if before not in ("", str(data_folder)) else None
 
 
-def _path(named: str) -> Path:
-    """A path with the person's home in the place of ``~``; as it is where nobody has that name."""
-    try:
-        return Path(named).expanduser()
-    except RuntimeError:
-        return Path(named)
-
-
 def _text(value: object) -> str:
     """As TOML writes it, which writes texts, numbers and truths as JSON does."""
     if isinstance(value, Mapping):
@@ -361,45 +352,13 @@ def _filled(kind: type[T], values: Values, where: str, file: str) -> T:
         place = f"{where}.{name}" if where else name
         if name not in known:
             raise SettingsInvalid(place, phrase("there is no such setting, in {file}", file=file))
-        found[name] = _value(hints[name], value, place, file)
+        hint = hints[name]
+        is_section = isinstance(hint, type) and is_dataclass(hint) and isinstance(value, Mapping)
+        found[name] = _filled(hint, value, place, file) if is_section else typed_value(hint, value, place, file)
     try:
         return kind(**found)
     except ValueError as cause:
         raise SettingsInvalid(where, f"{cause}, in {file}") from cause
-
-
-def _value(hint: Any, value: Any, place: str, file: str) -> Any:
-    """``value`` as the type of the field, or the fault that names the field."""
-    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
-    if is_dataclass(hint) and isinstance(hint, type) and isinstance(value, Mapping):
-        return _filled(hint, value, place, file)
-    if origin is Literal and value in arguments:
-        return value
-    if origin is tuple and isinstance(value, list):
-        kinds = arguments[:1] * len(value) if arguments[-1] is Ellipsis else arguments
-        if len(kinds) == len(value):
-            return tuple(_value(one, item, place, file) for one, item in zip(kinds, value, strict=True))
-    if origin in (typing.Union, types.UnionType):
-        wanted = next(one for one in arguments if one is not type(None))
-        return _value(wanted, value, place, file)
-    if isinstance(value, str) and "\0" in value:
-        raise SettingsInvalid(place, phrase("a text with a character that is none, in {file}", file=file))
-    if hint is Path and isinstance(value, str):
-        return _path(value)
-    if hint is float and isinstance(value, (int, float)) and not isinstance(value, bool):
-        if not abs(value) < MOST_NUMBER:
-            raise SettingsInvalid(
-                place, phrase("{value} is not a possible number, in {file}", value=str(value)[:20], file=file)
-            )
-        return float(value)
-    if isinstance(hint, type) and type(value) is hint:
-        return value
-    names = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
-    wanted_words = " or ".join(map(str, arguments)) if origin is Literal else names.get(hint, "another kind of value")
-    raise SettingsInvalid(
-        place,
-        phrase("{value} is not {wanted_words}, in {file}", value=f"{value!r}", wanted_words=wanted_words, file=file),
-    )
 
 
 def with_data_folder(settings: Settings, folder: Path | None) -> Settings:

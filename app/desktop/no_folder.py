@@ -24,16 +24,6 @@ def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> 
     return NoFolder(theme, fault_words(fault), Path.home()).ask()
 
 
-def answer_words() -> tuple[str, str]:
-    """End, or go on elsewhere."""
-    return tr("Close Carpus"), tr("Choose another folder")
-
-
-def folder_title() -> str:
-    """Over the choice of a folder."""
-    return tr("Folder of patients and sessions")
-
-
 class NoFolder:
     """A card in an empty window. ``chosen`` is the folder that the person named, None when they closed the window."""
 
@@ -58,11 +48,11 @@ class NoFolder:
         return self.chosen
 
     def _show(self) -> None:
-        end, other = answer_words()
-        self.card.show_words(self._words, (Answer(end, self.shell.close), Answer(other, self._choose)))
+        answers = Answer(tr("Close Carpus"), self.shell.close), Answer(tr("Choose another folder"), self._choose)
+        self.card.show_words(self._words, answers)
 
     def _choose(self) -> None:
-        named = QFileDialog.getExistingDirectory(self.shell, folder_title(), str(self._start))
+        named = QFileDialog.getExistingDirectory(self.shell, tr("Folder of patients and sessions"), str(self._start))
         if not named:
             self._show()
             return

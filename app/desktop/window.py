@@ -115,7 +115,7 @@ class Desktop:
         """One sentence where the window cannot be put together again now, else nothing."""
         journey, safe = self.journey, self.safe
         busy = journey.is_at_work or safe.backing_up.is_at_work or self.tour.is_on or journey.messages.busy
-        return not_now_words() if busy else ""
+        return tr("The language can be changed when nothing is measured or worked on any more.") if busy else ""
 
     def come_to_front(self) -> None:
         """Another start on the same data folder: this window is what was wanted."""
@@ -158,11 +158,6 @@ class Desktop:
             self.journey.close()
             self.shell.hide()
             self.library.close()
-
-
-def not_now_words() -> str:
-    """Why the language stays."""
-    return tr("The language can be changed when nothing is measured or worked on any more.")
 
 
 def end_on_signals(desktop: Desktop) -> None:

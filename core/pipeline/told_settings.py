@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-import types
 import typing
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, fields, is_dataclass
+from dataclasses import asdict, is_dataclass
 from typing import Any, NamedTuple, TypeVar
 
+from carpus.core.errors import SettingsInvalid
 from carpus.core.pipeline.track import TrackSettings
+from carpus.core.typed_value import typed_value
 
 T = TypeVar("T")
 
@@ -44,36 +45,18 @@ def differences(before: TrackSettings, after: TrackSettings) -> list[str]:
 def _filled(kind: type[T], told: Mapping[str, Any], where: str, unknown: list[str]) -> T:
     hints = typing.get_type_hints(kind)
     found: dict[str, Any] = {}
-    known = {item.name for item in fields(kind)}  # type: ignore[arg-type]
-    unknown += [f"{where}{name}" for name in told if name not in known and told[name] is not None]
-    for name in known & set(told):
-        value = _value(hints[name], told[name], f"{where}{name}", unknown)
-        if value is not _NOT_TAKEN:
-            found[name] = value
+    for name, value in told.items():
+        hint, place = hints.get(name), f"{where}{name}"
+        if hint is None:
+            unknown += [place] if value is not None else []
+        elif isinstance(hint, type) and is_dataclass(hint) and isinstance(value, Mapping):
+            found[name] = _filled(hint, value, f"{place}.", unknown)
+        else:
+            try:
+                found[name] = typed_value(hint, value, place)
+            except SettingsInvalid:
+                unknown.append(place)
     return kind(**found)
-
-
-_NOT_TAKEN = object()
-
-
-def _value(hint: Any, value: Any, place: str, unknown: list[str]) -> Any:
-    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
-    if is_dataclass(hint) and isinstance(hint, type) and isinstance(value, Mapping):
-        return _filled(hint, value, f"{place}.", unknown)
-    if origin is typing.Literal and value in arguments:
-        return value
-    if origin is tuple and isinstance(value, list):
-        return tuple(tuple(item) if isinstance(item, list) else item for item in value)
-    if origin in (typing.Union, types.UnionType):
-        if value is None:
-            return None
-        return _value(next(one for one in arguments if one is not type(None)), value, place, unknown)
-    if hint is float and isinstance(value, int) and not isinstance(value, bool):
-        return float(value)
-    if isinstance(hint, type) and type(value) is hint:
-        return value
-    unknown.append(place)
-    return _NOT_TAKEN
 
 
 def _differing(before: dict[str, Any], after: dict[str, Any], where: str = "") -> Iterator[str]:

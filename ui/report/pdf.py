@@ -34,11 +34,6 @@ def ensure_application() -> QGuiApplication:
     return application
 
 
-def write_page(output_path: Path, paint: Callable[[Page], None], title: str) -> Path:
-    """Write one A4 page; faults as :func:`write_report`."""
-    return _write_pages(output_path, [(None, paint)], title)
-
-
 def write_sheets(output_path: Path, sheets: Sequence[PrintedSheet], title: str) -> Path:
     """Write sheets to print, each in its own size, in millimetres as drawn; faults as above."""
     pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _painting(sheet)) for sheet in sheets]

@@ -1,0 +1,53 @@
+"""A setting's value as TOML or JSON has it, turned into the type of its field."""
+
+from __future__ import annotations
+
+import types
+import typing
+from pathlib import Path
+from typing import Any, Literal
+
+from carpus.core.errors import SettingsInvalid
+from carpus.core.phrase import phrase
+
+MOST_NUMBER = 1e15
+
+
+def path_of(named: str) -> Path:
+    """A path with the person's home in the place of ``~``; as it is where nobody has that name."""
+    try:
+        return Path(named).expanduser()
+    except RuntimeError:
+        return Path(named)
+
+
+def typed_value(hint: Any, value: Any, place: str, file: str = "") -> Any:
+    """Return ``value`` as the type of a field, ``place``. Raises :class:`SettingsInvalid` where it is no such value."""
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if origin is Literal and value in arguments:
+        return value
+    if origin is tuple and isinstance(value, list):
+        kinds = arguments[:1] * len(value) if arguments[-1] is Ellipsis else arguments
+        if len(kinds) == len(value):
+            return tuple(typed_value(one, item, place, file) for one, item in zip(kinds, value, strict=True))
+    if origin in (typing.Union, types.UnionType):
+        wanted = next(one for one in arguments if one is not type(None))
+        return typed_value(wanted, value, place, file)
+    if isinstance(value, str) and "\0" in value:
+        raise SettingsInvalid(place, phrase("a text with a character that is none, in {file}", file=file))
+    if hint is Path and isinstance(value, str):
+        return path_of(value)
+    if hint is float and isinstance(value, (int, float)) and not isinstance(value, bool):
+        if not abs(value) < MOST_NUMBER:
+            raise SettingsInvalid(
+                place, phrase("{value} is not a possible number, in {file}", value=str(value)[:20], file=file)
+            )
+        return float(value)
+    if isinstance(hint, type) and type(value) is hint:
+        return value
+    names = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
+    wanted_words = " or ".join(map(str, arguments)) if origin is Literal else names.get(hint, "another kind of value")
+    raise SettingsInvalid(
+        place,
+        phrase("{value} is not {wanted_words}, in {file}", value=f"{value!r}", wanted_words=wanted_words, file=file),
+    )
