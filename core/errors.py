@@ -169,9 +169,7 @@ class DiskFull(CarpusFault):
     """No room was left while writing; what was written is kept."""
 
     happened = phrase("The disk has no room left for {subject} ({detail}).")
-    safe = phrase(
-        "Everything stored before is safe; at most the last second is missing; more only where the figures came late."
-    )
+    safe = phrase("Everything stored before is safe. What was just being written may be missing.")
     do = phrase("Free some space, or choose another disk.")
 
 

@@ -3768,10 +3768,6 @@
         <translation>Alles bisher Aufgenommene ist auf diesem Computer gespeichert.</translation>
     </message>
     <message>
-        <source>Everything stored before is safe; at most the last second is missing; more only where the figures came late.</source>
-        <translation>Alles vorher Gespeicherte ist sicher; höchstens die letzte Sekunde fehlt; mehr nur, wo die Werte später kamen.</translation>
-    </message>
-    <message>
         <source>Everything stored up to then is safe.</source>
         <translation>Alles bis dahin Gespeicherte ist sicher.</translation>
     </message>
@@ -4202,6 +4198,10 @@
     <message>
         <source>Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.</source>
         <translation>Schließen Sie Carpus überall, wo es offen ist; hilft das nicht, kopieren Sie den Ordner an einen Ort, an dem er beschreibbar ist.</translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe. What was just being written may be missing.</source>
+        <translation>Alles vorher Gespeicherte ist sicher. Was gerade geschrieben wurde, kann fehlen.</translation>
     </message>
     <message>
         <source>Install Carpus anew.</source>
@@ -10291,6 +10291,29 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>RetestSheet</name>
+    <message>
+        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
+        <translation>Von Personen, die mehr als einmal gemessen wurden, dazwischen alle Punkte ab und neu geklebt: Standardmessfehler (SEM) und kleinste nachweisbare Veränderung (MDC95), mit 95-%-Intervallen.</translation>
+    </message>
+    <message>
+        <source>Limits from test-retest sessions</source>
+        <translation>Grenzen aus Test-Retest-Sitzungen</translation>
+    </message>
+    <message>
+        <source>&amp;Use these limits</source>
+        <translation>&amp;Diese Grenzen verwenden</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>So lassen</translation>
+    </message>
+    <message>
+        <source>Sessions that cannot be read: {count}</source>
+        <translation>Sitzungen, die nicht gelesen werden können: {count}</translation>
+    </message>
+</context>
+<context>
     <name>ReviewCard</name>
     <message>
         <source>Range of motion</source>
@@ -10653,6 +10676,13 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Delete “{name}”? Press again</source>
         <translation>„{name}“ löschen? Noch einmal drücken</translation>
+    </message>
+</context>
+<context>
+    <name>SettingsFlow</name>
+    <message>
+        <source>Folder of the test-retest sessions</source>
+        <translation>Ordner der Test-Retest-Sitzungen</translation>
     </message>
 </context>
 <context>
@@ -11158,36 +11188,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
-    </message>
-</context>
-<context>
-    <name>RetestSheet</name>
-    <message>
-        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
-        <translation>Von Personen, die mehr als einmal gemessen wurden, dazwischen alle Punkte ab und neu geklebt: Standardmessfehler (SEM) und kleinste nachweisbare Veränderung (MDC95), mit 95-%-Intervallen.</translation>
-    </message>
-    <message>
-        <source>Limits from test-retest sessions</source>
-        <translation>Grenzen aus Test-Retest-Sitzungen</translation>
-    </message>
-    <message>
-        <source>&amp;Use these limits</source>
-        <translation>&amp;Diese Grenzen verwenden</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>So lassen</translation>
-    </message>
-    <message>
-        <source>Sessions that cannot be read: {count}</source>
-        <translation>Sitzungen, die nicht gelesen werden können: {count}</translation>
-    </message>
-</context>
-<context>
-    <name>SettingsFlow</name>
-    <message>
-        <source>Folder of the test-retest sessions</source>
-        <translation>Ordner der Test-Retest-Sitzungen</translation>
     </message>
 </context>
 </TS>

@@ -3772,10 +3772,6 @@
         <translation>Tutto ciò che è stato registrato finora è salvato su questo computer.</translation>
     </message>
     <message>
-        <source>Everything stored before is safe; at most the last second is missing; more only where the figures came late.</source>
-        <translation>Tutto ciò che era già salvato è al sicuro; manca al massimo l’ultimo secondo; di più solo se i valori arrivavano in ritardo.</translation>
-    </message>
-    <message>
         <source>Everything stored up to then is safe.</source>
         <translation>Tutto ciò che è stato salvato fino a quel momento è al sicuro.</translation>
     </message>
@@ -4206,6 +4202,10 @@
     <message>
         <source>Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.</source>
         <translation>Chiudere Carpus ovunque sia aperto; se non basta, copiare la cartella in un posto in cui si possa scrivere.</translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe. What was just being written may be missing.</source>
+        <translation>Tutto ciò che era già salvato è al sicuro. Può mancare ciò che si stava scrivendo.</translation>
     </message>
     <message>
         <source>Install Carpus anew.</source>
@@ -10291,6 +10291,29 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>RetestSheet</name>
+    <message>
+        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
+        <translation>Da persone misurate più di una volta, togliendo e rimettendo fra l’una e l’altra tutti i dischetti: errore standard di misura (SEM) e minima differenza rilevabile (MDC95), con intervalli al 95 %.</translation>
+    </message>
+    <message>
+        <source>Limits from test-retest sessions</source>
+        <translation>Limiti da sedute di test e retest</translation>
+    </message>
+    <message>
+        <source>&amp;Use these limits</source>
+        <translation>&amp;Usa questi limiti</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>Lascia così</translation>
+    </message>
+    <message>
+        <source>Sessions that cannot be read: {count}</source>
+        <translation>Sedute che non si possono leggere: {count}</translation>
+    </message>
+</context>
+<context>
     <name>ReviewCard</name>
     <message>
         <source>Range of motion</source>
@@ -10653,6 +10676,13 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Delete “{name}”? Press again</source>
         <translation>Eliminare “{name}”? Premere di nuovo</translation>
+    </message>
+</context>
+<context>
+    <name>SettingsFlow</name>
+    <message>
+        <source>Folder of the test-retest sessions</source>
+        <translation>Cartella delle sedute di test e retest</translation>
     </message>
 </context>
 <context>
@@ -11158,36 +11188,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
-    </message>
-</context>
-<context>
-    <name>RetestSheet</name>
-    <message>
-        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
-        <translation>Da persone misurate più di una volta, togliendo e rimettendo fra l’una e l’altra tutti i dischetti: errore standard di misura (SEM) e minima differenza rilevabile (MDC95), con intervalli al 95 %.</translation>
-    </message>
-    <message>
-        <source>Limits from test-retest sessions</source>
-        <translation>Limiti da sedute di test e retest</translation>
-    </message>
-    <message>
-        <source>&amp;Use these limits</source>
-        <translation>&amp;Usa questi limiti</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
-    </message>
-    <message>
-        <source>Sessions that cannot be read: {count}</source>
-        <translation>Sedute che non si possono leggere: {count}</translation>
-    </message>
-</context>
-<context>
-    <name>SettingsFlow</name>
-    <message>
-        <source>Folder of the test-retest sessions</source>
-        <translation>Cartella delle sedute di test e retest</translation>
     </message>
 </context>
 </TS>
