@@ -24,7 +24,7 @@ from carpus.app.desktop.window import Desktop, Safe
 from carpus.app.settings import LockSettings, Settings, sessions_folder
 from carpus.app.settings import settings_folder as own_settings_folder
 from carpus.core.capture.source import FrameSource
-from carpus.core.errors import CarpusFault
+from carpus.core.errors import CarpusFault, ServerGone
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import Recovered, recover
@@ -105,6 +105,7 @@ def compose(
     keeper.language_chosen.connect(lambda: QTimer.singleShot(0, desktop.reopen))
     keeper.keeps_language = desktop.why_no_other_language
     _tell(journey, recovered, (*told, *faults))
+    journey.server.back.connect(lambda caught: _tell(journey, *caught))
     return desktop
 
 
@@ -115,6 +116,8 @@ def _tell(journey: Journey, recovered: Sequence[Recovered], faults: Sequence[Car
         look = partial(journey.way.show, "review", found.session_id, found.patient_id)
         messages.strip(place, messages.recovered_words(found), tr("Re&view it"), look)
     for fault in faults:
+        if isinstance(fault, ServerGone):
+            continue  # every screen says so as long as it is
         messages.strip(place, fault_words(fault), tr("I have read it"), lambda: None, icon="hard-drive")
 
 

@@ -13,18 +13,22 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import say, tell
-from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.core.errors import CarpusFault, FolderMissing, StudyUnsuited
+from carpus.app.settings import Settings, load_sound_settings, sessions_folder
+from carpus.core.errors import CarpusFault, FolderMissing, NoDataFolder, StudyUnsuited
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_outline
 
 if TYPE_CHECKING:
+    import sqlite3
+
     from carpus.core.formats.formats import Exported
     from carpus.core.records.library import Library
     from carpus.core.records.log import Deed, Kind
     from carpus.core.records.of_sessions import MadeKind
+    from carpus.core.records.store import Store
     from carpus.core.results.figures import SessionFigures
     from carpus.core.results.repetition_rows import RepetitionChoices
+    from carpus.core.results.report_form import ReportForm
 
 
 STORE_FILE = "records.sqlite3"
@@ -34,13 +38,56 @@ STORE_FILE = "records.sqlite3"
 def data_folder_of(path: Path) -> Path | None:
     """The data folder in which a file lies, or this computer's for one on the clinic's share; None for any other."""
     parents = Path(os.path.realpath(path)).parents
-    own = next((folder for folder in parents if (folder / STORE_FILE).is_file()), None)
-    if own is not None:
-        return own
     settings, _ = load_sound_settings()
     share = sessions_folder(settings)
-    on_share = share is not None and share.resolve() in parents
-    return settings.data_folder if on_share and (settings.data_folder / STORE_FILE).is_file() else None
+    if share is not None and share.resolve() in parents and has_store(settings.data_folder):
+        return settings.data_folder
+    return next((folder for folder in parents if has_store(folder)), None)
+
+
+def has_store(folder: Path) -> bool:
+    """Whether a data folder has a list of patients: in it or, of this computer's own, on the clinic's server."""
+    return (folder / STORE_FILE).is_file() or bool(_server_of(folder))
+
+
+def look_for_store(folder: Path) -> None:
+    """Raises :class:`FolderMissing`, :class:`NoDataFolder` for a folder without a list of patients: a look makes
+    none."""
+    if not has_store(folder):
+        raise NoDataFolder(folder) if folder.is_dir() else FolderMissing(folder)
+
+
+def open_store(folder: Path, *, only_reads: bool = False, told: Callable[[CarpusFault], None] = tell) -> Store:
+    """That of a data folder, on the clinic's server where it is this computer's own; also of one that cannot be
+    written, for who ``only_reads``. Raises what :func:`look_for_store` does, and the faults of a store."""
+    from carpus.core.records.store import Store, reading
+
+    look_for_store(folder)
+    return (reading if only_reads else Store)(folder, _share_of(folder), _server_of(folder), told)
+
+
+def copy_of_server(folder: Path) -> Callable[[], sqlite3.Connection] | None:
+    """Makes a copy of the store of a data folder that lies on the clinic's server; None for any other."""
+
+    def copied() -> sqlite3.Connection:
+        with open_store(folder) as store:
+            return store.copied()
+
+    return copied if _server_of(folder) else None
+
+
+def _server_of(folder: Path) -> str:
+    settings, _ = load_sound_settings()
+    return settings.records.url if _is_own(folder, settings) else ""
+
+
+def _share_of(folder: Path) -> Path | None:
+    settings, _ = load_sound_settings()
+    return sessions_folder(settings) if _is_own(folder, settings) else None
+
+
+def _is_own(folder: Path, settings: Settings) -> bool:
+    return os.path.realpath(folder) == os.path.realpath(settings.data_folder)
 
 
 def is_of_practice(path: Path) -> bool:
@@ -56,9 +103,8 @@ def read_choices(path: Path) -> RepetitionChoices:
     if folder is None:
         return RepetitionChoices()
     from carpus.core.records.of_sessions import choices
-    from carpus.core.records.store import reading
 
-    with reading(folder) as store:
+    with open_store(folder, only_reads=True) as store:
         return choices(store, read_outline(path).header.session_id)[0]
 
 
@@ -68,10 +114,20 @@ def read_comment(path: Path) -> str:
     if folder is None:
         return ""
     from carpus.core.records.of_sessions import comments, latest
-    from carpus.core.records.store import reading
 
-    with reading(folder) as store:
+    with open_store(folder, only_reads=True) as store:
         return latest(comments(store, read_outline(path).header.session_id))
+
+
+def form_of(folder: Path) -> ReportForm:
+    """The form of reports of a data folder."""
+    from carpus.core.records.of_clinic import read_form
+    from carpus.core.results.report_form import ReportForm
+
+    if not has_store(folder):
+        return ReportForm()
+    with open_store(folder, only_reads=True) as store:
+        return read_form(store)
 
 
 def sessions_in(places: Iterable[Path]) -> Iterator[Path]:
@@ -115,15 +171,8 @@ def library_of(folder: Path, *, only_reads: bool = False) -> Library:
     written, for who ``only_reads``."""
     from carpus.core.records.library import Library
 
-    settings, _ = load_sound_settings()
-    is_own = folder == settings.data_folder
-    library = Library(
-        folder,
-        by="command",
-        url=settings.records.url if is_own else "",
-        sessions=sessions_folder(settings) if is_own else None,
-        only_reads=only_reads,
-    )
+    url, share = _server_of(folder), _share_of(folder)
+    library = Library(folder, by="command", url=url, sessions=share, only_reads=only_reads)
     library.who = initials
     library.log_fault = tell
     return library
@@ -144,10 +193,9 @@ def note(did: Deed, path: Path, session_id: str) -> None:
 def note_in(folder: Path, did: Deed, kind: Kind = "program", identity: str = "", **facts: int | str) -> None:
     """Take down what a command does with a data folder; where that cannot be written a warning is said."""
     from carpus.core.records.log import Log
-    from carpus.core.records.store import Store
 
     try:
-        with Store(folder) as store:
+        with open_store(folder) as store:
             Log(store, "command", initials).note(did, kind, identity, **facts)
     except CarpusFault as fault:
         tell(fault)
@@ -156,13 +204,12 @@ def note_in(folder: Path, did: Deed, kind: Kind = "program", identity: str = "",
 def made(sessions: Sequence[tuple[Path, str]], files: Sequence[Path], kind: MadeKind) -> None:
     """Take down what was made from sessions, each with its identity, so that it is named when one of them is erased."""
     from carpus.core.records.of_sessions import remember_made
-    from carpus.core.records.store import Store
 
     folders = {path: data_folder_of(path) for path, _ in sessions}
     for folder in {one for one in folders.values() if one is not None}:
         own = [(path, session_id) for path, session_id in sessions if folders[path] == folder]
         try:
-            with Store(folder) as store:
+            with open_store(folder) as store:
                 remember_made(store, files, kind, [session_id for _, session_id in own])
         except CarpusFault as fault:
             tell(fault)

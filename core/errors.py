@@ -231,30 +231,23 @@ class ChangedMeanwhile(CarpusFault):
     do = phrase("Open it again, look at what stands there now, and enter your change once more.")
 
 
-class ChangeRefused(CarpusFault):
-    """The clinic's server does not take a change that was made here; ``detail`` says why."""
-
-    happened = phrase("The clinic’s server {subject} does not take a change ({detail}).")
-    safe = phrase("All other changes arrive; this computer shows what the server has.")
-    do = phrase("Enter the change once more, or ask whoever looks after the server.")
-
-
 class PseudonymGiven(CarpusFault):
-    """A pseudonym was given twice while the server was away; the number ``detail`` was put behind the second one."""
+    """A pseudonym was given on two computers before they had one store; the number ``detail`` was put behind the second
+    one."""
 
-    happened = phrase(
-        "The name {subject} was given twice while the server was away: the second patient has ({detail}) behind it."
-    )
+    happened = phrase("The name {subject} was given on two computers: the second patient has ({detail}) behind it.")
     safe = phrase("All sessions of both patients are kept apart.")
     do = phrase("Change the name in the patient’s entry if another one is better.")
 
 
 class ServerGone(CarpusFault):
-    """The clinic's server for records does not answer; what is changed waits for it."""
+    """The clinic's server for records does not answer; nobody waits for it."""
 
     happened = phrase("The clinic’s server for records does not answer: {subject} ({detail}).")
-    safe = phrase("Measure as usual: patients are shown as last known, and what is new waits here and is delivered.")
-    do = phrase("Nothing need be done; if it lasts, ask whoever looks after the server.")
+    safe = phrase("All sessions are safe. What was being entered just now may not have been kept.")
+    do = phrase(
+        "Measure all the same, and enter the rest when the server answers; if it lasts, ask whoever looks after it."
+    )
 
 
 class NameUnsuited(CarpusFault):

@@ -121,6 +121,9 @@ class Flow(QObject):
         """Ask the person where something would be lost or end with the window; False where nothing would."""
         return False
 
+    def server_back(self) -> None:
+        """The clinic's server answers again: what could not be read before is read now."""
+
     @property
     def is_at_work(self) -> bool:
         """Whether something is worked on here that would end with the window."""

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus.core.errors import CarpusFault
 from carpus.core.records.of_clinic import keep_place, last_place
-from carpus.core.records.store import Store
 
 Kind = Literal["recordings", "reports", "exports"]
 
@@ -20,8 +19,8 @@ Kind = Literal["recordings", "reports", "exports"]
 class LastPlaces:
     """A folder for each kind of thing, kept for this computer; only a convenience, so nothing here is a fault."""
 
-    def __init__(self, store: Store) -> None:
-        self._store = store
+    def __init__(self, data_folder: Path) -> None:
+        self._data_folder = data_folder
 
     def folder(self, kind: Kind) -> str:
         """Where to begin looking: the last place if it is still there, else documents, else home."""
@@ -51,11 +50,11 @@ class LastPlaces:
 
     def _keep(self, name: str, value: str) -> None:
         with suppress(CarpusFault):  # a full or read-only disk tells elsewhere
-            keep_place(self._store, name, value)
+            keep_place(self._data_folder, name, value)
 
     def _kept(self, name: str) -> str:
         with suppress(CarpusFault):
-            return last_place(self._store, name)
+            return last_place(self._data_folder, name)
         return ""
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from carpus import __version__
 from carpus.app.command_line import bar, tell
-from carpus.app.of_file import initials
+from carpus.app.of_file import copy_of_server, initials, open_store
 from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
 from carpus.core.errors import BackupMissing, CarpusFault
 
@@ -28,7 +28,6 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.core.records.backup import back_up, backups, compare, thin_out
     from carpus.core.records.log import Log
     from carpus.core.records.of_clinic import note_backup
-    from carpus.core.records.store import Store
 
     place: Path = arguments.place
     settings, _ = load_sound_settings()
@@ -53,11 +52,12 @@ def run(arguments: argparse.Namespace) -> int:
             place,
             software_version=__version__,
             sessions=share,
+            copy=copy_of_server(folder),
             settings_folder=settings_folder(),
             progress=progress,
         )
     try:
-        with Store(folder) as store:
+        with open_store(folder) as store:
             note_backup(store, made.made, str(place), made.sessions, made.size_bytes)
             Log(store, "command", initials).note("backed_up", "everything", sessions=made.sessions)
     except CarpusFault as fault:  # of a folder that can only be read: the back-up is made all the same

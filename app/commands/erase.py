@@ -7,18 +7,15 @@ from contextlib import closing
 from pathlib import Path
 
 from carpus.app.command_line import say
-from carpus.app.of_file import data_folder_of, library_of
+from carpus.app.of_file import data_folder_of, library_of, look_for_store
 from carpus.app.settings import load_sound_settings
 from carpus.core.errors import PatientUnknown, RecordingMissing
 from carpus.core.names import folded, known_names
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
-from carpus.core.records.store import look_for_store
 from carpus.core.session.reader import read_outline
 
-MOST_WAIT_S = 15.0
-"""For the clinic's server."""
 EXAMPLE = """carpus erase "Fern 12"
 carpus erase "Fern 12" --for-good "Fern 12\""""
 
@@ -39,10 +36,9 @@ def run(arguments: argparse.Namespace) -> int:
     look_for_store(folder)
     is_file = path.is_file()
     with closing(library_of(folder)) as library:
-        library.store.settled(MOST_WAIT_S)  # what others have recorded of the patient goes too
         if folded(arguments.what) in library.gone or (is_file and not path.exists()):
             print(f"The erasing of {arguments.what} that was begun before is finished: nothing of it is left here.")
-            return _told(library)
+            return _told()
         return _erase(library, arguments.what, path, arguments.for_good)
 
 
@@ -67,15 +63,11 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
         say(f"{confirmed} is not whose it is; nothing has been deleted.")
         return 1
     records.erase(plan)
-    return _told(library)
+    return _told()
 
 
-def _told(library: Library) -> int:
-    if library.store.settled(MOST_WAIT_S):
-        print("Erased. The log keeps that it was erased, no name.")
-    else:
-        print("Erased on this computer. The clinic's server does not answer: it still has all rows, until Carpus is "
-              "opened here and reaches it.")  # fmt: skip
+def _told() -> int:
+    print("Erased. The log keeps that it was erased, no name.")
     return 0
 
 

@@ -6,11 +6,10 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import say, tell
-from carpus.app.settings import load_sound_settings, sessions_folder
+from carpus.app.of_file import open_store
+from carpus.app.settings import load_sound_settings
 from carpus.core.errors import CarpusFault, OutputExists, RegisterDamaged
 
-MOST_WAIT_S = 15.0
-"""For the clinic's server."""
 EXAMPLE = "carpus log --output log.csv"
 HEAD = ("number", "when", "who", "by", "did", "kind", "subject", "facts")
 
@@ -23,22 +22,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from carpus.core.formats.new_output import look_for_folder, new_table
     from carpus.core.records.log import read_log
-    from carpus.core.records.store import look_for_store, reading
 
     settings, _ = load_sound_settings()
     folder: Path = arguments.data_folder or settings.data_folder
-    look_for_store(folder)
     if arguments.output is not None:
         if arguments.output.exists():
             raise OutputExists(arguments.output)
         look_for_folder(arguments.output)
-    own = folder == settings.data_folder
     faults: list[CarpusFault] = []
-    with reading(
-        folder, sessions_folder(settings) if own else None, settings.records.url if own else "", faults.append
-    ) as store:
-        if not store.settled(MOST_WAIT_S):
-            say("the clinic's server does not answer: this is what was done on this computer.")
+    with open_store(folder, only_reads=True, told=faults.append) as store:
         deeds = read_log(store)
     for fault in faults:
         if not isinstance(fault, RegisterDamaged):

@@ -64,14 +64,14 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
-            from carpus.core.records.of_clinic import form_in
+            from carpus.app.of_file import form_of
             from carpus.ui.report.gather import write_progress_report
             from carpus.ui.report.pdf import ensure_application
 
             application = ensure_application()
             write_progress_report(
                 figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
-                software_version=__version__, form=form_in(settings.data_folder),
+                software_version=__version__, form=form_of(settings.data_folder),
             )  # fmt: skip
             del application
         else:
@@ -88,12 +88,12 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list[tuple[Pat
     """Sessions of a patient that can be read, with their figures: of a data folder those that the list of patients has
     as this patient's and not in the archive, of any other the files that carry the pseudonym. Raises
     :class:`PatientUnknown` or :class:`SessionsMissing` for none."""
-    from carpus.core.records.store import is_kept_in
+    from carpus.app.of_file import has_store
 
     out: list[tuple[Path, SessionFigures]] = []
     known: list[str] = []
     for place in places:
-        has_list = place.is_dir() and is_kept_in(place)
+        has_list = place.is_dir() and has_store(place)
         found, names = _listed(subject, place) if has_list else _carrying(subject, place, limits)
         out += found
         known += names

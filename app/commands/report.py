@@ -42,14 +42,13 @@ def run(arguments: argparse.Namespace) -> int:
         if named.setdefault(session.header.session_id, session) is not session:
             say(f"{path} is left out: it holds a session that was named before.")
     sessions = list(named.values())
-    from carpus.core.records.of_clinic import form_in
+    from carpus.app.of_file import form_of, read_choices, read_comment
 
-    form = form_in(settings.data_folder)
+    form = form_of(settings.data_folder)
     if arguments.paper:
         form = replace(form, paper=arguments.paper)
     look = {"form": form, "language": arguments.language, "therapist": settings.report.therapist}
     # Qt is loaded only now: a wrong file is told without it.
-    from carpus.app.of_file import read_choices, read_comment
     from carpus.core.agreement.limits_file import read_limits
     from carpus.core.results.figures import session_figures
     from carpus.core.results.progress import newest_results

@@ -28,7 +28,7 @@ class Bar(QObject):
         super().__init__(context.shell)
         self._shell, self._now, self._way = context.shell, context.now, context.way
         self._camera, self._review, self._is_demo = context.camera, review, context.is_demo
-        self._again = (-1, 0)
+        self._again, self._store = (-1, 0), context.library.store
         self._way.arrived.connect(lambda _: self.show())
         self._way.changed.connect(self.show)
         self._camera.looked.connect(self.show_camera)
@@ -70,6 +70,13 @@ class Bar(QObject):
         elif figures is not None:
             simulated, findings = figures.simulated, figures.findings
         lines = []
+        if self._store.is_away:
+            lines.append(
+                self.tr(
+                    "The clinic’s server does not answer: until it does, patients and their sessions can be neither "
+                    "shown nor changed. Measuring goes on."
+                )
+            )
         if simulated and now.patient is not None and not now.is_practice:
             words = self.tr("Simulated hand: this is not {name}, and does not count.")
             lines.append(words.format(name=now.patient.pseudonym))

@@ -6,7 +6,7 @@ Each knows its own way (:mod:`ui.flow`); here is what belongs to none: the top b
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date, datetime
 from functools import partial
 from pathlib import Path
@@ -15,6 +15,7 @@ from carpus import __version__
 from carpus.app.desktop.bar import Bar
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.screens import PLACES, Screens, flow_class
+from carpus.app.desktop.server_watch import ServerWatch
 from carpus.app.settings import Settings
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.errors import CarpusFault
@@ -66,7 +67,7 @@ class Journey(Screens):
         self.way = Navigator(shell, lambda: messages.busy, lambda: "live" in self.way.flows and self.live.is_recording)
         self.context = ScreenContext(
             shell, theme, parts.library, self.background, messages, self.way, self.now, self.opener,
-            self.camera_state, parts.cameras, LastPlaces(parts.library.store), parts.settings.report, parts.today,
+            self.camera_state, parts.cameras, LastPlaces(parts.library.folder), parts.settings.report, parts.today,
             __version__, parts.is_demo, parts.settings.patient.sound,
             parts.settings.recording.keep_pictures, MB_PER_MINUTE,
         )  # fmt: skip
@@ -76,6 +77,27 @@ class Journey(Screens):
         self._connect()
         self.camera_state.start()
         self._look_for_waiting()
+        self.server = ServerWatch(parts.library, self)
+        self.server.gone.connect(self._server_gone)
+        self.server.back.connect(self._server_back)
+
+    def _server_gone(self) -> None:
+        self.bar.show()
+        if self.place == "patients":
+            self.patients.screen.refresh()
+
+    def _server_back(self) -> None:
+        """Who was typed while it was away is who the list says, and every screen reads what it could not."""
+        now, patients = self.now, self._library.patients
+        row = now.patient
+        if row is not None and row.patient_id and not patients.has(row.patient_id):
+            known = patients.called(row.pseudonym)
+            now.patient = PatientRow.of(patients.one(known)) if known else row
+            if now.set_up is not None:
+                now.set_up = replace(now.set_up, patient_id=now.patient.patient_id)
+        for flow in self.way.flows.values():
+            flow.server_back()
+        self.bar.show()
 
     def _make(self, place: str) -> Flow:
         return flow_class(place)(self.context)
@@ -173,6 +195,7 @@ class Journey(Screens):
 
     def close(self) -> None:
         """The window closes: finish what runs, in order, and wait for it."""
+        self.server.end()
         self.camera_state.stop()
         for flow in self.way.flows.values():
             flow.close()

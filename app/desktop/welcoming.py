@@ -186,7 +186,9 @@ class Welcome(QObject):
 
     def begin(self) -> None:
         """Offer it where nobody has answered it and nobody is in the list."""
-        if self._keeper.first_start_answered or self._library.patients.listed(most=1) or self.panel is not None:
+        if self._keeper.first_start_answered or self.panel is not None or self._library.store.is_away:
+            return
+        if self._library.patients.listed(most=1):
             return
         panel = self.panel = WelcomePanel(self._theme)
         panel.show_folder(str(self._folder), counts_later=False)

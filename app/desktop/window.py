@@ -73,7 +73,7 @@ class Desktop:
         without the PIN that was typed before."""
         # The newest session is on top, but for simulated ones, which count nowhere.
         self.journey.patients.show(self.library.index.last_owner() if self.journey.is_demo else "")
-        put_in_place(self.shell, LastPlaces(self.library.store).window())
+        put_in_place(self.shell, LastPlaces(self.library.folder).window())
         self.shell.create()  # what hides the names must be there before anything is seen
         if is_reopened:
             self.safe.locking.look_again()
@@ -154,7 +154,7 @@ class Desktop:
             self.welcome.end()
             self.safe.locking.end()
             self.safe.backing_up.end()
-            LastPlaces(self.library.store).keep_window(place_of(self.shell))
+            LastPlaces(self.library.folder).keep_window(place_of(self.shell))
             self.journey.close()
             self.shell.hide()
             self.library.close()

@@ -98,6 +98,7 @@ def back_up(
     software_version: str,
     sessions: Path | None = None,
     settings_folder: Path | None = None,
+    copy: Callable[[], sqlite3.Connection] | None = None,
     now: datetime | None = None,
     progress: Progress = lambda _done, _total: None,
 ) -> Backup:
@@ -110,7 +111,7 @@ def back_up(
     session that the store knows has none; all else is backed up then.
     """
     check_place(data_folder, place)
-    sources = gather(data_folder, place, settings_folder, sessions)
+    sources = gather(data_folder, place, settings_folder, sessions, copy)
     for folder in (place, place / OBJECTS, place / BACKUPS):
         make_private(folder)
     with _alone(place):
@@ -159,13 +160,19 @@ def _back_up(
     return made
 
 
-def gather(data_folder: Path, place: Path, settings_folder: Path | None, sessions: Path | None = None) -> BackupSources:
+def gather(
+    data_folder: Path,
+    place: Path,
+    settings_folder: Path | None,
+    sessions: Path | None = None,
+    copy: Callable[[], sqlite3.Connection] | None = None,
+) -> BackupSources:
     """Everything that a back-up of a data folder holds, the ``sessions`` of a share too. Raises :class:`FolderMissing`,
     :class:`NoDataFolder`, :class:`RegisterUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for
     a place that a link leads into."""
-    if not (data_folder / SESSIONS_FOLDER).exists():
+    if copy is None and not (data_folder / SESSIONS_FOLDER).exists():
         look_for_store(data_folder)
-    snapshot, wanted = _of_store(data_folder / STORE_FILE)
+    snapshot, wanted = _of_store(data_folder / STORE_FILE, copy)
     lacking: list[str] = []
     place = _led_to(place)
     there = dict(walk_files(data_folder, place, lacking))
@@ -332,16 +339,16 @@ def walk_files(folder: Path, place: Path | None, lacking: list[str], prefix: str
                 lacking.append(path)
 
 
-def _of_store(path: Path) -> tuple[bytes, list[str]]:
+def _of_store(path: Path, copy: Callable[[], sqlite3.Connection] | None) -> tuple[bytes, list[str]]:
     """The store as it is between two transactions, whoever has it open, and the paths of the sessions that it knows."""
-    if not path.exists():
+    if copy is None and not path.exists():
         return b"", []
-    with contextlib.closing(copied(path)) as copy:
+    with contextlib.closing(copied(path) if copy is None else copy()) as taken:
         try:
-            wanted = [str(one) for (one,) in copy.execute("SELECT path FROM session WHERE erasing = 0")]
+            wanted = [str(one) for (one,) in taken.execute("SELECT path FROM session WHERE erasing = 0")]
         except sqlite3.Error as cause:
             raise RegisterUnreadable(path, str(cause) if path.stat().st_size else phrase("empty file")) from cause
-        return copy.serialize(), wanted
+        return taken.serialize(), wanted
 
 
 class SourceFails(Exception):

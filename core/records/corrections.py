@@ -13,7 +13,7 @@ from uuid import uuid4
 import numpy as np
 
 from carpus.core.durable import link_or_copy, make_private, replace_file, write_fault
-from carpus.core.errors import CarpusFault, ChangedMeanwhile, OutputExists, RegisterBusy, SessionUnreadable
+from carpus.core.errors import CarpusFault, ChangedMeanwhile, OutputExists, SessionUnreadable
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.records.changes import changed
 from carpus.core.records.library import Library, as_listed
@@ -86,7 +86,9 @@ class Corrections:
         for path in sorted(self._folder.glob(f"*{SESSION_SUFFIX}")):
             with suppress(CarpusFault, OSError):  # cannot be read, a full share, or one that is away: it stays
                 header = read_outline(path).header
-                if self._is_listed(header.session_id):  # decided: a program was killed before the file had its name
+                if self._library.is_listed(
+                    header.session_id
+                ):  # decided: a program was killed before the file had its name
                     self.use(header.origin, path)
                     continue
                 self._clear_copies(header)
@@ -97,13 +99,11 @@ class Corrections:
         return [one for _, one in sorted(found, key=lambda one: (one[0], one[1].trial))]
 
     def _is_known(self, session_id: str) -> bool:
-        """Raises :class:`FolderMissing` and :class:`RegisterBusy` while a session that is in no list may come yet."""
+        """Raises :class:`FolderMissing` while a session that is in no list may come yet."""
         library = self._library
-        if session_id in library.elsewhere or self._is_listed(session_id):
+        if session_id in library.elsewhere or self._library.is_listed(session_id):
             return True
         look_for_share(library.store)
-        if not library.store.knows_all():
-            raise RegisterBusy(library.folder)
         return False
 
     @property
@@ -129,12 +129,11 @@ class Corrections:
         """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays.
 
         It lies beside the old one before it is listed, in one step with what was left out of that one, and then the
-        file gets its name: a fault or a kill leaves all as it was, or what :meth:`waiting` goes on with. What is listed
-        once stays so: other computers take what is in the list no more for erased.
+        file gets its name: a fault or a kill leaves all as it was, or what :meth:`waiting` goes on with.
         """
         library, header = self._library, read_outline(trial).header
         look_for_share(library.store)
-        is_listed = self._is_listed(header.session_id)
+        is_listed = self._library.is_listed(header.session_id)
         entry = library.entry(header.session_id if is_listed else session_id)
         place = entry.path if is_listed else free_name(entry.path)
         copy = _copy_beside(entry.path, header)
@@ -179,11 +178,6 @@ class Corrections:
             with suppress(OSError):
                 _copy_beside(one.path, header).unlink(missing_ok=True)
 
-    def _is_listed(self, session_id: str) -> bool:
-        with suppress(KeyError):
-            return bool(self._library.index.one(session_id))
-        return False
-
     def _that_hold(self, session_id: str, trial: Path) -> RepetitionChoices | None:
         """What was said of the old result and is as true of the new one; None for nothing."""
         library = self._library
@@ -214,7 +208,7 @@ class Corrections:
         """Delete a new result that is not wanted. Raises :class:`ChangedMeanwhile` for one that is listed: it counts,
         and :meth:`waiting` goes on with it; and :class:`SessionUnreadable`."""
         if trial.exists():
-            if self._is_listed(read_outline(trial).header.session_id):
+            if self._library.is_listed(read_outline(trial).header.session_id):
                 raise ChangedMeanwhile(SESSION.name)
             trial.unlink()
 

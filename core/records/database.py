@@ -25,7 +25,7 @@ from carpus.core.errors import (
     RegisterVersionUnknown,
 )
 from carpus.core.phrase import phrase
-from carpus.core.records.schema import METADATA, OUTBOX, SESSION, SHARED, SQLITE_LOG, VERSION
+from carpus.core.records.schema import METADATA, SESSION, SQLITE_LOG, TABLES, VERSION
 from carpus.core.session.disk import free_name
 
 STORE_FILE = "records.sqlite3"
@@ -225,7 +225,7 @@ def _guard(connection: Connection) -> bool:
 
 def rescue(aside: Path, into: Database) -> int:
     """Take what can still be read of a damaged store into a new one, each table from both its ends up to where it is
-    damaged; how many rows. What others have changed and what the files say comes anew."""
+    damaged; how many rows. What the files say comes anew."""
     count = 0
     with (
         contextlib.suppress(sqlite3.Error),
@@ -234,7 +234,7 @@ def rescue(aside: Path, into: Database) -> int:
     ):
         new = connection.connection.cursor()
         new.execute("PRAGMA defer_foreign_keys = ON")
-        for table in (*SHARED.values(), OUTBOX):
+        for table in TABLES.values():
             there = set[str]()
             with contextlib.suppress(sqlite3.Error):
                 there = {one for _, one, *_ in old.execute(f"PRAGMA table_info({table.name})")}
@@ -253,9 +253,9 @@ def rescue(aside: Path, into: Database) -> int:
     return count
 
 
-def set_aside(path: Path, now: datetime) -> Path:
-    """Give a damaged database and its journals another name, so that a new one can be made; where it is now."""
-    aside = free_name(path.with_name(f"{path.stem}.damaged-{now:%Y%m%d-%H%M%S}{path.suffix}"))
+def set_aside(path: Path, now: datetime, why: str = "damaged") -> Path:
+    """Give a database and its journals another name, so that a new one can be made; where it is now."""
+    aside = free_name(path.with_name(f"{path.stem}.{why}-{now:%Y%m%d-%H%M%S}{path.suffix}"))
     try:
         for tail in ("", "-wal", "-shm"):
             old = path.with_name(path.name + tail)

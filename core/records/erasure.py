@@ -12,6 +12,7 @@ from __future__ import annotations
 import contextlib
 import glob
 import re
+import shutil
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,14 +21,14 @@ from sqlalchemy import delete, select
 
 from carpus.core.errors import ChangedMeanwhile, DiskFull, ErasureLeadsOut, ErasureUnfinished, FolderMissing
 from carpus.core.names import folded
-from carpus.core.records.changes import RowChange, changed, dropped, is_identity
+from carpus.core.records.changes import ERASED, RowChange, changed, dropped, fingerprint, is_identity
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Kind, Log
-from carpus.core.records.of_clinic import PLACE
+from carpus.core.records.of_clinic import forget_places
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.reserve import free_reserve
-from carpus.core.records.schema import DIAGNOSIS, OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
+from carpus.core.records.schema import DIAGNOSIS, PATIENT, RECIPIENT, SEEN, SESSION
 from carpus.core.records.session_list import (
     COPY,
     IS_THERE,
@@ -143,21 +144,27 @@ def finish_erasing(store: Store, log: Log) -> frozenset[str]:
     return frozenset() if left else people
 
 
-def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]:
-    """Delete the files of what is marked, then its rows; files that could not be deleted. Of what is ``gone_there``, on
-    the server, nothing is sent to it, and nothing else goes."""
-    people = [
-        row
-        for row in store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
-        if gone_there is None or row.id in gone_there
-    ]
+def delete_left_behind(store: Store) -> int:
+    """Delete the folders of patients who were erased on another computer; how many. Raises :class:`FolderMissing` for a
+    share that is away."""
+    look_for_share(store)
+    gone = {str(row[0]) for row in store.rows(ERASED)}
+    there = [one for one in store.sessions_folder.iterdir() if one.is_dir() and not one.is_symlink()]
+    there = [one for one in there if is_identity(one.name) and fingerprint(one.name) in gone]
+    known = {str(row[0]) for row in store.rows(select(PATIENT.c.id))} if there else set()
+    used = {Path(row.path).parts[0] for row in store.rows(select(SESSION.c.path))} if there else set()
+    left = [one for one in there if one.name not in known | used]
+    for folder in left:
+        shutil.rmtree(folder, ignore_errors=True)  # what is held open goes at the next start
+    return len(left)
+
+
+def go_on(store: Store) -> list[Path]:
+    """Delete the files of what is marked, then its rows; files that could not be deleted."""
+    people = store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
     patients = [str(row.id) for row in people]
     mine = (SESSION.c.erasing == 1) | SESSION.c.patient_id.in_(patients)
-    rows = [
-        row
-        for row in store.rows(select(SESSION.c.id, SESSION.c.path, SESSION.c.patient_id).where(mine))
-        if gone_there is None or row.id in gone_there or row.patient_id in patients
-    ]
+    rows = store.rows(select(SESSION.c.id, SESSION.c.path).where(mine))
     if not people and not rows:
         return []
     sessions = [str(row.id) for row in rows]
@@ -176,26 +183,16 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
         return left
     said = (one for row in people for one in (row.folded, row.name, *row.former.split("\n")))
     names = [folded(one) for one in said if one]
-    # What is of this computer alone goes first: as long as the rows are marked, a kill in between is made good.
+    # What leads here goes first: as long as the rows are marked, a kill in between is made good.
     root = store.sessions_folder
     paths = [path.relative_to(root).as_posix() for path in files if path.is_relative_to(root)]
-    places = store.rows(select(OWN).where(OWN.c.name.startswith(PLACE)))
+    forget_places(store.folder, names)
     store.own(
-        *(
-            delete(OWN).where(OWN.c.name == row.name)
-            for row in places
-            if any(one in folded(row.value) for one in names)
-        ),
         *(delete(SEEN).where(SEEN.c.path == path) for path in [*paths, *(str(row.path) for row in rows)]),
         *(delete(SEEN).where(SEEN.c.reason.endswith(str(row.path), autoescape=True)) for row in rows),
     )
     naming = _naming(store, names)
-    store.forget_waiting([*patients, *sessions, *(row.id for row in naming)])
-    change = [*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *naming]
-    if gone_there is None:
-        store.do(change)
-    else:
-        store.own(*(delete(SHARED[one.table]).where(SHARED[one.table].c.id == one.id) for one in change))
+    store.do([*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *naming])
     return [] if store.leave_no_trace() else [store.folder / f"{STORE_FILE}-wal"]
 
 

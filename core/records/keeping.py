@@ -11,10 +11,10 @@ from sqlalchemy import func, select
 from carpus.core.errors import SessionUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.records import erasure
-from carpus.core.records.changes import PRACTICE
+from carpus.core.records.changes import PRACTICE, fingerprint
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.library import Library
-from carpus.core.records.log import LoggedDeed, fingerprint, read_log
+from carpus.core.records.log import LoggedDeed, read_log
 from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store

@@ -15,10 +15,7 @@ from carpus.core.agreement.limits_file import read_limits
 from carpus.core.capture.files.pictures import decode_color, read_color
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.files.raw import RawRecording
-from carpus.core.errors import (
-    CarpusFault,
-    SessionUnreadable,
-)
+from carpus.core.errors import CarpusFault, ServerGone, SessionUnreadable
 from carpus.core.formats.formats import Wanted, export_sessions
 from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
 from carpus.core.hand.exercises import exercise_named
@@ -26,12 +23,10 @@ from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.phrase import phrase
 from carpus.core.records import of_sessions, patients
-from carpus.core.records.changes import changed
 from carpus.core.records.erasure import finish_erasing
 from carpus.core.records.log import By, Log, Notes
 from carpus.core.records.of_sessions import MOST_CHARACTERS, MadeKind
 from carpus.core.records.patients import Patients
-from carpus.core.records.schema import PATIENT
 from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.records.store import Store, reading
@@ -43,7 +38,6 @@ from carpus.core.session.reader import has_raw, read_outline, read_raw_color, re
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.types import ByteImage, Side
 
-PRACTICE_NAME = "Practice patient"
 KEPT_PICTURES = 2
 """Files of pictures that stay open: two sessions are looked at beside each other."""
 
@@ -132,17 +126,22 @@ class Library:
         self.patients, self.index = Patients(self.store), ListedSessions(self.store)
         self.notes = Notes(self.log, self.index.owner, lambda fault: self.log_fault(fault))
         self.pictures = ShownPictures()
-        if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != PRACTICE_NAME:
-            self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=PRACTICE_NAME)])
         self.elsewhere: dict[str, SessionEntry] = {}
         """Sessions that are in no list, remembered until the program ends: files that were handed over, and those of a
         data folder that went away, which are brought home at the next start."""
         self._figures: dict[Path, tuple[RepetitionChoices, SessionFigures]] = {}
         self._shown: dict[str, int] = {}
+        self._names: Sequence[str] = ()
         self.angle_order: Callable[[], AngleOrder] = lambda: "zyx"
         """In which order the wrist's angles are read in the window; files keep the papers'."""
-        self.gone = finish_erasing(self.store, self.log)
+        self.gone = frozenset[str]()
         """Pseudonyms of patients whose erasing was cut short before and is finished now, as they are compared."""
+        with suppress(ServerGone):  # told by who asks for something
+            self.finish_erasing()
+
+    def finish_erasing(self) -> None:
+        """When the store is there: what an erasure that was cut short has left goes."""
+        self.gone = finish_erasing(self.store, self.log)
 
     def close(self) -> None:
         """May be called twice."""
@@ -150,15 +149,15 @@ class Library:
 
     def pseudonyms(self) -> Sequence[str]:
         """Every pseudonym and name there is, for what must not hold them."""
-        with suppress(CarpusFault):
+        with suppress(CarpusFault):  # those known last, while the store cannot be read
             entries = [record.entry for record in self.patients.listed(archived=True)]
-            return [
+            self._names = [
                 text
                 for entry in entries
                 for text in (entry.pseudonym, entry.pseudonym.replace(" ", "-"), entry.name)
                 if text
             ]
-        return ()
+        return self._names
 
     # --- sessions -----------------------------------------------------------------------------------------
     def sessions(self, patient_id: str) -> Sequence[SessionEntry]:
@@ -188,8 +187,15 @@ class Library:
             return self.index.one(session_id)
         raise SessionUnreadable(session_id, phrase("not in the list of patients"))
 
+    def is_listed(self, session_id: str) -> bool:
+        with suppress(KeyError):
+            return bool(self.index.one(session_id))
+        return False
+
     def owner(self, session_id: str) -> str:
         """Whose session it is; empty for nobody's."""
+        if session_id in self.elsewhere:
+            return ""
         with suppress(KeyError):
             return self.index.owner(session_id)
         return ""
@@ -232,6 +238,8 @@ class Library:
         raise SessionUnreadable(session_id, phrase("not in the list of patients"))
 
     def choices(self, session_id: str) -> RepetitionChoices:
+        if session_id in self.elsewhere:
+            return RepetitionChoices()
         found, self._shown[session_id] = of_sessions.choices(self.store, session_id)
         return found
 
@@ -248,6 +256,8 @@ class Library:
 
     def comment(self, session_id: str) -> str:
         """What holds of it; empty where nothing was written."""
+        if session_id in self.elsewhere:
+            return ""
         return of_sessions.latest(of_sessions.comments(self.store, session_id))
 
     def keep_comment(self, session_id: str, text: str) -> None:

@@ -10,7 +10,6 @@ of the program.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 import time
@@ -22,8 +21,8 @@ from typing import Literal, get_args
 
 from sqlalchemy import select
 
-from carpus.core.errors import CarpusFault
-from carpus.core.records.changes import PRACTICE, new
+from carpus.core.errors import CarpusFault, ServerGone
+from carpus.core.records.changes import PRACTICE, fingerprint, new
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
@@ -89,7 +88,7 @@ class Notes:
         self._log, self._owner, self._on_fault = log, owner, on_fault
 
     def session(self, did: Deed, session_id: str, **facts: Fact) -> None:
-        with suppress(KeyError):  # of a folder that went away: noted when it comes home
+        with suppress(KeyError, ServerGone):  # of a folder that went away: noted when it comes home
             if self._owner(session_id) != PRACTICE:
                 self._note(did, "session", session_id, **facts)
 
@@ -106,24 +105,19 @@ class Notes:
         try:
             self._log.note(did, kind, identity, **facts)
         except CarpusFault as fault:
-            self._on_fault(fault)
-
-
-def fingerprint(identity: str) -> str:
-    """What stands in the log for a patient or a session; empty for none."""
-    return hashlib.sha256(identity.encode("utf-8", "backslashreplace")).hexdigest()[:16] if identity else ""
+            if not isinstance(fault, ServerGone):  # the window says so as long as it is away
+                self._on_fault(fault)
 
 
 def was_erased(store: Store, patient_id: str) -> bool:
     """Whether a patient was erased, or is being erased: what is found of them later goes too."""
     erased = DEED.c.did.in_(("erase_begun", "erased")), DEED.c.kind == "patient"
-    query = select(DEED.c.id).where(*erased, DEED.c.subject == fingerprint(patient_id)).limit(1)
-    return bool(store.rows_there(query))
+    return store.row(select(DEED.c.id).where(*erased, DEED.c.subject == fingerprint(patient_id)).limit(1)) is not None
 
 
 def read_log(store: Store) -> tuple[LoggedDeed, ...]:
     """The whole log, oldest first; of a line that is damaged the number is missing."""
-    rows = store.rows_there(select(DEED).order_by(DEED.c.at_ns, DEED.c.id))
+    rows = store.rows(select(DEED).order_by(DEED.c.at_ns, DEED.c.id))
     numbers = {row.id: number for number, row in enumerate(rows, 1)}
     return tuple(
         store.sound(

@@ -17,14 +17,18 @@ from carpus.core.calibration.result import ALL_STRAIGHT
 from carpus.core.durable import make_private
 from carpus.core.errors import (
     CarpusFault,
+    ChangedMeanwhile,
     FilesSetApart,
     FolderMissing,
     OutputNotWritable,
     RecordingWaits,
+    ServerGone,
     SessionUnreadable,
+    WaitingErased,
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.changes import is_identity
+from carpus.core.records.erasure import delete_left_behind
 from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import was_erased
@@ -37,7 +41,7 @@ from carpus.core.records.recordings import (
 )
 from carpus.core.records.session_list import FilesOfSessions, free_path, look_for_share
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.records.values import entry_of
+from carpus.core.records.values import entry_of, unless_away
 from carpus.core.results.progress import NAMES_DOUBTED
 from carpus.core.session.reader import read_outline, read_session
 
@@ -60,20 +64,24 @@ def recover(library: Library) -> tuple[Sequence[Recovered], Sequence[CarpusFault
     """Finish interrupted sessions; take these, and files that were copied in, into the store."""
     faults = [*library.told, *library.store.told]
     library.told, library.store.told = [], []
+    try:
+        library.finish_erasing()
+    except ServerGone as fault:  # all of this when it is back
+        return [], [*faults, fault]
     if not library.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
         return [], [*faults, FolderMissing(library.store.sessions_folder)]
     try:
         look_for_share(library.store)
     except FolderMissing as fault:
         return [], [*faults, fault]
-    recovered: list[Path] = []
-    if library.store.knows_all():  # who was erased meanwhile is brought back by nothing
-        recovered, told = bring_home(library.folder, partial(_folder_of, library))
-        faults += told
-        library.elsewhere = {key: one for key, one in library.elsewhere.items() if one.path.exists()}
+    recovered, told = bring_home(library.folder, partial(_folder_of, library))
+    faults += [*told, *([WaitingErased()] * delete_left_behind(library.store))]
     files = FilesOfSessions(library.store)
     of_before = recover_recordings(library.store.sessions_folder, given_up=files.given_up())
     apart = [*files.first_told(of_before.faults), *files.take_in().faults]
+    library.elsewhere = {
+        key: one for key, one in library.elsewhere.items() if one.path.exists() and not library.is_listed(key)
+    }
     found: list[Recovered] = []
     for path in (*recovered, *of_before.recovered):
         outline = read_outline(path)
@@ -94,7 +102,8 @@ def _folder_of(library: Library, patient_id: str, subject_id: str) -> Path | Non
     if is_identity(patient_id):
         if was_erased(library.store, patient_id):
             return None
-        owner = patient_id
+        if not owner or library.patients.has(patient_id):  # else given while the server was away
+            owner = patient_id
     return library.store.sessions_folder / (owner or "unknown")
 
 
@@ -147,14 +156,15 @@ class NewSessions:
         except CarpusFault as fault:
             entry = entry_of(path, read_outline(path))
             library.elsewhere[entry.session_id] = entry
-            library.log_fault(RecordingWaits(path, fault.detail or phrase("not there now")))
+            if not isinstance(fault, (ServerGone, ChangedMeanwhile)):  # else it is listed when the server is back
+                library.log_fault(RecordingWaits(path, fault.detail or phrase("not there now")))
             return entry.session_id
         library.notes.session("recorded", session_id)
         return session_id
 
     def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
         """Length of this hand of the patient as the last session of the kind measured it; NaN before the first."""
-        for entry in self._library.sessions(set_up.patient_id):
+        for entry in unless_away(lambda: self._library.sessions(set_up.patient_id), ()):
             if entry.hand != set_up.side:
                 continue
             with suppress(SessionUnreadable):
@@ -171,7 +181,7 @@ class NewSessions:
     def last_straight_fingers(self, set_up: SetUp) -> tuple[bool, ...]:
         """What the last session with these discs said of the hand's fingers, thumb to little; straight before one."""
         if set_up.protocol.has_fingers:
-            for entry in self._library.sessions_alike(set_up.patient_id, set_up):
+            for entry in unless_away(lambda: self._library.sessions_alike(set_up.patient_id, set_up), ()):
                 with suppress(SessionUnreadable):
                     return read_session(entry.path).calibration.straight_fingers
         return ALL_STRAIGHT

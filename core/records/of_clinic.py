@@ -8,24 +8,27 @@ import json
 import time
 import uuid
 from collections import Counter
+from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Row, delete, insert, select
+from sqlalchemy import Row, select
 
+from carpus.core.durable import replace_text
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.names import folded
 from carpus.core.records.changes import changed, dropped, kept, new
-from carpus.core.records.schema import BACKUP, DIAGNOSIS, OWN, PATIENT, RECIPIENT, REPORT_FORM, SESSION
-from carpus.core.records.store import Store, is_kept_in, new_id, reading
+from carpus.core.records.schema import BACKUP, DIAGNOSIS, PATIENT, RECIPIENT, REPORT_FORM, SESSION
+from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
 from carpus.core.results.report_form import Letterhead, Paper, ReportForm
 
 MOST_RECIPIENTS = 50
-PLACE = "place "
-"""Begins the names of places among what is of this computer alone."""
+PLACES_FILE = "places.json"
+"""In the data folder: of this computer alone."""
 
 
 def recipients(store: Store) -> list[str]:
@@ -83,16 +86,29 @@ def last_backup(store: Store) -> LastBackup | None:
     return LastBackup(made, row.place, row.sessions, row.size_bytes, len(later))
 
 
-def last_place(store: Store, name: str) -> str:
-    """Where that was last; empty before the first time."""
-    row = store.row(select(OWN.c.value).where(OWN.c.name == f"{PLACE}{name}"))
-    return row.value if row else ""
+def last_place(folder: Path, name: str) -> str:
+    """Where that was last on this computer; empty before the first time."""
+    return str(_places(folder).get(name, ""))
 
 
-def keep_place(store: Store, name: str, place: str) -> None:
-    """Remember where."""
-    name = f"{PLACE}{name}"
-    store.own(delete(OWN).where(OWN.c.name == name), insert(OWN).values(name=name, value=place))
+def keep_place(folder: Path, name: str, place: str) -> None:
+    """Remember where. Raises the faults of writing."""
+    replace_text(folder / PLACES_FILE, json.dumps({**_places(folder), name: place}, ensure_ascii=False))
+
+
+def forget_places(folder: Path, names: Iterable[str]) -> None:
+    """Forget those that have one of these folded names in them."""
+    for name, place in _places(folder).items():
+        if any(one in folded(str(place)) for one in names):
+            keep_place(folder, name, "")
+
+
+def _places(folder: Path) -> dict[str, Any]:
+    with suppress(OSError, ValueError):
+        found = json.loads((folder / PLACES_FILE).read_text(encoding="utf-8"))
+        if isinstance(found, dict):
+            return found
+    return {}
 
 
 _ID = "clinic"
@@ -102,14 +118,6 @@ def read_form(store: Store, usual: Paper = "a4") -> ReportForm:
     """The form of a clinic; where there is none, no letterhead and the ``usual`` paper."""
     row = _row(store)
     return ReportForm(paper=usual) if row is None else _form(row)
-
-
-def form_in(folder: Path) -> ReportForm:
-    """The form of a data folder, for a command."""
-    if not is_kept_in(folder):
-        return ReportForm()
-    with reading(folder) as store:
-        return read_form(store)
 
 
 def keep_form(store: Store, form: ReportForm, before: ReportForm) -> None:

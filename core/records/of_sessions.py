@@ -69,9 +69,8 @@ def keep_choices(store: Store, session_id: str, kept: RepetitionChoices, version
 
     Raises :class:`ChangedMeanwhile` where somebody else was quicker.
     """
-    change = change_of(session_id, kept, version)
-    store.do([change])
-    return int(change.after(version))
+    store.do([change_of(session_id, kept, version)])
+    return version + 1
 
 
 def change_of(session_id: str, kept: RepetitionChoices, version: int = 0) -> RowChange:

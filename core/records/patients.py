@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable
 from datetime import UTC, date, datetime
 from typing import Any
 
-from sqlalchemy import ColumnElement, Row, func, select
+from sqlalchemy import ColumnElement, Row, select
 
 from carpus.core.dates import day_of
 from carpus.core.hand.exercises import known_exercise
@@ -81,11 +81,11 @@ class Patients:
         if not archived:
             these.append(PATIENT.c.archived == "")
         words = folded(search).split()
-        these += [func.instr(PATIENT.c.search, word) > 0 for word in words]
+        these += [PATIENT.c.search.contains(word, autoescape=True) for word in words]
         order = (PATIENT.c.last_s.desc(), PATIENT.c.added_s.desc())
         query = select(PATIENT).where(*these)
         if words:  # the index has all that is needed to find them; whole rows are read of those alone
-            found = select(PATIENT.c.id).with_hint(PATIENT, "INDEXED BY patient_copy_found").where(*these)
+            found = select(PATIENT.c.id).with_hint(PATIENT, "INDEXED BY patient_copy_found", "sqlite").where(*these)
             found = found.order_by(*order).limit(most)
             rows = self._store.rows(select(PATIENT).where(PATIENT.c.id.in_(found)))
             return [_record(row) for row in sorted(rows, key=lambda row: (-row.last_s, -row.added_s))]
@@ -97,6 +97,10 @@ class Patients:
         if row is None:
             raise KeyError(patient_id)
         return _record(row)
+
+    def has(self, patient_id: str) -> bool:
+        """Whether there is one of this identity."""
+        return self._store.row(select(PATIENT.c.id).where(PATIENT.c.id == patient_id)) is not None
 
     def called(self, pseudonym: str) -> str:
         """The identity behind a pseudonym; empty for nobody's."""

@@ -33,9 +33,10 @@ from carpus.core.records.backup import (
     walk_files,
     write_hashed,
 )
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.erasure import finish_erasing
-from carpus.core.records.log import Log, fingerprint
+from carpus.core.records.log import Log
 from carpus.core.records.schema import DEED, PATIENT, SESSION
 from carpus.core.records.store import Store
 

@@ -1,8 +1,7 @@
 """The tables of the store, the same in SQLite and in PostgreSQL.
 
-Every shared row has an ``id``; a ``version`` that rises when the row is changed, so that two people who change one
-thing notice; and a ``step``, the number that the server gave to its last change (0 without a server). Times are ISO
-8601 texts with zone; ``*_s`` are seconds since 1970, ``*_ns`` nanoseconds, to put rows in order.
+Every row has an ``id`` and a ``version`` that rises when the row is changed, so that two people who change one thing
+notice. Times are ISO 8601 texts with zone; ``*_s`` are seconds since 1970, ``*_ns`` nanoseconds, to put rows in order.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from typing import Any
 from sqlalchemy import REAL, BigInteger, Column, Double, ForeignKey, Index, Integer, MetaData, Table, Text
 from sqlalchemy.types import TypeEngine
 
-VERSION = "1"
+VERSION = "2"
 """Of the schema; each has its script among the migrations."""
 METADATA = MetaData()
 _REAL: TypeEngine[float] = Double().with_variant(REAL(), "sqlite")
@@ -36,21 +35,16 @@ def _of(table: str) -> Column[Any]:
     return Column(f"{table}_id", Text, ForeignKey(f"{table}.id", ondelete="CASCADE"), nullable=False, index=True)
 
 
-def _shared(name: str, *columns: Column[Any] | list[Column[Any]]) -> Table:
+def _table(name: str, *columns: Column[Any] | list[Column[Any]]) -> Table:
     flat = [one for part in columns for one in (part if isinstance(part, list) else [part])]
     return Table(
         name, METADATA, Column("id", Text, primary_key=True), *flat,
         Column("version", Integer, nullable=False, server_default="1"),
-        Column("step", _LONG, nullable=False, server_default="0", index=True),
         sqlite_strict=True,
     )  # fmt: skip
 
 
-def _local(name: str, *columns: Column[Any]) -> Table:
-    return Table(name, METADATA, *columns, sqlite_strict=True)
-
-
-PATIENT = _shared(
+PATIENT = _table(
     "patient",
     Column("folded", Text, nullable=False, unique=True),
     _texts("pseudonym", "name", "side", "dominance", "age_band", "note", "search", "archived", "last", "last_exercise"),
@@ -68,7 +62,7 @@ Index(
     PATIENT.c.id,
 )  # fmt: skip
 
-SESSION = _shared(
+SESSION = _table(
     "session",
     Column("patient_id", Text, ForeignKey("patient.id", ondelete="SET NULL")),
     Column("path", Text, nullable=False, unique=True),
@@ -81,70 +75,56 @@ SESSION = _shared(
 """``path`` with slashes, in the folder of the sessions. ``by``: initials of who recorded."""
 Index("session_of_patient", SESSION.c.patient_id, SESSION.c.recorded_s)
 
-COMMENT = _shared("comment", _of("session"), _texts("text", "by", "entered"), Column("entered_ns", _LONG))
-CORRECTION = _shared(
+COMMENT = _table("comment", _of("session"), _texts("text", "by", "entered"), Column("entered_ns", _LONG))
+CORRECTION = _table(
     "correction",
     Column("session_id", Text, ForeignKey("session.id", ondelete="CASCADE"), nullable=False, unique=True),
     _texts("left_out", "edges_s", "reason"),
     _numbers("not_counted"),
 )
 """``left_out`` and ``edges_s`` as JSON, by the number of the repetition."""
-MEASURED = _shared(
+MEASURED = _table(
     "measured", _of("patient"), _texts("measure", "way", "side", "day", "tries", "place", "by", "entered"),
     Column("entered_ns", _LONG, nullable=False),
 )  # fmt: skip
 """By a person with a goniometer, a dynamometer, a questionnaire; ``tries`` as JSON."""
-SET_UP = _shared(
+SET_UP = _table(
     "set_up", _of("patient"), _texts("side", "exercise", "discs", "set_id"),
     _numbers("repetitions", "keep_pictures", "ends_free", "for_child"),
     _reals("positive_deg", "negative_deg", nullable=True),
 )  # fmt: skip
-GOAL = _shared(
-    "goal", _of("patient"), _texts("exercise", "side"), _reals("positive_deg", "negative_deg", nullable=True)
-)
-HOME_PLAN = _shared(
+GOAL = _table("goal", _of("patient"), _texts("exercise", "side"), _reals("positive_deg", "negative_deg", nullable=True))
+HOME_PLAN = _table(
     "home_plan", _of("patient"), _texts("exercises", "made", "again", "at", "note", "language"),
     _numbers("times", "rounds"),
 )  # fmt: skip
 """The last sheet for home; ``exercises`` in a line each, ``again`` the next appointment."""
-EXERCISE_SET = _shared("exercise_set", _texts("name", "discs", "parts"), _numbers("place", "gone"))
-REPORT_FORM = _shared("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
-RECIPIENT = _shared("recipient", _texts("address"), _reals("used_s"))
-DIAGNOSIS = _shared("diagnosis", _texts("words"))
+EXERCISE_SET = _table("exercise_set", _texts("name", "discs", "parts"), _numbers("place", "gone"))
+REPORT_FORM = _table("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
+RECIPIENT = _table("recipient", _texts("address"), _reals("used_s"))
+DIAGNOSIS = _table("diagnosis", _texts("words"))
 """The clinic's own list, to choose from; what a patient has stands with the patient."""
-MADE = _shared("made", _of("session"), _texts("path", "kind"))
+MADE = _table("made", _of("session"), _texts("path", "kind"))
 """Files outside the data folder that were made from a session."""
-BACKUP = _shared("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
-DEED = _shared("deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True))
+BACKUP = _table("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
+DEED = _table("deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True))
 """Only ever added to. ``subject``: a fingerprint of the patient's or session's id, so that what was erased is
 nobody's."""
 
-TOMBSTONE = Table(
-    "tombstone", METADATA, Column("id", Text, primary_key=True), Column("of_table", Text, nullable=False),
-    Column("step", _LONG, nullable=False, server_default="0", index=True), sqlite_strict=True,
-)  # fmt: skip
-"""On a server: rows that are gone, so that other computers let them go too."""
-DELIVERED = _local("delivered", Column("id", Text, primary_key=True), Column("at_s", _REAL, nullable=False))
-"""On a server: changes that have arrived."""
-OUTBOX = _local(
-    "outbox", Column("number", Integer, primary_key=True), Column("id", Text, nullable=False),
-    Column("change", Text, nullable=False), Column("refused", Text, nullable=False, server_default=""),
-)  # fmt: skip
-"""Changes on their way to the server, in order; ``refused`` says why one was not taken."""
-SEEN = _local(
-    "seen", Column("path", Text, primary_key=True), Column("size", _LONG, nullable=False),
-    Column("changed_ns", _LONG, nullable=False), Column("reason", Text, nullable=False),
+SEEN = Table(
+    "seen", METADATA, Column("path", Text, primary_key=True), Column("size", _LONG, nullable=False),
+    Column("changed_ns", _LONG, nullable=False), Column("reason", Text, nullable=False), sqlite_strict=True,
 )  # fmt: skip
 """How files looked when they were last read; ``reason`` why one is no session."""
-OWN = _local("own", Column("name", Text, primary_key=True), Column("value", Text, nullable=False))
-"""Of this computer alone: how far it has read the server, where a person last opened and saved things."""
 
-COPIED = (
-    PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, HOME_PLAN, EXERCISE_SET, REPORT_FORM, RECIPIENT,
-    DIAGNOSIS, MADE, BACKUP,
-)  # fmt: skip
-"""What every computer has a copy of, in an order in which no row comes before what it belongs to."""
-SHARED = {table.name: table for table in (*COPIED, DEED)}
+TABLES = {
+    table.name: table
+    for table in (
+        PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, HOME_PLAN, EXERCISE_SET, REPORT_FORM, RECIPIENT,
+        DIAGNOSIS, MADE, BACKUP, DEED,
+    )
+}  # fmt: skip
+"""Of what people write, in an order in which no row comes before what it belongs to."""
 
 SQLITE_LOG = """
 CREATE TRIGGER deed_stays BEFORE UPDATE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;

@@ -9,15 +9,14 @@ from __future__ import annotations
 import glob
 import re
 import stat
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Insert, Row, delete, select
-from sqlalchemy.dialects.sqlite import insert
+from sqlalchemy import Row, delete, insert, select
 
 from carpus.core.durable import link_or_copy, make_private, write_fault
 from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, SessionUnreadable, ShareEmpty
@@ -69,14 +68,17 @@ def remembered(store: Store) -> dict[str, SeenFile]:
     return {str(row.path): SeenFile(row.size, row.changed_ns, row.reason) for row in store.rows(select(SEEN))}
 
 
-def stored(seen: Mapping[str, SeenFile]) -> Sequence[Insert]:
-    """What :meth:`Store.own` does to remember how files looked."""
-    out = []
-    for path, one in seen.items():
-        values = {"size": one.size, "changed_ns": one.changed_ns, "reason": one.reason}
-        made = insert(SEEN).values(path=path, **values)
-        out.append(made.on_conflict_do_update(index_elements=["path"], set_=values))
-    return out
+def remember(store: Store, seen: Mapping[str, SeenFile], gone: Iterable[str] = ()) -> None:
+    """Take down how files looked, and forget those that are ``gone``."""
+    paths = [*seen, *gone]
+    values = [
+        {"path": path, "size": one.size, "changed_ns": one.changed_ns, "reason": one.reason}
+        for path, one in seen.items()
+    ]
+    forgotten = [delete(SEEN).where(SEEN.c.path.in_(paths[at : at + AT_ONCE])) for at in range(0, len(paths), AT_ONCE)]
+    made = [insert(SEEN).values(values[at : at + AT_ONCE]) for at in range(0, len(values), AT_ONCE)]
+    if paths:
+        store.own(*forgotten, *made)
 
 
 def can_be_stored(path: str) -> bool:
@@ -202,7 +204,7 @@ class ListedSessions:
             columns["exercise"] = exercise
         self._store.do([kept(SESSION, outline.header.session_id, **columns), *also])
         state = file.stat()
-        self._store.own(*stored({self.stored_path(path): SeenFile(state.st_size, state.st_mtime_ns)}))
+        remember(self._store, {self.stored_path(path): SeenFile(state.st_size, state.st_mtime_ns)})
         return self.one(outline.header.session_id)
 
     def move(self, session_id: str, patient_id: str) -> None:
@@ -314,11 +316,9 @@ class FilesOfSessions:
     def take_in(self, *, tells: bool = True) -> Rebuilt:
         """Read what was copied in or changed since the last look; a session whose file is gone stays in the list.
 
-        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient. While a
-        server may know better whose they are, neither is listed. What cannot be read is remembered as told, unless
-        nobody ``tells`` of it.
+        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient. What cannot
+        be read is remembered as told, unless nobody ``tells`` of it.
         """
-        knows_all = self._store.knows_all()
         before, (there, nameless) = remembered(self._store), self._there()
         known = {row.path: row for row in self._store.rows(select(SESSION))}
         now_seen: dict[str, SeenFile] = {}
@@ -342,8 +342,8 @@ class FilesOfSessions:
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
             faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is no text")) for one in nameless]
         gone = [path for path in before if path not in there and not self._is_part(path)]
-        taken, added = self._enter(found, known, there.keys(), now_seen, knows_all=knows_all)
-        self._store.own(*stored(now_seen), *(delete(SEEN).where(SEEN.c.path == path) for path in gone))
+        taken, added = self._enter(found, known, there.keys(), now_seen)
+        remember(self._store, now_seen, gone)
         return Rebuilt(taken, added, tuple(faults))
 
     def _enter(
@@ -352,8 +352,6 @@ class FilesOfSessions:
         known: dict[str, Row[Any]],
         there: Iterable[str],
         now_seen: dict[str, SeenFile],
-        *,
-        knows_all: bool,
     ) -> tuple[int, int]:
         """Put what was read into the list; a further copy of a session counts once: the one that is known, of new ones
         the longest, then the first by name."""
@@ -364,6 +362,7 @@ class FilesOfSessions:
         rows_of_people = self._store.rows(select(PATIENT.c.id, PATIENT.c.folded, PATIENT.c.former))
         people = {str(row.folded): str(row.id) for row in rows_of_people}
         former = {str(row.id): {folded(one) for one in row.former.split("\n")} for row in rows_of_people}
+        gone = {str(row[0]) for row in self._store.rows(changes.ERASED)} if found else set()
         change: list[changes.RowChange] = []
         added = taken = 0
         for path, outline in sorted(found, key=lambda one: (one[0] not in known, -one[1].frames, one[0])):
@@ -377,11 +376,11 @@ class FilesOfSessions:
             before, folder = rows.get(session_id), path.split("/")[0]
             if owner is None and subject and folded(subject) in former.get(folder, ()):
                 owner = folder
-            if before is None and owner is None and not knows_all:
-                del now_seen[path]
+            if before is None and owner is None and changes.fingerprint(folder) in gone:
+                del now_seen[path]  # of who was erased: it is deleted at the next start
                 continue
             if owner is None and subject and (before is None or before.patient_id is None):
-                # The folder has the identity that a computer gave which has not delivered the patient yet.
+                # The folder has the identity that was given while the server was away.
                 given = folder if changes.is_identity(folder) and folder not in former else new_id()
                 owner, added = people.setdefault(folded(subject), given), added + 1
                 former[owner] = set()
@@ -423,7 +422,7 @@ class FilesOfSessions:
             if known is None or not known.is_still(look):
                 fresh.append(fault)
                 if can_be_stored(path):
-                    self._store.own(*stored({path: look}))
+                    remember(self._store, {path: look})
         return fresh
 
     def given_up(self) -> set[Path]:

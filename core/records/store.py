@@ -1,39 +1,36 @@
-"""The open store of one data folder: rows are read of this computer's file, and changed by whole changes."""
+"""The open store of one data folder: rows are read, and changed by whole changes."""
 
 from __future__ import annotations
 
 import sqlite3
 import time
 import uuid
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
-from sqlalchemy import Delete, Insert, Row, Select, Update, select
+from sqlalchemy import Connection, Delete, Insert, Row, Select, Update, insert, select
 
 from carpus.core.durable import hold, make_private, make_private_file
 from carpus.core.errors import (
     CarpusFault,
     DiskFull,
-    ErasureUnfinished,
     FolderMissing,
     LogUnguarded,
     NoDataFolder,
     OutputNotWritable,
-    PseudonymTaken,
     RegisterBusy,
     RegisterDamaged,
     RegisterMissing,
     RegisterSetAside,
-    ServerGone,
 )
 from carpus.core.phrase import phrase
-from carpus.core.records.changes import PRACTICE, Change, forget, is_practice, is_shared, lay_out, make, new
+from carpus.core.records.changes import PRACTICE, Change, make, new
 from carpus.core.records.database import STORE_FILE, Database, copied, rescue, set_aside
 from carpus.core.records.reserve import free_reserve
-from carpus.core.records.schema import PATIENT
+from carpus.core.records.schema import PATIENT, TABLES
 from carpus.core.session.disk import below
 
 if TYPE_CHECKING:
@@ -43,18 +40,17 @@ T = TypeVar("T")
 SESSIONS_FOLDER = "sessions"
 MOST_ALONE_S = 60.0
 """To wait for another program that opens the store: one that brings a large one up to date takes long."""
-MOST_WAIT_S = 2.0
-"""For the server's word on what somebody else may have changed too."""
 MOST_SAID = 100
 """Signs of what is wrong with a row."""
-CONTESTED = ("patient", "correction", "exercise_set", "report_form")
+ROWS_AT_ONCE = 500
+PRACTICE_NAME = "Practice patient"
 
 
 class Store:
-    """May be used from several threads and programs at once. A damaged file is set aside, told, and made again.
-
-    With the ``url`` of a PostgreSQL server changes are delivered there and fetched from there
-    (:mod:`core.records.server`); what is found meanwhile is told from its thread. Raises what :class:`Database` does.
+    """May be used from several threads and programs at once. It lies in the data folder, as SQLite, or, with the
+    ``url`` of one, in a clinic's PostgreSQL, which is first asked when something is read. A damaged file is set aside,
+    told, and made again. Raises what :class:`Database` does; with a server each use raises :class:`ServerGone` while
+    that does not answer.
     """
 
     def __init__(
@@ -77,23 +73,50 @@ class Store:
         self._tell, self._unsound = tell, set[str]()
         self.told: list[CarpusFault] = []
         """What was found when the store was opened."""
-        path = folder / STORE_FILE
-        self._database = self._opened(path) if copy is None else Database(path, copy)
-        if self._database.was_unguarded:
-            self.told.append(LogUnguarded(folder / STORE_FILE))
-        if self._database.is_new and not url and not self.told and self._has_sessions():
-            self.told.append(RegisterMissing(folder / STORE_FILE))
-        if not self.rows(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)):
-            practice = new(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE, side="right")
-            with suppress(PseudonymTaken):  # another program that was started now was quicker
-                self._make([practice], "")
-        self._server: Server | None = None
+        self.server: Server | None = None
+        self._path = folder / STORE_FILE
         if url:
             from carpus.core.records.server import Server
 
-            self._server = Server(url, self._database, tell, self._let_go)
+            self._database: Database | Server = Server(url, self._meet)
+            self.server = self._database
+            return
+        self._database = database = self._opened() if copy is None else Database(self._path, copy)
+        if database.was_unguarded:
+            self.told.append(LogUnguarded(self._path))
+        if database.is_new and not self.told and self._has_sessions():
+            self.told.append(RegisterMissing(self._path))
+        with database.writing() as connection:
+            _enter_practice(connection)
 
-    def _opened(self, path: Path) -> Database:
+    def _meet(self, there: Connection) -> Callable[[], None]:
+        """Make a server ready in an open transaction, and give it what this computer has of its own; what is then to be
+        done once that is stored."""
+        _enter_practice(there)
+        if not self._path.is_file():
+            return lambda: None
+        from carpus.core.records.hand_over import HandOver
+
+        try:
+            with _alone(self._path), there.begin_nested():
+                done = HandOver(self._path, there)
+        except sqlite3.Error:
+            self._opened().close()  # what can be read of a damaged one
+            done = HandOver(self._path, there)
+
+        def then() -> None:
+            for fault in done.faults:
+                self._tell(fault)
+            if done.was_copy:  # it would keep the names of who is erased elsewhere
+                for tail in ("", "-wal", "-shm"):
+                    self._path.with_name(self._path.name + tail).unlink(missing_ok=True)
+            else:
+                set_aside(self._path, datetime.now(), "before-server")
+
+        return then
+
+    def _opened(self) -> Database:
+        path = self._path
         with _alone(path):  # two programs that meet a damaged one would each set aside what the other has just made
             try:
                 try:
@@ -122,9 +145,6 @@ class Store:
 
     def close(self) -> None:
         """May be called twice."""
-        if self._server is not None:
-            self._server.close()
-            self._server = None
         self._database.close()
 
     def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
@@ -136,28 +156,13 @@ class Store:
             return connection.execute(query).first()
 
     def do(self, change: Change) -> None:
-        """Make a change, whole or not at all. What two people could do at once waits for the server a moment, if that
-        is there: what it refuses is told here.
+        """Make a change, whole or not at all.
 
-        Raises :class:`ChangedMeanwhile`, :class:`PseudonymTaken` and the faults of writing.
+        Raises :class:`ChangedMeanwhile` where somebody else was quicker, :class:`PseudonymTaken` and the faults of
+        writing.
         """
-        change_id = new_id()
-        self._make(change, change_id)
-        if self._server is not None:
-            self._server.wake()
-            if any(row.version or (row.way == "new" and row.table in CONTESTED) for row in change):
-                self._server.delivered(change_id, MOST_WAIT_S)
-
-    def _make(self, change: Change, change_id: str) -> None:
         with self._database.writing() as connection:
             make(connection, change)
-            shared = [row for row in change if change_id and not is_practice(connection, row)]
-            if shared and is_shared(connection):
-                lay_out(connection, shared, change_id)
-
-    def knows_all(self) -> bool:
-        """Whether there is no server, or the copy is up to date with it; waits a moment when it was just opened."""
-        return self._server is None or self._server.has_fetched(MOST_WAIT_S)
 
     def sound(self, rows: Iterable[Row[Any]], read: Callable[[Row[Any]], T]) -> list[T]:
         """What ``read`` makes of each row of one with an ``id``; a damaged one is left out, and told once."""
@@ -171,40 +176,27 @@ class Store:
                     self._tell(RegisterDamaged(self.folder / STORE_FILE, str(cause)[:MOST_SAID]))
         return found
 
-    def rows_there(self, query: Select[Any]) -> Sequence[Row[Any]]:
-        """What the server has, of what is copied nowhere; this computer's own where there is none, or it is gone."""
-        if self._server is not None:
-            with suppress(ServerGone):
-                return self._server.rows(query)
-        return self.rows(query)
-
-    @property
-    def is_behind(self) -> bool:
-        """Whether there is a server that does not answer."""
-        return self._server is not None and not self._server.is_there
-
-    def settled(self, most_s: float) -> bool:
-        """Wait until the server has all of this computer and this one all of it; whether it is so. True without one."""
-        return self._server is None or self._server.settled(most_s)
-
-    def _let_go(self, gone_there: Collection[str]) -> None:
-        """What another computer erased goes here with its files."""
-        from carpus.core.records.erasure import go_on
-
-        left = go_on(self, gone_there)
-        if left:
-            self._tell(ErasureUnfinished(left[0].name, f"{len(left)}"))
-
     def own(self, *statements: Insert | Delete | Update) -> None:
-        """Change what is of this computer alone."""
+        """Change what has no version."""
         with self._database.writing() as connection:
             for statement in statements:
                 connection.execute(statement)
 
-    def forget_waiting(self, ids: Collection[str]) -> None:
-        """Take what is erased out of the changes that wait for the server; that it goes is told there all the same."""
-        with self._database.writing() as connection:
-            forget(connection, ids)
+    @property
+    def is_away(self) -> bool:
+        """Whether there is a server that did not answer when it was last asked."""
+        return self.server is not None and self.server.is_away
+
+    def copied(self) -> sqlite3.Connection:
+        """All of it as SQLite in memory, as of one moment. Raises :class:`RegisterUnreadable` and its kinds."""
+        if self.server is None:
+            return copied(self._path)
+        copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
+        with self.server.unchanging() as there, Database(self._path, copy).writing() as here:
+            for table in TABLES.values():
+                for rows in there.execute(select(table)).mappings().partitions(ROWS_AT_ONCE):
+                    here.execute(insert(table), [dict(row) for row in rows])
+        return copy
 
     def leave_no_trace(self) -> bool:
         """Bring what was taken out to the disk as taken out; whether it is."""
@@ -217,8 +209,7 @@ def reading(
     url: str = "",
     tell: Callable[[CarpusFault], None] = lambda _: None,
 ) -> Store:
-    """The store of a folder for who only reads: also of one that cannot be written, then without its server. Raises the
-    faults of a store."""
+    """The store of a folder for who only reads: also of one that cannot be written. Raises the faults of a store."""
     try:
         return Store(folder, sessions_folder, url, tell)
     except (OutputNotWritable, DiskFull):
@@ -243,8 +234,15 @@ def _alone(path: Path) -> Iterator[None]:
         yield
 
 
+def _enter_practice(connection: Connection) -> None:
+    """See that the practice patient is there."""
+    if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)).first() is None:
+        practice = new(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE_NAME, side="right")
+        make(connection, [practice])
+
+
 def new_id() -> str:
-    """Of a row."""
+    """A new random identity of a row."""
     return uuid.uuid4().hex
 
 

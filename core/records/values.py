@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Literal, TypeVar
 
 from carpus.core.dates import is_moment
-from carpus.core.errors import CarpusFault
+from carpus.core.errors import CarpusFault, ServerGone
 from carpus.core.names import name_of
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
@@ -117,6 +117,15 @@ class Rebuilt:
 
 
 T = TypeVar("T")
+U = TypeVar("U")
+
+
+def unless_away(read: Callable[[], T], otherwise: U) -> T | U:
+    """What is read of a store, something else while its server does not answer: for who measures all the same."""
+    try:
+        return read()
+    except ServerGone:
+        return otherwise
 
 
 def one_of(choices: Sequence[T], stored: T) -> T:

@@ -5980,22 +5980,6 @@
         <translation>nicht im Ordner der Sitzungen</translation>
     </message>
     <message>
-        <source>Enter the change once more, or ask whoever looks after the server.</source>
-        <translation>Geben Sie die Änderung noch einmal ein oder fragen Sie, wer den Server betreut.</translation>
-    </message>
-    <message>
-        <source>Measure as usual: patients are shown as last known, and what is new waits here and is delivered.</source>
-        <translation>Messen Sie wie gewohnt: Patienten werden gezeigt wie zuletzt bekannt; Neues wartet hier und wird nachgeliefert.</translation>
-    </message>
-    <message>
-        <source>Nothing need be done; if it lasts, ask whoever looks after the server.</source>
-        <translation>Es ist nichts zu tun; dauert es an, fragen Sie, wer den Server betreut.</translation>
-    </message>
-    <message>
-        <source>All other changes arrive; this computer shows what the server has.</source>
-        <translation>Alle anderen Änderungen kommen an; dieser Computer zeigt, was der Server hat.</translation>
-    </message>
-    <message>
         <source>All sessions of both patients are kept apart.</source>
         <translation>Alle Sitzungen beider Patienten bleiben getrennt.</translation>
     </message>
@@ -6006,14 +5990,6 @@
     <message>
         <source>The clinic’s server for records does not answer: {subject} ({detail}).</source>
         <translation>Der Server der Klinik für Patientendaten antwortet nicht: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The clinic’s server {subject} does not take a change ({detail}).</source>
-        <translation>Der Server der Klinik {subject} nimmt eine Änderung nicht an ({detail}).</translation>
-    </message>
-    <message>
-        <source>The name {subject} was given twice while the server was away: the second patient has ({detail}) behind it.</source>
-        <translation>Der Name {subject} wurde zweimal vergeben, während der Server fehlte: Beim zweiten steht jetzt ({detail}) dahinter.</translation>
     </message>
     <message>
         <source>{count} per stroke, {seconds} s in all</source>
@@ -6659,6 +6635,22 @@
         <source>The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.</source>
         <translation>Der Ordner der Sitzungen ist nicht erreichbar ({detail}); die Sitzung wird in {subject} aufbewahrt.</translation>
     </message>
+    <message>
+        <source>All sessions are safe. What was being entered just now may not have been kept.</source>
+        <translation>Alle Sitzungen sind sicher. Was gerade eingegeben wurde, ist vielleicht nicht gespeichert.</translation>
+    </message>
+    <message>
+        <source>Measure all the same, and enter the rest when the server answers; if it lasts, ask whoever looks after it.</source>
+        <translation>Messen Sie trotzdem, und geben Sie das Übrige ein, wenn der Server antwortet; dauert es an, fragen Sie, wer ihn betreut.</translation>
+    </message>
+    <message>
+        <source>The name {subject} was given on two computers: the second patient has ({detail}) behind it.</source>
+        <translation>Der Name {subject} wurde auf zwei Computern vergeben: Beim zweiten Patienten steht ({detail}) dahinter.</translation>
+    </message>
+    <message>
+        <source>no answer</source>
+        <translation>keine Antwort</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -6903,6 +6895,10 @@
     <message>
         <source>{time} of disk left</source>
         <translation>Platz für {time}</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
+        <translation>Der Server der Einrichtung antwortet nicht: Bis er es tut, können Patienten und ihre Sitzungen weder gezeigt noch geändert werden. Messen geht weiter.</translation>
     </message>
 </context>
 <context>
@@ -9443,6 +9439,10 @@ Umschalt+F8 von der Seite</translation>
         <source>In the archi&amp;ve: {names}</source>
         <translation>Im Archi&amp;v: {names}</translation>
     </message>
+    <message>
+        <source>Made-up name</source>
+        <translation>Erfundener Name</translation>
+    </message>
 </context>
 <context>
     <name>PictureView</name>
@@ -11188,6 +11188,21 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
+    </message>
+</context>
+<context>
+    <name>_Away</name>
+    <message>
+        <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
+        <translation>Die Liste der Patienten kommt von selbst zurück. Um jetzt zu messen, geben Sie oben den erfundenen Namen ein: Die Sitzung bleibt erhalten und steht in der Liste, sobald der Server antwortet.</translation>
+    </message>
+    <message>
+        <source>Measure “{name}”</source>
+        <translation>„{name}“ messen</translation>
+    </message>
+    <message>
+        <source>Measure without the list</source>
+        <translation>Ohne die Liste messen</translation>
     </message>
 </context>
 </TS>

@@ -5980,22 +5980,6 @@
         <translation>non nella cartella delle sessioni</translation>
     </message>
     <message>
-        <source>Enter the change once more, or ask whoever looks after the server.</source>
-        <translation>Inserisci di nuovo la modifica o chiedi a chi cura il server.</translation>
-    </message>
-    <message>
-        <source>Measure as usual: patients are shown as last known, and what is new waits here and is delivered.</source>
-        <translation>Misura come al solito: i pazienti sono mostrati come conosciuti per ultimo; ciò che è nuovo attende qui e viene consegnato.</translation>
-    </message>
-    <message>
-        <source>Nothing need be done; if it lasts, ask whoever looks after the server.</source>
-        <translation>Non occorre fare nulla; se continua, chiedi a chi cura il server.</translation>
-    </message>
-    <message>
-        <source>All other changes arrive; this computer shows what the server has.</source>
-        <translation>Tutte le altre modifiche arrivano; questo computer mostra ciò che ha il server.</translation>
-    </message>
-    <message>
         <source>All sessions of both patients are kept apart.</source>
         <translation>Tutte le sessioni dei due pazienti restano separate.</translation>
     </message>
@@ -6006,14 +5990,6 @@
     <message>
         <source>The clinic’s server for records does not answer: {subject} ({detail}).</source>
         <translation>Il server della clinica per i dati dei pazienti non risponde: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The clinic’s server {subject} does not take a change ({detail}).</source>
-        <translation>Il server della clinica {subject} non accetta una modifica ({detail}).</translation>
-    </message>
-    <message>
-        <source>The name {subject} was given twice while the server was away: the second patient has ({detail}) behind it.</source>
-        <translation>Il nome {subject} è stato dato due volte mentre il server mancava: il secondo ha ora ({detail}) dopo il nome.</translation>
     </message>
     <message>
         <source>{count} per stroke, {seconds} s in all</source>
@@ -6659,6 +6635,22 @@
         <source>The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.</source>
         <translation>La cartella delle sedute non è raggiungibile ({detail}); la seduta è conservata in {subject}.</translation>
     </message>
+    <message>
+        <source>All sessions are safe. What was being entered just now may not have been kept.</source>
+        <translation>Tutte le sedute sono al sicuro. Ciò che si stava inserendo potrebbe non essere stato salvato.</translation>
+    </message>
+    <message>
+        <source>Measure all the same, and enter the rest when the server answers; if it lasts, ask whoever looks after it.</source>
+        <translation>Misurare lo stesso e inserire il resto quando il server risponde; se dura, chiedere a chi se ne occupa.</translation>
+    </message>
+    <message>
+        <source>The name {subject} was given on two computers: the second patient has ({detail}) behind it.</source>
+        <translation>Il nome {subject} è stato dato su due computer: il secondo paziente porta ({detail}) dopo il nome.</translation>
+    </message>
+    <message>
+        <source>no answer</source>
+        <translation>nessuna risposta</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>
@@ -6903,6 +6895,10 @@
     <message>
         <source>{time} of disk left</source>
         <translation>spazio per {time}</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
+        <translation>Il server del centro non risponde: finché non risponde, i pazienti e le loro sedute non si possono né mostrare né modificare. Si può continuare a misurare.</translation>
     </message>
 </context>
 <context>
@@ -9443,6 +9439,10 @@ Maiusc+F8 di lato</translation>
         <source>In the archi&amp;ve: {names}</source>
         <translation>Nell’archi&amp;vio: {names}</translation>
     </message>
+    <message>
+        <source>Made-up name</source>
+        <translation>Nome inventato</translation>
+    </message>
 </context>
 <context>
     <name>PictureView</name>
@@ -11188,6 +11188,21 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
+    </message>
+</context>
+<context>
+    <name>_Away</name>
+    <message>
+        <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
+        <translation>L’elenco dei pazienti torna da solo. Per misurare ora, scrivere qui sopra il nome inventato: la seduta resta salvata e compare nell’elenco quando il server risponde.</translation>
+    </message>
+    <message>
+        <source>Measure “{name}”</source>
+        <translation>Misurare “{name}”</translation>
+    </message>
+    <message>
+        <source>Measure without the list</source>
+        <translation>Misurare senza l’elenco</translation>
     </message>
 </context>
 </TS>

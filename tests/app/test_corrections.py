@@ -25,6 +25,7 @@ from carpus.core.errors import (
     FolderMissing,
     OutputNotWritable,
     RegisterBusy,
+    ServerGone,
     SessionUnreadable,
 )
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
@@ -543,7 +544,11 @@ def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
     corrections, trial, store = kept.corrections, kept.trial(), kept.library.store
     store.do([dropped(SESSION, kept.session_id)])
     with monkeypatch.context() as patched:
-        patched.setattr(store, "knows_all", lambda: False)
+
+        def away(_: str) -> None:
+            raise ServerGone("records", "no answer")
+
+        patched.setattr(kept.library.index, "one", away)
         assert corrections.waiting() == []
     assert trial.exists()
     assert corrections.waiting() == []

@@ -2,47 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from carpus.core.errors import DiskFull
-from carpus.core.records.store import Store
+from carpus.core.records import of_clinic
 from carpus.ui import last_places
 from carpus.ui.last_places import LastPlaces
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with Store(tmp_path / "data") as found:
-        yield found
+def data(tmp_path: Path) -> Path:
+    folder = tmp_path / "data"
+    folder.mkdir()
+    return folder
 
 
-def test_the_first_time_it_is_documents_or_home(tmp_path: Path, store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_first_time_it_is_documents_or_home(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     papers = tmp_path / "papers"
     monkeypatch.setattr(last_places, "documents", lambda: str(papers))
-    assert LastPlaces(store).folder("reports") == str(Path.home()), "the folder for papers is not there"
+    assert LastPlaces(data).folder("reports") == str(Path.home()), "the folder for papers is not there"
     papers.mkdir()
-    assert LastPlaces(store).folder("reports") == str(papers)
+    assert LastPlaces(data).folder("reports") == str(papers)
 
 
-def test_each_kind_has_its_own_place_until_it_is_gone(tmp_path: Path, store: Store) -> None:
-    places = LastPlaces(store)
+def test_each_kind_has_its_own_place_until_it_is_gone(tmp_path: Path, data: Path) -> None:
+    places = LastPlaces(data)
     for kind in ("reports", "recordings"):
         (tmp_path / kind).mkdir()
         places.keep(kind, str(tmp_path / kind))  # type: ignore[arg-type]
-    again = LastPlaces(store)
+    again = LastPlaces(data)
     assert again.folder("reports") == str(tmp_path / "reports")
     assert again.folder("recordings") == str(tmp_path / "recordings")
     (tmp_path / "reports").rmdir()
     assert again.folder("reports") != str(tmp_path / "reports")
 
 
-def test_a_store_that_cannot_be_written_is_no_fault(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_written_is_no_fault(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> None:
         raise DiskFull("disk")
 
-    monkeypatch.setattr(store, "own", full)
-    LastPlaces(store).keep("reports", str(store.folder))
-    assert Path(LastPlaces(store).folder("reports")).is_dir()
+    monkeypatch.setattr(of_clinic, "replace_text", full)
+    LastPlaces(data).keep("reports", str(data))
+    assert Path(LastPlaces(data).folder("reports")).is_dir()

@@ -21,9 +21,10 @@ from pytestqt.qtbot import QtBot
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import RecordsSettings, Settings
 from carpus.core.records.backup import backups
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.library import Library
-from carpus.core.records.log import fingerprint, read_log
+from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.restoring import put_in_place
 from carpus.core.records.values import BackupSettings, PatientEntry

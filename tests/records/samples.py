@@ -14,19 +14,15 @@ from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import select
-
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.records import of_clinic, of_sessions, patients
-from carpus.core.records.changes import PRACTICE
 from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import Log
 from carpus.core.records.patients import Patients
-from carpus.core.records.schema import COPIED, DEED, OUTBOX
 from carpus.core.records.session_list import FilesOfSessions, ListedSessions
 from carpus.core.records.set_up import SetUp
 from carpus.core.records.store import Store
@@ -80,16 +76,6 @@ def until(what: Callable[[], bool]) -> None:
     while not what():
         assert time.monotonic() < end
         time.sleep(0.02)
-
-
-def settled(house: House) -> None:
-    """Everything of a computer has arrived."""
-    until(lambda: not house.store.is_behind and not waiting(house))
-
-
-def waiting(house: House) -> int:
-    """How many changes of a computer have not."""
-    return len(house.store.rows(select(OUTBOX).where(OUTBOX.c.refused == "")))
 
 
 def record(
@@ -146,7 +132,7 @@ def fill(house: House, patient_id: str) -> list[str]:
     keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
     plan = HomePlan(("WRIST_FE",), 10, 3, T0.date(), date(2026, 10, 16), "11:30", f"{entry.pseudonym} brings it", "it")
     patients.keep_home_plan(house.store, patient_id, plan)
-    of_clinic.keep_place(house.store, entry.pseudonym[:2], f"/papers/{entry.name}")
+    of_clinic.keep_place(house.store.folder, entry.pseudonym[:2], f"/papers/{entry.name}")
     of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
     of_clinic.list_diagnosis(house.store, f"as {entry.name}", listed=True)
     house.log.note("opened", "patient", patient_id)
@@ -173,16 +159,3 @@ def kept(folder: Path, patient: PatientEntry, *sessions: tuple[Path, datetime, s
             shutil.copyfile(stored, path)
             library.index.enter(path, patient_id, by)
     return patient_id
-
-
-def shared(house: House) -> dict[str, list[dict[str, Any]]]:
-    """All rows that are of every computer, as its own copy has them; of the log what the server has."""
-    found = {}
-    for table in (*COPIED, DEED):
-        columns = [column for column in table.c if column.name != "step"]
-        read = house.store.rows_there if table is DEED else house.store.rows
-        rows = read(select(*columns).order_by(table.c.id))
-        found[table.name] = [
-            dict(row._mapping) for row in rows if PRACTICE not in (row.id, row._mapping.get("patient_id"))
-        ]
-    return found

@@ -145,7 +145,7 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         assert (other.entry, other.session_count) == (HERON, 3)
         kept = [of_sessions.comments(house.store, one.session_id) for one in house.index.of_patient(heron)]
         assert [len(comments) for comments in kept] == [1, 1, 1]
-        assert of_clinic.last_place(house.store, "He") == f"/papers/{HERON.name}"
+        assert of_clinic.last_place(folder, "He") == f"/papers/{HERON.name}"
         assert of_clinic.recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
         assert of_clinic.diagnoses(house.store) == [f"as {HERON.name}"], "what names nobody stays"
     assert traces(folder, *NAMES, linden, *sessions) == []

@@ -12,9 +12,10 @@ from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
 from carpus.core.errors import LogUnguarded, OutputNotWritable, ServerGone
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
-from carpus.core.records.log import Log, fingerprint, read_log
+from carpus.core.records.log import Log, read_log
 from carpus.core.records.new_sessions import recover
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store

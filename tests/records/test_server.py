@@ -1,65 +1,70 @@
-"""A clinic's PostgreSQL: two computers, each with its copy; the server gone, back, slow to agree; nothing lost, nothing
-twice, nothing overwritten in silence. Against a real server that the tests start."""
+"""A clinic's PostgreSQL: several computers on one store; the server gone, frozen, back; nothing twice, nothing
+overwritten in silence; what computers had of their own goes there once. Against a real server that the tests start."""
 
 from __future__ import annotations
 
+import json
 import shutil
+import sqlite3
 import subprocess
 import sys
+import threading
 import time
 import uuid
+from collections.abc import Iterator
+from contextlib import closing, suppress
 from datetime import timedelta
 from pathlib import Path
 
 import pytest
-from sqlalchemy import Engine, create_engine, delete, func, insert, select, text, update
+from sqlalchemy import Engine, create_engine, inspect, select, text
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import NullPool
 
 from carpus.core.errors import (
     CarpusFault,
     ChangedMeanwhile,
-    ChangeRefused,
+    OutputNotWritable,
     PseudonymGiven,
     PseudonymTaken,
-    RegisterUnreadable,
+    RegisterVersionUnknown,
     ServerGone,
+    SettingsInvalid,
+    WaitingErased,
 )
-from carpus.core.records import changes, erasure, of_clinic, of_sessions, server
-from carpus.core.records.changes import PRACTICE, Change, RowChange, dropped, new
-from carpus.core.records.kept_sets import keep_sets
+from carpus.core.records import erasure, hand_over, of_sessions, schema, server
+from carpus.core.records.backup import back_up, backups
+from carpus.core.records.changes import PRACTICE, fingerprint
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
-from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESSION
-from carpus.core.records.server import Server
-from carpus.core.records.set_up import USUAL_SETS
-from carpus.core.records.values import PatientEntry, Rebuilt
+from carpus.core.records.new_sessions import recover
+from carpus.core.records.restoring import Past, put_in_place, restore
+from carpus.core.records.schema import PATIENT, TABLES
+from carpus.core.records.store import Store
+from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.report_form import Letterhead, ReportForm
-from tests.records.postgres import Cluster, binaries
-from tests.records.samples import (
-    HERON,
-    LINDEN,
-    LONG_S,
-    T0,
-    fill,
-    measure,
-    opened,
-    record,
-    settled,
-    shared,
-    traces,
-    until,
-    waiting,
-)
+from tests.records.postgres import Cluster
+from tests.records.samples import HERON, LINDEN, LONG_S, T0, fill, measure, opened, record, traces
+from tests.torture.kills import ROOT
 from tests.torture.wire import Wire
+
+GOLDEN = Path(__file__).with_name("golden") / "version-1.sqlite3"
+VERSIONS = Path(schema.__file__).with_name("migrations") / "versions"
 
 
 @pytest.fixture
-def there(cluster: Cluster, monkeypatch: pytest.MonkeyPatch) -> str:
-    """The url of a database with empty tables, at which computers look often."""
-    monkeypatch.setattr(server, "LOOK_S", 0.4)
-    monkeypatch.setattr(server, "RETRY_S", 0.4)
+def there(cluster: Cluster) -> str:
+    """The url of a database with empty tables."""
     return cluster.new_database(f"c{uuid.uuid4().hex[:12]}", "model")
+
+
+@pytest.fixture
+def wired(cluster: Cluster, there: str) -> Iterator[tuple[Wire, str]]:
+    """The wire to such a database, and the url through it."""
+    wire = Wire(cluster.port)
+    yield wire, there.replace(str(cluster.port), str(wire.port))
+    wire.close()
 
 
 def engine_of(url: str) -> Engine:
@@ -68,453 +73,333 @@ def engine_of(url: str) -> Engine:
 
 def count(url: str, table: str) -> int:
     with engine_of(url).connect() as connection:
-        return int(connection.execute(text(f"SELECT count(*) FROM {table}")).scalar() or 0)
+        return int(connection.execute(text(f"SELECT count(*) FROM {table} WHERE id != 'practice'")).scalar() or 0)
 
 
-def test_what_one_computer_enters_the_other_has(tmp_path: Path, cluster: Cluster) -> None:
+def test_what_one_computer_enters_the_other_has_at_once(tmp_path: Path, cluster: Cluster) -> None:
     there, sessions = cluster.new_database("empty"), tmp_path / "share"
     sessions.mkdir()
     with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
         linden = a.patients.add(LINDEN)
-        session_id = measure(a, linden, T0)
-        measure(a, PRACTICE, T0)
-        of_sessions.add_comment(a.store, session_id, "Less swelling.", "AB")
-        until(lambda: bool(b.store.rows(select(COMMENT))))
-        assert (b.patients.one(linden).entry, b.patients.one(linden).session_count) == (LINDEN, 1)
-        assert b.index.one(session_id) == a.index.one(session_id)
-        assert b.index.one(session_id).path.exists()
-        assert b.files.take_in().sessions == 1, "the practice patient's, which is of nobody"
-        assert len(b.index.of_patient(linden)) == 1
-        settled(a)
-        assert count(there, "patient") == count(there, "session") == 1, "of the practice patient nothing is sent"
-        erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
-        until(lambda: not b.store.rows(select(SESSION.c.id).where(SESSION.c.id == session_id)))
-        assert b.names() == []
-        assert count(there, "patient") == count(there, "session") == count(there, "comment") == 0
-    assert traces(tmp_path / "a", "Linden", linden, session_id) == []
-
-
-def test_all_that_people_write_is_on_every_computer(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a", there) as a:
-        fill(a, a.patients.add(LINDEN))
-        keep_sets(a.store, USUAL_SETS, ())
-        of_clinic.keep_form(a.store, ReportForm(Letterhead("Hand clinic"), "letter"), ReportForm())
-        of_clinic.note_backup(a.store, T0, "/backups", 3, 1000)
-        settled(a)
-        wanted = shared(a)
-    assert [name for name, rows in wanted.items() if not rows] == []
-    with opened(tmp_path / "b", there) as b:
-        settled(b)
-        assert shared(b) == wanted
-
-
-def test_the_practice_patient_s_sessions_are_of_no_server_wherever_they_lie(tmp_path: Path, there: str) -> None:
-    share = tmp_path / "share"
-    share.mkdir()
-    with opened(tmp_path / "a", there, sessions=share) as a, opened(tmp_path / "b", there, sessions=share) as b:
-        session_id = measure(a, PRACTICE, T0)
-        path = a.index.one(session_id).path
-        path.rename(share / "elsewhere.h5")
-        assert b.files.take_in() == Rebuilt(1, 0, ())
-        assert (b.index.owner(session_id), b.names()) == (PRACTICE, [])
-        theirs = {"path": "elsewhere.h5", "recording_id": session_id, "patient_id": None}
-        a.patients.add(LINDEN)
-        b.store._server._send("x", [new(SESSION, session_id, **theirs)])  # type: ignore[union-attr]
-        settled(b)
-        until(lambda: b.names() == ["Linden 42"])
-        assert a.index.owner(session_id) == b.index.owner(session_id) == PRACTICE, "whatever a server says of it"
-
-
-def test_closing_waits_for_no_server_that_is_frozen(tmp_path: Path, cluster: Cluster, there: str) -> None:
-    wire = Wire(cluster.port)
-    with opened(tmp_path, there.replace(str(cluster.port), str(wire.port))) as house:
-        settled(house)
-        server = house.store._server
-        wire.answers_come = False
-        house.patients.add(LINDEN)
-        house.store.close()
-        assert not server._thread.is_alive()
-    wire.close()
-
-
-def test_what_a_broken_line_makes_the_library_say_is_on_no_stderr() -> None:
-    code = (
-        "import logging, carpus.core.records.server\n"
-        "logging.getLogger('sqlalchemy.pool.impl.QueuePool').error('Error closing cursor')"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stderr == ""
+        session_ids = fill(a, linden)
+        assert (b.patients.one(linden).entry, b.patients.one(linden).session_count) == (LINDEN, 3)
+        assert b.names("erika MUSTER") == ["Linden 42"]
+        assert b.index.one(session_ids[0]) == a.index.one(session_ids[0])
+        assert b.files.take_in().sessions == 0, "what one computer has looked at the other need not read"
+        assert [one.did for one in read_log(b.store)] == ["opened"]
+        with pytest.raises(PseudonymTaken):
+            b.patients.add(PatientEntry("LINDEN 42", "left"))
+        erasure.erase(b.store, erasure.plan_patient(b.store, linden), b.log)
+        assert a.names() == []
+    for folder in (sessions, tmp_path / "b"):
+        assert traces(folder, "Linden", "Erika", linden, session_ids[0]) == []
+    assert [count(there, name) for name in TABLES if name != "deed"] == [0] * (len(TABLES) - 1)
 
 
 def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, there: str) -> None:
     with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
         linden = a.patients.add(LINDEN)
         session_id = measure(a, linden, T0)
-        settled(a)
-        until(lambda: bool(b.store.rows(select(SESSION.c.id).where(SESSION.c.id == session_id))))
         seen = b.patients.one(linden).version
-        assert seen == a.patients.one(linden).version, "both have it before anybody changes it"
         a.patients.change(linden, PatientEntry("Linden 42", "right", note="mine"), seen)
         with pytest.raises(ChangedMeanwhile):
             b.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), seen)
-        assert b.patients.one(linden).entry.note == "mine", "the copy has what holds"
-        of_sessions.keep_choices(a.store, session_id, RepetitionChoices({0: "a"}), 0)
+        assert b.patients.one(linden).entry.note == "mine"
+        version = of_sessions.keep_choices(a.store, session_id, RepetitionChoices({0: "a"}), 0)
         with pytest.raises(ChangedMeanwhile):
             of_sessions.keep_choices(b.store, session_id, RepetitionChoices({1: "b"}), 0)
-        assert of_sessions.choices(b.store, session_id)[0].left_out == {0: "a"}
-        until(lambda: bool(b.patients.called("Linden 42")))
-        with pytest.raises(PseudonymTaken):
-            b.patients.add(PatientEntry("LINDEN 42", "left"))
+        of_sessions.keep_choices(b.store, session_id, RepetitionChoices({1: "b"}), version)
+        assert of_sessions.choices(a.store, session_id)[0].left_out == {1: "b"}
 
 
-def test_what_was_changed_twice_while_away_overwrites_nobody(tmp_path: Path, there: str) -> None:
-    """The second change was made from what the first one left, which nobody else has ever seen."""
-    told: list[CarpusFault] = []
-    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
-        linden = a.patients.add(LINDEN)
-        until(lambda: b.names() == ["Linden 42"])
-        settled(a)
-        a.store.close()
-        with opened(tmp_path / "a") as away:
-            for note in ("first", "second"):
-                version = away.patients.one(linden).version
-                away.patients.change(linden, PatientEntry("Linden 42", "right", note=note), version)
-        b.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), b.patients.one(linden).version)
-        settled(b)
-        with opened(tmp_path / "a", there, told.append) as back:
-            until(lambda: len(told) == 2)
-            until(lambda: not back.store.rows(select(OUTBOX)))
-            assert back.patients.one(linden).entry.note == b.patients.one(linden).entry.note == "yours"
-    assert [type(one) for one in told] == [ChangedMeanwhile, ChangedMeanwhile]
+RACING = """
+import sys
+from pathlib import Path
+from carpus.core.errors import ChangedMeanwhile, PseudonymTaken
+from carpus.core.records.values import PatientEntry
+from tests.records.samples import T0, measure, opened
+from datetime import timedelta
+folder, url, share, name = sys.argv[1:]
+told, kept, taken = 0, [], 0
+with opened(Path(folder), url, sessions=Path(share)) as house:
+    linden = house.patients.called("Linden 42")
+    print("ready", flush=True)
+    sys.stdin.readline()
+    for number in range(25):
+        read = house.patients.one(linden)
+        try:
+            entry = PatientEntry("Linden 42", "right", note=f"{read.entry.note} {name}{number}")
+            house.patients.change(linden, entry, read.version)
+            kept.append(f"{name}{number}")
+        except ChangedMeanwhile:
+            told += 1
+        try:
+            house.patients.add(PatientEntry(f"Both {number}", "left"))
+        except PseudonymTaken:
+            taken += 1
+        if number % 5 == 0:
+            measure(house, linden, T0 + timedelta(days=400 * (name == "a"), seconds=number))
+print(told, taken, *kept, flush=True)
+"""
 
 
-def test_what_was_refused_as_the_program_ended_is_told_at_the_next_start(tmp_path: Path, there: str) -> None:
-    told: list[CarpusFault] = []
-    with opened(tmp_path, there) as house:
-        measure(house, house.patients.add(LINDEN), T0)
-        settled(house)
-        house.store.close()
-    with opened(tmp_path) as house:
-        house.patients.add(HERON)
-        house.store.own(update(OUTBOX).values(refused="ChangedMeanwhile"))
-    with opened(tmp_path, there, told.append) as house:
-        until(lambda: not house.store.rows(select(OUTBOX)))
-    assert [(type(one), one.subject) for one in told] == [(ChangedMeanwhile, "patient")]
+def test_two_programs_race_and_each_change_is_there_once_or_told(tmp_path: Path, there: str) -> None:
+    (tmp_path / "share").mkdir()
+    with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
+        linden = house.patients.add(PatientEntry("Linden 42", "right"))
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", RACING, str(tmp_path / name), there, str(tmp_path / "share"), name], cwd=ROOT,
+            text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        )
+        for name in ("a", "b")
+    ]  # fmt: skip
+    assert [one.stdout.readline() for one in running if one.stdout] == ["ready\n"] * 2
+    for one in running:
+        one.stdin.write("\n")  # type: ignore[union-attr]
+        one.stdin.flush()  # type: ignore[union-attr]
+    said = [one.communicate(timeout=120.0)[0].split() for one in running]
+    with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
+        kept = house.patients.one(linden).entry.note.split()
+        assert sorted(kept) == sorted(mark for _, _, *marks in said for mark in marks), "none lost, none twice"
+        assert sum(int(told) for told, *_ in said) + len(kept) == 50
+        assert sum(int(taken) for _, taken, *_ in said) == 25, "each name was given to one of the two"
+        assert len(house.names("both")) == 25
+        assert house.patients.one(linden).session_count == len(house.index.of_patient(linden)) == 10
 
 
-def test_a_server_that_falls_silent_while_it_is_read_holds_up_nobody(
+def test_a_server_that_is_away_is_told_and_what_was_measured_is_listed_when_it_is_back(
     tmp_path: Path, cluster: Cluster, there: str
 ) -> None:
-    wire = Wire(cluster.port)
-    with opened(tmp_path, there.replace(str(cluster.port), str(wire.port))) as house:
-        session_id = measure(house, house.patients.add(LINDEN), T0)
-        settled(house)
+    with closing(Library(tmp_path, url=there)) as library:
+        recover(library)
+        linden = library.patients.add(LINDEN)
+        cluster.stop()
+        try:
+            with pytest.raises(ServerGone):
+                library.patients.listed()
+            begin = time.monotonic()
+            for _ in range(20):
+                with pytest.raises(ServerGone):
+                    library.patients.listed()
+            assert time.monotonic() - begin < 1.0, "nobody waits for it again"
+            assert library.store.is_away
+            record(tmp_path / "sessions" / linden / "s.h5", "Linden 42", T0)
+            record(tmp_path / "sessions" / uuid.uuid4().hex / "t.h5", "Typed 7", T0)
+            with closing(Library(tmp_path, url=there)) as started_now:
+                assert [type(one) for one in recover(started_now)[1]] == [ServerGone]
+        finally:
+            cluster.start()
+        library.store.server.look()  # type: ignore[union-attr]
+        assert not library.store.is_away
+        assert recover(library) == ([], [])
+        assert {one.entry.pseudonym: one.session_count for one in library.patients.listed()} == {
+            "Linden 42": 1, "Typed 7": 1,
+        }  # fmt: skip
+        assert library.patients.one(linden).entry == LINDEN
+
+
+def test_a_server_that_falls_silent_is_left_after_seconds(
+    tmp_path: Path, wired: tuple[Wire, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server, "STALL_S", 0.5)
+    wire, url = wired
+    with opened(tmp_path, url) as house:
+        linden = house.patients.add(LINDEN)
+        session_id = measure(house, linden, T0)
         wire.answers_come = False
-        begin = time.monotonic()
-        for number in range(30):
-            of_sessions.add_comment(house.store, session_id, str(number), "AB")
-            time.sleep(0.1)
-        for _ in range(3):
-            house.patients.change(house.patients.called("Linden 42"), LINDEN, house.patients.listed()[0].version)
-        assert time.monotonic() - begin < LONG_S, "one waits for the server's word, and nobody after that"
+        with pytest.raises(ServerGone):
+            of_sessions.add_comment(house.store, session_id, "not kept", "AB")
         wire.cut()
         wire.answers_come = True
-        settled(house)
-    wire.close()
-    assert count(there, "comment") == 30
+        house.store.server.look()  # type: ignore[union-attr]
+        of_sessions.add_comment(house.store, session_id, "kept", "AB")
+        assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["kept"]
+        wire.cut()
+        assert house.names() == ["Linden 42"], "a line that was cut since then is made anew, and nobody hears of it"
 
 
-def test_measuring_never_waits_and_what_is_new_arrives_once(tmp_path: Path, cluster: Cluster, there: str) -> None:
-    told_a: list[CarpusFault] = []
-    told_b: list[CarpusFault] = []
-    with opened(tmp_path / "a", there, told_a.append) as a, opened(tmp_path / "b", there, told_b.append) as b:
-        linden = a.patients.add(LINDEN)
-        settled(a)
-        until(lambda: b.names() == ["Linden 42"])
-        cluster.stop()
-        try:
-            until(lambda: a.store.is_behind and b.store.is_behind)
-            session_id = measure(a, linden, T0)
-            for number in range(20):
-                of_sessions.add_comment(a.store, session_id, str(number), "AB")
-            a.patients.change(linden, PatientEntry("Linden 42", "right", note="mine"), a.patients.one(linden).version)
-            b.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), b.patients.one(linden).version)
-            heron_a, heron_b = a.patients.add(HERON), b.patients.add(HERON)
-            measure(b, heron_b, T0)
-            a.log.note("opened", "session", session_id)
-            assert b.names() == ["Heron 17", "Linden 42"], "patients as last known, with what is new here"
-            assert waiting(a) == 24
-            assert [type(one) for one in told_a].count(ServerGone) == 1, "told once, not at every try"
-        finally:
-            cluster.start()
-        settled(a)
-        settled(b)
-        until(lambda: len(a.names()) == len(b.names()) == 3)
-        assert sorted(a.names()) == sorted(b.names()) == ["Heron 17", "Heron 17 (2)", "Linden 42"]
-        assert any(isinstance(one, PseudonymGiven) for one in told_a + told_b), "told, and nothing of it lost"
-        assert any(isinstance(one, ChangedMeanwhile) for one in told_a + told_b)
-        until(lambda: a.patients.one(linden).entry == b.patients.one(linden).entry)
-        assert a.patients.one(heron_a).session_count + a.patients.one(heron_b).session_count == 1
-        assert [one.text for one in of_sessions.comments(b.store, session_id)] == [str(n) for n in range(20)]
-        assert [one.did for one in read_log(b.store)] == ["opened"], "the log is read of the server"
-
-
-def test_a_change_whose_answer_is_lost_is_made_once(
+def test_a_computer_that_stops_in_the_middle_holds_up_others_for_seconds(
     tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The connection breaks right after the server has taken it: it is sent again, and there once."""
-    real, broken = Server._send, list[str]()
-
-    def send(self: Server, change_id: str, change: object) -> None:
-        real(self, change_id, change)  # type: ignore[arg-type]
-        if change_id not in broken:
-            broken.append(change_id)
-            raise _cut()
-
-    with opened(tmp_path / "a", there) as a:
-        session_id = measure(a, a.patients.add(LINDEN), T0)
-        settled(a)
-        monkeypatch.setattr(Server, "_send", send)
-        for number in range(2):
-            of_sessions.add_comment(a.store, session_id, str(number), "AB")
-        a.log.note("opened", "session", session_id)
-        until(lambda: waiting(a) == 0)
-        assert len(broken) == 3
-    assert (count(there, "comment"), count(there, "deed")) == (2, 1)
-
-
-def test_what_is_laid_out_while_a_forgotten_change_is_sent_arrives_too(
-    tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The new change gets the number in the outbox that the forgotten one had, and is another all the same."""
-    real, sent = Server._send, list[str]()
-    with opened(tmp_path, there) as house:
-        session_id = measure(house, house.patients.add(LINDEN), T0)
-        settled(house)
-
-        def send(self: Server, change_id: str, change: Change) -> None:
-            real(self, change_id, change)
-            sent.append(change_id)
-            if len(sent) == 1:
-                house.store.forget_waiting([row.id for row in change])
-                of_sessions.add_comment(house.store, session_id, "second", "AB")
-
-        monkeypatch.setattr(Server, "_send", send)
-        of_sessions.add_comment(house.store, session_id, "first", "AB")
-        settled(house)
-        until(lambda: len(sent) == 2)
-    assert count(there, "comment") == 2
-
-
-def _cut() -> DBAPIError:
-    from sqlalchemy.exc import OperationalError
-
-    return OperationalError("", {}, Exception("server closed the connection unexpectedly"))
-
-
-def test_a_computer_that_joins_brings_what_it_has(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a") as a:
-        linden = a.patients.add(LINDEN)
-        session_id = measure(a, linden, T0)
-        of_sessions.add_comment(a.store, measure(a, PRACTICE, T0), "of nobody", "")
-        of_sessions.add_comment(a.store, session_id, "before", "AB")
-        a.log.note("opened", "session", session_id)
-    with opened(tmp_path / "b") as b:
-        b.patients.add(HERON)
     with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
-        until(lambda: sorted(a.names()) == sorted(b.names()) == ["Heron 17", "Linden 42"])
-        until(lambda: [one.text for one in of_sessions.comments(b.store, session_id)] == ["before"])
-        settled(a)
-        assert count(there, "deed") == 1
-        assert b.patients.one(linden).session_count == 1
+        b.names()
+        inside, release = threading.Event(), threading.Event()
+
+        def stop() -> None:
+            with suppress(Exception), a.store._database.writing():  # ended by the server
+                inside.set()
+                release.wait(LONG_S)
+
+        options = dict(server._OPTIONS, options="-c lock_timeout=4000 -c idle_in_transaction_session_timeout=500")
+        monkeypatch.setattr(server, "_OPTIONS", options)
+        a.store._database = server.Server(there, lambda _: lambda: None)
+        stopped = threading.Thread(target=stop)
+        stopped.start()
+        assert inside.wait(LONG_S)
+        b.patients.add(LINDEN)
+        release.set()
+        stopped.join()
+        a.store._database.close()
 
 
-def test_a_new_computer_takes_no_session_of_the_share_for_its_own(tmp_path: Path, there: str) -> None:
-    share = tmp_path / "share"
-    share.mkdir()
-    with opened(tmp_path / "a", there, sessions=share) as a:
-        linden = a.patients.add(LINDEN)
-        session_id = measure(a, linden, T0)
-        settled(a)
-    with opened(tmp_path / "b", "postgresql://127.0.0.1:1/nowhere", sessions=share) as b:
-        assert b.files.take_in() == Rebuilt(0, 0, ()), "the server may know whose it is"
-        heron = b.patients.add(HERON)
-        record(b.index.new_path(heron, "Heron 17", "WRIST_FE", "left", T0), "Heron 17", T0)
-        assert b.files.take_in() == Rebuilt(1, 0, ())
-    with opened(tmp_path / "b", there, sessions=share) as b:
-        b.files.take_in()
-        settled(b)
-        assert sorted(b.names()) == ["Heron 17", "Linden 42"]
-        assert b.index.owner(session_id) == linden
-        assert count(there, "patient") == count(there, "session") == 2
-
-
-def test_of_what_a_computer_brings_only_a_name_that_is_taken_gets_a_number(tmp_path: Path, there: str) -> None:
-    told: list[CarpusFault] = []
-    for name in ("a", "b"):
-        with opened(tmp_path / name) as house:
-            linden, own = house.patients.add(LINDEN), house.patients.add(PatientEntry(f"Oak {name}", "left"))
-            record(house.store.sessions_folder / "s.h5", f"Oak {name}", T0)
-            house.files.take_in()
-            of_sessions.add_comment(house.store, measure(house, linden, T0), name, "AB")
-            assert house.patients.one(own).session_count == 1
-        with opened(tmp_path / name, there, told.append) as house:
-            settled(house)
-    with opened(tmp_path / "c", there) as house:
-        until(lambda: len(house.names()) == 4)
-        assert sorted(house.names()) == ["Linden 42", "Linden 42 (2)", "Oak a", "Oak b"]
-        assert {one.session_count for one in house.patients.listed()} == {1}
-        assert sorted(row.text for row in house.store.rows(select(COMMENT))) == ["a", "b"]
-    assert [type(one) for one in told] == [PseudonymGiven]
-
-
-def test_a_copy_that_joins_again_brings_back_nobody_who_was_erased(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a", there) as a:
-        linden = a.patients.add(LINDEN)
-        of_sessions.add_comment(a.store, measure(a, linden, T0), "before", "AB")
-        settled(a)
-        a.store.close()
-    shutil.copytree(tmp_path / "a", tmp_path / "old")
-    with opened(tmp_path / "old") as old:
-        old.store.own(delete(OWN))
-    with opened(tmp_path / "a", there) as a:
-        erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
-        settled(a)
-    with opened(tmp_path / "old", there) as old:
-        old.patients.add(HERON)
-        until(lambda: old.names() == ["Heron 17"])
-        settled(old)
-    assert (count(there, "patient"), count(there, "session"), count(there, "comment")) == (1, 0, 0)
-
-
-def test_the_log_of_the_server_is_only_added_to_as_well(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a", there) as a:
-        a.log.note("locked", "program")
-        settled(a)
-    engine = engine_of(there)
-    for statement in ("UPDATE deed SET who = 'XY'", "DELETE FROM deed", "TRUNCATE deed"):
-        with pytest.raises(DBAPIError, match="only added to"), engine.begin() as connection:
-            connection.execute(text(statement))
-    with engine.connect() as connection:
-        assert connection.execute(select(func.count()).select_from(DEED)).scalar() == 1
-        assert connection.execute(select(func.count()).select_from(PATIENT)).scalar() == 0
-
-
-def test_no_server_at_all_is_told_and_holds_up_nothing(tmp_path: Path) -> None:
-    told: list[CarpusFault] = []
-    with opened(tmp_path, "postgresql://carpus@127.0.0.1:9/carpus", told.append) as house:
-        house.patients.add(LINDEN)
-        until(lambda: bool(told))
-        assert isinstance(told[0], ServerGone)
-        assert house.names() == ["Linden 42"]
-
-
-def test_erased_while_the_server_is_away_leaves_no_name_in_what_waits(
-    tmp_path: Path, cluster: Cluster, there: str
-) -> None:
-    with opened(tmp_path, there) as house:
-        settled(house)
-        cluster.stop()
-        try:
-            linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
-            session_id, given = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
-            house.index.move(given, heron)
-            house.index.one(given).path.with_suffix(".carpusraw").unlink()
-            of_sessions.add_comment(house.store, session_id, "Linden 42 is well", "AB")
-            erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
-            outbox = " ".join(row.change for row in house.store.rows(select(OUTBOX)))
-            assert "Erika Mustermann" not in outbox
-            assert "is well" not in outbox
-            assert traces(tmp_path, "Erika Mustermann", "is well") == []
-        finally:
-            cluster.start()
-        settled(house)
-        assert house.index.owner(given) == heron
-        assert (count(there, "patient"), count(there, "session")) == (1, 1)
-        until(lambda: traces(tmp_path, session_id) == [])
-
-
-def test_what_the_server_may_not_write_waits(tmp_path: Path, there: str) -> None:
+def test_what_the_server_may_not_write_is_told(tmp_path: Path, there: str) -> None:
     name = there.rsplit("/", 1)[1]
     with opened(tmp_path, there) as house:
-        session_id = measure(house, house.patients.add(LINDEN), T0)
-        settled(house)
-    engine = engine_of(there)
-    for only_read in (True, False):
-        with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
-            connection.execute(text("SET default_transaction_read_only = off"))
-            connection.execute(text(f"ALTER DATABASE {name} SET default_transaction_read_only = {only_read}"))
-        with opened(tmp_path, there) as house:
-            until(lambda: house.store._server is not None and house.store._server._has_looked)
-            if only_read:
-                of_sessions.add_comment(house.store, session_id, "a\0b \ud800", "AB")
-                until(lambda: house.store.is_behind)
-            else:
-                settled(house)
-            assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["a\ufffdb ?"]
-    assert count(there, "comment") == 1
-
-
-def test_what_is_erased_once_more_goes_everywhere_once_more(tmp_path: Path, there: str) -> None:
-    row = new(PATIENT, uuid.uuid4().hex, folded="linden 42", pseudonym="Linden 42")
-    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
-        for _ in range(2):
-            a.store.do([row])
-            until(lambda: b.names() == ["Linden 42"])
-            a.store.do([dropped(PATIENT, row.id)])
-            until(lambda: b.names() == [])
-
-
-def test_a_server_that_is_put_back_from_a_dump_gets_what_it_lacks(tmp_path: Path, there: str) -> None:
-    dump = str(tmp_path / "dump")
-    with opened(tmp_path / "a", there) as a:
-        a.patients.add(LINDEN)
-        settled(a)
-        subprocess.run([binaries() / "pg_dump", "--format=custom", "--file", dump, there], check=True)
-        a.patients.add(HERON)
-        settled(a)
-    back = ["--clean", "--single-transaction", "--dbname", there, dump]
-    subprocess.run([binaries() / "pg_restore", *back], check=True)
-    with opened(tmp_path / "b", there) as b, opened(tmp_path / "a", there) as a:
-        for number in range(9):  # more than was lost: the number of the last change says nothing
-            b.patients.add(PatientEntry(f"Oak {number}", "left"))
-        until(lambda: len(a.names()) == len(b.names()) == 11)
-
-
-def test_a_server_of_a_newer_carpus_is_told_also_where_it_is_known(tmp_path: Path, there: str) -> None:
-    told: list[CarpusFault] = []
+        house.patients.add(LINDEN)
+    with engine_of(there).connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+        connection.execute(text(f"ALTER DATABASE {name} SET default_transaction_read_only = on"))
     with opened(tmp_path, there) as house:
-        settled(house)
+        assert house.names() == ["Linden 42"]
+        with pytest.raises(OutputNotWritable):
+            house.patients.add(HERON)
+
+
+def test_the_log_of_the_server_is_only_added_to(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "a", there) as a:
+        a.log.note("locked", "program")
+    for statement in ("UPDATE deed SET who = 'XY'", "DELETE FROM deed", "TRUNCATE deed"):
+        with pytest.raises(DBAPIError, match="only added to"), engine_of(there).begin() as connection:
+            connection.execute(text(statement))
+    assert count(there, "deed") == 1
+
+
+def test_a_server_of_a_newer_carpus_and_a_url_that_is_none_are_told(tmp_path: Path, there: str) -> None:
     with engine_of(there).begin() as connection:
         connection.execute(text("UPDATE alembic_version SET version_num = '99'"))
-    with opened(tmp_path, there, told.append):
-        until(lambda: bool(told))
-    assert isinstance(told[0], RegisterUnreadable)
+    with opened(tmp_path, there) as house, pytest.raises(RegisterVersionUnknown):
+        house.names()
+    for url in ("postgresql://", "postgresql://a:b:c@host:port/x"):
+        with pytest.raises((SettingsInvalid, ServerGone)), opened(tmp_path, url) as house:
+            house.names()
 
 
-def test_a_change_that_can_never_be_made_lets_the_others_pass(
-    tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(server, "RETRY_S", 0.0)
+def test_who_was_erased_on_another_computer_leaves_no_file_here(tmp_path: Path, there: str) -> None:
+    with closing(Library(tmp_path / "b", url=there)) as b:
+        with opened(tmp_path / "a", there) as a:
+            linden = b.patients.add(LINDEN)
+            path = b.index.new_path(linden, "Linden 42", "WRIST_FE", "right", T0)
+            b.index.enter(record(path, "Linden 42", T0), linden)
+            erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
+        assert path.exists(), "another computer's folder is nobody else's"
+        assert [type(one) for one in recover(b)[1]] == [WaitingErased]
+        assert b.patients.listed() == []
+    assert traces(tmp_path, "Linden", "Erika", linden) == []
+
+
+def test_a_back_up_holds_what_the_server_has(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "data", there) as house:
+        linden = house.patients.add(LINDEN)
+        fill(house, linden)
+        back_up(tmp_path / "data", tmp_path / "place", software_version="1", copy=house.store.copied)
+        wanted = {name: house.store.rows(select(table).order_by(table.c.id)) for name, table in TABLES.items()}
+    restore(backups(tmp_path / "place")[0], tmp_path / "place", tmp_path / "alone", Past())
+    put_in_place(tmp_path / "alone", T0)
+    with opened(tmp_path / "alone") as house:
+        for name, table in TABLES.items():
+            assert house.store.rows(select(table).order_by(table.c.id)) == wanted[name], name
+        assert house.files.take_in().patients_added == 0
+
+
+# --- what a computer has of its own -------------------------------------------------------------------------
+def test_a_server_of_the_first_version_is_raised(tmp_path: Path, cluster: Cluster) -> None:
+    url = first_version(cluster)
+    with engine_of(url).begin() as connection:
+        connection.execute(text("INSERT INTO patient (id, folded, pseudonym) VALUES ('a', 'linden 42', 'Linden 42')"))
+    with opened(tmp_path, url) as house:
+        assert house.names() == ["Linden 42"]
+        house.patients.change("a", LINDEN, house.patients.one("a").version)
+        columns = inspect(engine_of(url))
+        for table in schema.METADATA.tables.values():
+            assert {one["name"] for one in columns.get_columns(table.name)} == set(table.c.keys())
+        assert "carpus_next_step" not in str(house.store.rows(select(text("proname FROM pg_proc"))))
+
+
+def first_version(cluster: Cluster) -> str:
+    """A new database as Carpus 0.2.0 made it."""
+    url = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+    with engine_of(url).begin() as connection:
+        connection.exec_driver_sql((VERSIONS / "1.postgresql.sql").read_text(encoding="utf-8"))
+        connection.exec_driver_sql("CREATE TABLE alembic_version (version_num VARCHAR(32) NOT NULL PRIMARY KEY)")
+        connection.exec_driver_sql("INSERT INTO alembic_version VALUES ('1')")
+    return url
+
+
+def copy_of(folder: Path, url: str, *waiting: list[list[object]]) -> None:
+    """A computer's copy as 0.2.0 left it, with changes that wait for the server."""
+    folder.mkdir()
+    shutil.copyfile(GOLDEN, folder / STORE_FILE)
+    with engine_of(url).connect() as connection:
+        known = str(connection.execute(hand_over._WHICH).scalar())
+    with closing(sqlite3.connect(folder / STORE_FILE)) as copy, copy:
+        copy.execute("INSERT OR REPLACE INTO own VALUES ('server', ?)", [known])
+        for number, change in enumerate(waiting):
+            copy.execute("INSERT INTO outbox (id, change) VALUES (?, ?)", [f"c{number}", json.dumps(change)])
+
+
+def test_what_waited_in_a_copy_of_the_first_version_arrives_once(tmp_path: Path, cluster: Cluster) -> None:
     told: list[CarpusFault] = []
-    with opened(tmp_path, there, told.append) as house:
-        settled(house)
-        lost = RowChange("keep", "of a newer Carpus", "x", {})
-        house.store.own(insert(OUTBOX).values(id="y", change=changes.told([lost])))
-        house.patients.add(LINDEN)
-        until(lambda: any(isinstance(one, ChangeRefused) for one in told))
-        settled(house)
-    assert count(there, "patient") == 1
+    url = first_version(cluster)
+    linden, heron, gone, other = (uuid.uuid4().hex for _ in range(4))
+    with engine_of(url).begin() as connection:
+        for values in (f"'{linden}', 'linden 42', 'Linden 42', 7", f"'{other}', 'heron 17', 'Heron 17', 7"):
+            connection.execute(text(f"INSERT INTO patient (id, folded, pseudonym, version) VALUES ({values})"))
+    named = {"folded": "heron 17", "pseudonym": "Heron 17", "search": "heron 17"}
+    session = {"patient_id": linden, "path": "a/s.h5", "recording_id": "r", "exercise": "WRIST_FE", "hand": "right"}
+    copy_of(
+        tmp_path / "a", url,
+        [["change", "patient", linden, {"note": "typed while away"}, 7, 11]],
+        [["change", "patient", linden, {"note": "and once more"}, 19, 12]],
+        [["new", "patient", heron, {**named, "added_s": 1.0}, 0, 13]],
+        [["keep", "session", "s", session, 0, 14]],
+        [["new", "comment", "c", {"session_id": "s", "text": "Less swelling.", "entered_ns": 1}, 0, 15]],
+        [["change", "patient", other, {"note": "by a slower one"}, 6, 16]],
+        [["new", "comment", "d", {"session_id": gone, "text": "of nobody"}, 0, 17]],
+        [["join", "diagnosis", "x", {"words": "Mallet finger", "version": 1}, 0, 18]],
+    )  # fmt: skip
+    with opened(tmp_path / "a", url, told.append) as a:
+        assert sorted(a.names()) == ["Heron 17", "Heron 17 (2)", "Linden 42"]
+        assert a.patients.one(heron).entry.pseudonym == "Heron 17 (2)"
+        assert (a.patients.one(linden).entry.note, a.patients.one(linden).session_count) == ("typed while away", 1)
+        assert a.patients.one(other).entry.note == ""
+        assert [one.text for one in of_sessions.comments(a.store, "s")] == ["Less swelling."]
+    assert [type(one) for one in told] == [ChangedMeanwhile, PseudonymGiven, ChangedMeanwhile, ChangedMeanwhile]
+    assert list((tmp_path / "a").glob("records*.sqlite3*")) == [], "it would keep the names of who is erased elsewhere"
+    assert count(url, "diagnosis") == 1
+    copy_of(tmp_path / "b", url, [["new", "diagnosis", "y", {"words": "Boutonniere"}, 0, 1]])
+    with opened(tmp_path / "b", url) as b:  # the same identity of a change: it was delivered, and its answer lost
+        b.names()
+    assert (count(url, "diagnosis"), count(url, "patient")) == (1, 3)
 
 
-def test_what_others_erased_goes_here_with_its_files(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
-        linden = b.patients.add(LINDEN)
-        session_id = measure(b, linden, T0)
-        of_clinic.keep_place(b.store, "report", "/papers/Erika Mustermann")
-        (tmp_path / "b" / "records.damaged-20261009-120000.sqlite3").write_bytes(b"Linden 42")
-        until(lambda: bool(a.store.rows(select(SESSION.c.id).where(SESSION.c.id == session_id))))
-        settled(a)
-        erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
-        until(lambda: traces(tmp_path / "b", "Linden", "Erika", linden) == [])
-        assert b.files.take_in().patients_added == 0
+def test_a_store_that_a_computer_had_alone_goes_to_the_server_but_for_who_was_erased(
+    tmp_path: Path, there: str
+) -> None:
+    with opened(tmp_path / "a") as a:
+        linden, heron = a.patients.add(LINDEN), a.patients.add(HERON)
+        fill(a, linden)
+        of_sessions.add_comment(a.store, measure(a, heron, T0), "gone", "AB")
+        measure(a, PRACTICE, T0 + timedelta(days=1))
+        wanted = a.patients.one(linden)
+    with opened(tmp_path / "b", there) as b:
+        b.log.note("erased", "patient", heron)
+    with opened(tmp_path / "a", there) as a:
+        assert a.patients.listed() == [wanted]
+        assert (count(there, "session"), count(there, "comment"), count(there, "made")) == (3, 3, 3)
+        assert fingerprint(heron) in {one.subject for one in read_log(a.store)}
+        assert a.files.take_in().sessions == 1, "the practice patient's, by their files"
+    (aside,) = (tmp_path / "a").glob("records*.sqlite3")
+    assert "before-server" in aside.name
+
+
+def test_a_damaged_copy_is_rescued_before_it_goes_to_the_server(tmp_path: Path, there: str) -> None:
+    told: list[CarpusFault] = []
+    with opened(tmp_path) as house:
+        for number in range(300):
+            house.patients.add(PatientEntry(f"Oak {number}", "left"))
+    content = bytearray((tmp_path / STORE_FILE).read_bytes())
+    content[40960:45056] = bytes(4096)
+    (tmp_path / STORE_FILE).write_bytes(content)
+    with Store(tmp_path, url=there, tell=told.append) as store:
+        assert len(store.rows(select(PATIENT.c.id))) > 100
+    assert len(list(tmp_path.glob("records.damaged-*.sqlite3"))) == 1

@@ -21,16 +21,15 @@ from pathlib import Path
 from sqlalchemy import create_engine, select
 from sqlalchemy.pool import NullPool
 
-from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymTaken
+from carpus.core.errors import ChangedMeanwhile, PseudonymTaken, RegisterBusy, ServerGone
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.records import of_sessions, patients
-from carpus.core.records.changes import PRACTICE
-from carpus.core.records.schema import COMMENT, COPIED, CORRECTION, MEASURED, OUTBOX, PATIENT, SESSION
+from carpus.core.records.schema import COMMENT, CORRECTION, MEASURED, PATIENT, SESSION
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import verify
 from tests.records.postgres import Cluster
-from tests.records.samples import T0, House, measure, opened, waiting
+from tests.records.samples import T0, House, measure, opened
 from tests.torture.kills import ROOT
 from tests.torture.wire import Wire
 
@@ -43,20 +42,19 @@ WEIGHTS = {"comment": 35, "by hand": 20, "entry": 22, "correction": 15, "patient
 
 @dataclass
 class Ledger:
-    """What a program did. ``made``: marks of changes it was not told to have failed, by kind; ``refused``: marks of
-    those that failed at once; ``told``: kinds of faults that came later."""
+    """What a program did, by marks. ``made``: changes that were said to be kept, by kind; ``refused``: those that
+    somebody else was quicker with; ``unsure``: those during which the server went away."""
 
     made: dict[str, list[str]] = field(default_factory=lambda: {kind: [] for kind in WEIGHTS})
     refused: list[str] = field(default_factory=list)
-    told: list[str] = field(default_factory=list)
+    unsure: list[str] = field(default_factory=list)
     longest_s: float = 0.0
 
 
 def program(folder: Path, share: Path, url: str, name: str, count: int, seconds: float, chance: random.Random) -> None:
-    """One of the two; says what it did when all of it has been delivered."""
-    faults: list[CarpusFault] = []
+    """One of the two; says what it did at the end."""
     ledger = Ledger()
-    with opened(folder, url, faults.append, share) as house:
+    with opened(folder, url, sessions=share) as house:
         print("begun", flush=True)
         begin = time.monotonic()
         for number in range(count):
@@ -66,17 +64,12 @@ def program(folder: Path, share: Path, url: str, name: str, count: int, seconds:
                 ledger.made[kind].append(_do(house, kind, mark, number, chance))
             except (ChangedMeanwhile, PseudonymTaken):
                 ledger.refused.append(mark)
+            except (ServerGone, RegisterBusy):
+                ledger.unsure.append(mark)
+                with suppress(ServerGone, RegisterBusy):
+                    house.store.server.look()  # type: ignore[union-attr]
             ledger.longest_s = max(ledger.longest_s, time.monotonic() - since)
             time.sleep(max(begin + seconds * (number + 1) / count - time.monotonic(), 0.0))
-        print("made", flush=True)
-        sys.stdin.readline()  # no more trouble comes
-        least, end = count + 1, 0.0
-        while house.store.is_behind or waiting(house):
-            if (left := waiting(house)) < least:  # however slow the computer: as long as some arrive
-                least, end = left, time.monotonic() + SETTLE_S
-            assert time.monotonic() < end, f"{left} not delivered; told last: {faults[-3:]}"
-            time.sleep(0.05)
-    ledger.told = [type(one).__name__ for one in faults]
     print(json.dumps(asdict(ledger)), flush=True)
 
 
@@ -171,14 +164,7 @@ def line(count: int, seconds: float, longest_s: float, folder: Path) -> str:
             for number in range(SHARED_PATIENTS):
                 measure(house, house.patients.add(PatientEntry(f"Shared {number}", "right")), T0)
             ids = {str(row.id) for row in house.store.rows(select(SESSION.c.id))}
-            _until_equal(house, direct)
-        with opened(folder / "b", url, sessions=share) as house:
-            _until_equal(house, direct)
         ledgers, trouble = _run(cluster, wire, url, folder, count, seconds, longest_s)
-        for name in NAMES:
-            with opened(folder / name, url, sessions=share) as house:
-                _until_equal(house, direct)
-                assert not house.store.rows(select(OUTBOX)), "nothing waits, nothing is left to be told"
         conflicts = _check(direct, share, ledgers, ids)
     finally:
         wire.close()
@@ -187,8 +173,8 @@ def line(count: int, seconds: float, longest_s: float, folder: Path) -> str:
     return (
         f"two programs, one server: {count} changes in {seconds / 60:.1f} min, "
         f"{', '.join(f'{kind} {number}' for kind, number in trouble.items())}; each there once or told: "
-        f"{conflicts} conflicts told, the server gone {sum(one.told.count('ServerGone') for one in ledgers)} times, "
-        f"the longest change {max(one.longest_s for one in ledgers):.1f} s; both copies as the server"
+        f"{conflicts} conflicts told, {sum(len(one.unsure) for one in ledgers)} times the server was away, "
+        f"the longest change {max(one.longest_s for one in ledgers):.1f} s"
     )
 
 
@@ -199,7 +185,7 @@ def _run(
     running = [
         subprocess.Popen(
             [*command, str(folder / name), name, str(count // 2), str(seconds)], cwd=ROOT, text=True,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            stdout=subprocess.PIPE,
         )
         for name in NAMES
     ]  # fmt: skip
@@ -208,36 +194,13 @@ def _run(
         for one in running:
             assert one.stdout.readline() == "begun\n"
         trouble.start()
-        for one in running:
-            assert one.stdout.readline() == "made\n"
-        trouble.end()
-        said = [one.communicate("\n", timeout=20 * SETTLE_S)[0] for one in running]
+        said = [one.communicate(timeout=20 * seconds + SETTLE_S)[0] for one in running]
     finally:
         for one in running:
             one.kill()
             one.wait()
         trouble.end()
     return [Ledger(**json.loads(one)) for one in said], trouble.made
-
-
-def _until_equal(house: House, url: str) -> None:
-    """Until a copy says what the server says, but for what is of the computer alone."""
-    engine = create_engine(url.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
-    end = time.monotonic() + SETTLE_S
-    while True:
-        unequal = []
-        for table in COPIED:
-            query = select(table).order_by(table.c.id)
-            with suppress(Exception), engine.connect() as connection:
-                there = [tuple(row) for row in connection.execute(query)]
-                here = [tuple(row) for row in house.store.rows(query) if row.id != PRACTICE]
-                if here == there:
-                    continue
-            unequal.append(table.name)
-        if not unequal:
-            return
-        assert time.monotonic() < end, f"{house.store.folder.name} has other rows in {unequal}"
-        time.sleep(0.2)
 
 
 def _check(url: str, share: Path, ledgers: list[Ledger], sessions_before: set[str]) -> int:
@@ -251,23 +214,22 @@ def _check(url: str, share: Path, ledgers: list[Ledger], sessions_before: set[st
     def made(kind: str) -> list[str]:
         return sorted(mark for one in ledgers for mark in one.made[kind])
 
-    assert stored(select(COMMENT.c.text)) == made("comment")
-    assert stored(select(MEASURED.c.place)) == made("by hand")
-    assert sorted(set(stored(select(SESSION.c.id))) - sessions_before) == made("session")
+    unsure = {mark for one in ledgers for mark in one.unsure}
+    assert {*made("comment")} <= {*stored(select(COMMENT.c.text))} <= {*made("comment")} | unsure
+    assert {*made("by hand")} <= {*stored(select(MEASURED.c.place))} <= {*made("by hand")} | unsure
+    sessions = set(stored(select(SESSION.c.id))) - sessions_before
+    assert set(made("session")) <= sessions
     for path in stored(select(SESSION.c.path)):
         assert verify(share / path).sealed
     there = set(stored(select(PATIENT.c.id).where(PATIENT.c.pseudonym.not_like("Shared%"))))
-    assert there == set(made("patient"))
-    edits = [stored(select(PATIENT.c.note)), stored(select(CORRECTION.c.reason))]
-    assert all(len(marks) == len(set(marks)) for marks in edits), "a change made twice"
-    found, conflicts = set(edits[0]) | set(edits[1]), 0
-    for one in ledgers:
-        later = [kind for kind in one.told if kind in (ChangedMeanwhile.__name__, ChangeRefused.__name__)]
-        lost = set(one.made["entry"] + one.made["correction"]) - found
-        assert len(lost) == len(later), f"{len(lost)} changes are not there, {len(later)} were told: {sorted(lost)}"
-        assert not found & set(one.refused), "told as refused, and there"
-        conflicts += len(later) + len(one.refused)
-    return conflicts
+    assert set(made("patient")) <= there
+    edits = [stored(query) for query in (select(PATIENT.c.note), select(CORRECTION.c.reason))]
+    for marks in (*edits, stored(select(COMMENT.c.text)), stored(select(MEASURED.c.place))):
+        assert len(marks) == len(set(marks)), "a change made twice"
+    found = {mark for marks in edits for mark in marks}
+    assert set(made("entry") + made("correction")) <= found, "said to be kept, and not there"
+    assert not found & {mark for one in ledgers for mark in one.refused}, "told as refused, and there"
+    return sum(len(one.refused) for one in ledgers)
 
 
 def main() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -13,7 +13,6 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.formats.formats import FORMATS
 from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
-from carpus.core.records.store import Store
 from carpus.ui.background import Background
 from carpus.ui.export.flow import Exporting
 from carpus.ui.last_places import LastPlaces
@@ -49,13 +48,11 @@ class Stored:
 @pytest.fixture
 def parts(
     theme: Theme, host: QWidget, background: Background, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Parts]:
+) -> Parts:
     stored, told = Stored(), Told()
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
-    store = Store(tmp_path)
-    exporting = Exporting(a_context(theme, host, told, background, library=stored, places=LastPlaces(store)))
-    yield exporting, stored, told
-    store.close()
+    exporting = Exporting(a_context(theme, host, told, background, library=stored, places=LastPlaces(tmp_path)))
+    return exporting, stored, told
 
 
 def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, parts: Parts) -> None:

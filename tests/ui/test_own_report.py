@@ -14,8 +14,9 @@ from PySide6.QtPrintSupport import QPrinter
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.app.of_file import form_of
 from carpus.core.errors import ChangedMeanwhile
-from carpus.core.records.of_clinic import form_in, keep_form, read_form
+from carpus.core.records.of_clinic import keep_form, read_form
 from carpus.core.records.store import Store
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.background import Background
@@ -108,8 +109,8 @@ def test_the_form_is_kept_with_its_logo_and_a_second_person_s_change_is_told(tmp
         with pytest.raises(ChangedMeanwhile):
             keep_form(store, usual, usual)
         keep_form(store, usual, form)
-    assert form_in(tmp_path) == usual
-    assert form_in(tmp_path / "nowhere") == ReportForm()
+    assert form_of(tmp_path) == usual
+    assert form_of(tmp_path / "nowhere") == ReportForm()
 
 
 DRAWING = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><rect width="99" height="99"/></svg>'

@@ -117,7 +117,7 @@ class LiveFlow(Flow):
             way.changed.emit()
             return
         self.patient_view.stored()
-        if in_course and now.patient is not None:
+        if in_course and now.patient is not None and not self.context.library.store.is_away:
             way.show("sessions", now.patient.patient_id)
         else:
             way.show("review", session_id)

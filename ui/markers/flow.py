@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.core.calibration.result import Verdict
+from carpus.core.records.values import unless_away
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.flow import Flow, ScreenContext
@@ -32,9 +33,10 @@ class MarkersFlow(Flow):
         source, set_up = now.source, now.set_up
         assert source is not None
         assert set_up is not None
-        alike = library.sessions_alike(set_up.patient_id, set_up)
+        alike = unless_away(lambda: library.sessions_alike(set_up.patient_id, set_up), ())
+        picture = unless_away(lambda: library.marker_picture(set_up.patient_id, set_up), None)
         day = numbers.day_month(alike[0].recorded) if alike else ""
-        self.screen.begin(source.calibrator, library.marker_picture(set_up.patient_id, set_up), day)
+        self.screen.begin(source.calibrator, picture, day)
         self.context.way.go("markers")
         if now.kind == "camera":
             self.context.camera.met(source.measuring.feed.info.serial)

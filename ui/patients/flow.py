@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.records.new_sessions import NewSessions
+from carpus.core.records.store import new_id
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import put_off_last
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.patients.stored import StoredPatients
+from carpus.ui.ports import PatientRow
 
 
 class PatientsFlow(Flow):
@@ -23,6 +27,7 @@ class PatientsFlow(Flow):
         screen, way, camera = self.screen, context.way, context.camera
         camera.when_looked(lambda: screen.set_camera_ready(camera.there))
         screen.start.connect(lambda patient_id: way.show("camera", patient_id))
+        screen.unlisted.connect(self._measure_unlisted)
         screen.set_up.connect(lambda patient_id: way.show("exercise", patient_id))
         screen.review.connect(lambda patient_id: way.show("review", "", patient_id))
         screen.progress.connect(lambda patient_id: way.show("progress", patient_id))
@@ -38,6 +43,16 @@ class PatientsFlow(Flow):
 
     def first(self) -> QWidget:
         return self.screen.search
+
+    def server_back(self) -> None:
+        if self.context.way.place == "patients":
+            self.screen.refresh()
+
+    def _measure_unlisted(self, row: PatientRow) -> None:
+        """Somebody whom the list cannot tell now: the file says who it is, by identity and pseudonym."""
+        row = row if row.patient_id else replace(row, patient_id=new_id())
+        self.context.now.patient = row
+        self.context.way.show("exercise", row.patient_id)
 
     def up(self) -> None:
         if not put_off_last(self.screen):

@@ -11,6 +11,8 @@ from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from carpus.core.errors import ServerGone
+from carpus.core.names import folded, name_of
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
@@ -35,8 +37,8 @@ LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageD
 
 
 class PatientsScreen(QWidget):
-    """Signals carry the patient's identity; ``start`` keeps the last set-up, ``set_up`` asks for another;
-    ``erase_wanted`` a patient to be archived or erased."""
+    """Signals carry the patient's identity, but for ``unlisted``; ``start`` keeps the last set-up, ``set_up`` asks for
+    another; ``erase_wanted`` a patient to be archived or erased."""
 
     start = Signal(str)
     set_up = Signal(str)
@@ -44,6 +46,8 @@ class PatientsScreen(QWidget):
     progress = Signal(str)
     sessions = Signal(str)
     erase_wanted = Signal(str)
+    unlisted = Signal(object)
+    """Somebody is to be measured while the list cannot be read: a :class:`PatientRow`, without identity for a name."""
 
     def __init__(self, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
@@ -63,6 +67,8 @@ class PatientsScreen(QWidget):
         self.notice_place = QVBoxLayout()
         self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
+        self._away = _Away(theme)
+        self._chosen_last: PatientRow | None = None
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
         self._archived: tuple[str, ...] = ()
@@ -89,6 +95,7 @@ class PatientsScreen(QWidget):
             self.header,
             (self.list, 1),
             self._nobody,
+            self._away,
             (self.archive_button, 0, Qt.AlignmentFlag.AlignLeft),
             self._above_welcome,
             gap=0,
@@ -110,6 +117,7 @@ class PatientsScreen(QWidget):
         self.search.textChanged.connect(lambda: self._filter(self._chosen_id()))
         self.new_button.clicked.connect(self.new_patient)
         self._nobody.button.clicked.connect(lambda: self.new_patient(self.search.text()))
+        self._away.button.clicked.connect(self._measure_unlisted)
         self.list.selectionModel().currentChanged.connect(self._show_chosen)
         self.list.doubleClicked.connect(lambda: self._start())
         self.card.start_button.clicked.connect(self._start)
@@ -131,9 +139,39 @@ class PatientsScreen(QWidget):
     def refresh(self, choose: str = "") -> None:
         self.look_at_day()
         practice = PatientRow(PRACTICE_PATIENT, self.tr("Practice patient"), "right")
-        self._rows = (*self._store.patients(), practice)
-        self._archived = tuple(self._store.archived())
+        was_away = not self._away.isHidden()
+        try:
+            rows, archived = (*self._store.patients(), practice), tuple(self._store.archived())
+        except ServerGone:
+            self._show_away(choose or self._chosen_id())
+            return
+        if was_away:
+            self._away.hide()
+            self.search.clear()
+            self.search.setPlaceholderText(self.tr("Name or diagnosis"))
+            self.new_button.setEnabled(True)
+        self._rows, self._archived = rows, archived
         self._filter(choose or self._chosen_id())
+
+    def _show_away(self, chosen: str) -> None:
+        """Nothing that may be old; who was chosen last, or is typed, can be measured."""
+        rows = [row for row in self._rows if row.patient_id == chosen]
+        self._rows, self._archived = (), ()
+        if self._away.isHidden():
+            self._chosen_last = next(iter(rows), None)
+            name = self._chosen_last.pseudonym if self._chosen_last is not None else ""
+            self._away.show()
+            self.new_button.setEnabled(False)
+            self.search.setPlaceholderText(self.tr("Made-up name"))
+            self.search.setText(name)
+        self._filter("")
+
+    def _measure_unlisted(self) -> None:
+        if (name := name_of(self.search.text())) == "":
+            return
+        last = self._chosen_last
+        is_last = last is not None and folded(last.pseudonym) == folded(name)
+        self.unlisted.emit(last if is_last else PatientRow("", name, "both"))
 
     def set_camera_ready(self, ready: bool) -> None:
         """Whether a camera answers; without one the button says that only files can be used."""
@@ -183,6 +221,12 @@ class PatientsScreen(QWidget):
     def _filter(self, choose: str) -> None:
         wanted = self.search.text().casefold().split()
         rows = self._rows
+        if not self._away.isHidden():
+            self._away.show_for(self.search.text())
+            for one in (self.list, self.header, self._nobody, self.archive_button):
+                one.hide()
+            self.card.show_card(None, self._camera_ready)
+            return
         if wanted and len(rows) > MOST_ROWS:  # with the practice patient: there may be more than are shown
             rows = (*self._store.patients(self.search.text()), rows[-1])
         shown = [_as_found(row, wanted) for row in rows if _matches(row, wanted)]
@@ -231,7 +275,9 @@ class PatientsScreen(QWidget):
                 self.list.keyPressEvent(event)
                 return True
             if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-                if self._chosen_id():
+                if not self._away.isHidden():
+                    self._measure_unlisted()
+                elif self._chosen_id():
                     self._start()
                 elif self._nobody.isVisible():
                     self.new_patient(self.search.text())
@@ -259,6 +305,32 @@ class _Nobody(QWidget):
             self._words.setText(
                 self.tr("No patients yet. Add the first one, or try everything with the practice patient.")
             )
+
+
+class _Away(QWidget):
+    """What stands in place of the list while the clinic's server does not answer."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        words = self.tr(
+            "The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the "
+            "session is kept, and is in the list when the server answers."
+        )
+        self.button = Button(theme, "", "primary")
+        row = in_column(
+            Text(theme, words, 16, MEDIUM, wrap=True),
+            (self.button, 0, Qt.AlignmentFlag.AlignLeft),
+            gap=GAP_PX,
+            margins=(20, 24, 20, 24),
+            within=self,
+        )
+        row.addStretch(1)
+        self.hide()
+
+    def show_for(self, name: str) -> None:
+        self.button.setEnabled(bool(name.strip()))
+        words = self.tr("Measure “{name}”").format(name=name.strip().replace("&", "&&"))
+        self.button.set_face(words if name.strip() else self.tr("Measure without the list"))
 
 
 def _matches(row: PatientRow, wanted: list[str]) -> bool:

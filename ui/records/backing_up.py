@@ -24,7 +24,7 @@ from carpus.core.records.backup import (
 )
 from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
 from carpus.core.records.restoring import Past, RestorePlan, plan_restore, read_past, restore
-from carpus.core.records.values import BackupSettings
+from carpus.core.records.values import BackupSettings, unless_away
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background
@@ -90,7 +90,9 @@ class BackingUp(QObject):
             self.last = last
             self.card.show_facts(self._facts())
 
-        self._background.run(lambda: last_backup(store), show, self._context.messages.fault, self)
+        self._background.run(
+            lambda: unless_away(lambda: last_backup(store), None), show, self._context.messages.fault, self
+        )
 
     def _facts(self) -> BackupFacts:
         return backup_facts(self.last, self._settings, self._library.folder, _now(), can_back_up=not self._running)
@@ -105,8 +107,8 @@ class BackingUp(QObject):
 
     def remind(self, place: QVBoxLayout) -> None:
         """A strip above the patients, once at the start, where the last back-up is old."""
-        self.last = last_backup(self._library.store)
-        if not self.is_old():
+        self.last = unless_away(lambda: last_backup(self._library.store), None)
+        if self._library.store.is_away or not self.is_old():
             return
         facts = self._facts()
         words = Words(facts.headline, facts.detail, self.tr("Plug the disk for back-ups in, and back up."))
@@ -137,15 +139,17 @@ class BackingUp(QObject):
         self._background.run(work, done, self._failed, self)
 
     def _work(self, place: Path, settings: BackupSettings) -> Backup:
+        store = self._library.store
         made = back_up(
             self._library.folder,
             place,
             software_version=self._context.version,
-            sessions=self._library.store.sessions_folder,
+            sessions=store.sessions_folder,
+            copy=store.copied if store.server is not None else None,
             settings_folder=self._settings_folder,
             progress=self._step,
         )
-        note_backup(self._library.store, made.made, str(place), made.sessions, made.size_bytes)
+        note_backup(store, made.made, str(place), made.sessions, made.size_bytes)
         self._library.notes.program("backed_up", sessions=made.sessions)
         thin_out(place, settings.keep, settings.months, _now())
         return made

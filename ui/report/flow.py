@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.errors import CarpusFault
 from carpus.core.records import of_clinic, patients
 from carpus.core.records.of_clinic import keep_form, read_form
+from carpus.core.records.values import unless_away
 from carpus.core.results.report_form import ReportForm, usual_paper
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.report.gather import session_report
@@ -71,6 +72,9 @@ class ReportFlow(Flow):
 
     def show_research(self, *, on: bool) -> None:
         self._research = on
+
+    def server_back(self) -> None:
+        self.forms.look_again()
 
     def _show_session(self, session_id: str) -> None:
         row, stored, name = self.context.now.patient, self.context.library, self.context.now.name
@@ -165,9 +169,17 @@ class ReportForms(QObject):
         super().__init__(context.shell)
         self._store, self._told = context.library.store, context.messages.fault
         self._usual = usual_paper(QLocale.territoryToCode(QLocale.system().territory()))
-        self.form = read_form(self._store, self._usual)
+        self.form = self._read()
         self.card = ReportCard(context.theme, self.form)
         self.card.changed.connect(self.keep)
+
+    def _read(self) -> ReportForm:
+        return unless_away(lambda: read_form(self._store, self._usual), ReportForm(paper=self._usual))
+
+    def look_again(self) -> None:
+        """The clinic's server is back."""
+        self.form = self._read()
+        self.card.show_form(self.form)
 
     def keep(self, form: ReportForm) -> None:
         """Store it for all reports from now on; where somebody else has changed it meanwhile, theirs is shown."""
@@ -175,6 +187,6 @@ class ReportForms(QObject):
         try:
             keep_form(self._store, form, before)
         except CarpusFault as fault:
-            self.form = read_form(self._store, self._usual)
+            self.form = self._read()
             self._told(fault)
         self.card.show_form(self.form)

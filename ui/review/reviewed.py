@@ -12,7 +12,7 @@ import numpy as np
 
 from carpus.core.hand.exercises import FLEXION, Exercise
 from carpus.core.measures.by_hand import HandValue, of_session
-from carpus.core.records.values import SessionEntry
+from carpus.core.records.values import SessionEntry, unless_away
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.motion_curves import MotionCurves, motion_curves
 from carpus.core.results.progress import limits_of
@@ -50,8 +50,9 @@ class Reviewed:
     def read(cls, store: Library, patient_id: str, session_id: str) -> Reviewed:
         """All of it, in the background."""
         session, choices = store.session(session_id), store.choices(session_id)
-        history = store.history(patient_id)
-        by_hand = of_session(store.by_hand(patient_id), session.header.hand, session.header.when.date())
+        history = unless_away(lambda: store.history(patient_id), ())
+        values = unless_away(lambda: store.by_hand(patient_id), ())
+        by_hand = of_session(values, session.header.hand, session.header.when.date())
         results = tuple(one for one in store.results_of(session_id) if store.owner(one.session_id) == patient_id)
         drawn = session_curves(session), joint_curves(session), motion_curves(session)
         modelled = None if drawn[1] is None else modelled_px(session.camera, session.markers.position_cam_m)

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from carpus.core.errors import SessionUnreadable
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
-from carpus.core.records.log import fingerprint
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import SessionEntry
 from carpus.ui.report.hand_rows import main_figure

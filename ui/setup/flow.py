@@ -8,10 +8,11 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 
-from carpus.core.errors import CarpusFault
+from carpus.core.errors import CarpusFault, ServerGone
 from carpus.core.records.kept_sets import keep_sets, last_set_up, read_sets
 from carpus.core.records.patients import goals
 from carpus.core.records.set_up import PRACTICE_PATIENT, USUAL_SETS, ExerciseSet, SetUp, practice_set_up
+from carpus.core.records.values import unless_away
 from carpus.core.results.figures import SessionFigures
 from carpus.core.types import Side
 from carpus.ui.flow import Flow, ScreenContext
@@ -45,14 +46,15 @@ class ExerciseFlow(Flow):
         context, library = self.context, self.context.library
         context.opener.close_source()
         row = self.open_patient(patient_id)
-        last = context.now.set_up or last_set_up(library.store, patient_id)
+        last = context.now.set_up or unless_away(lambda: last_set_up(library.store, patient_id), None)
         affected: Side | None = None if row.side == "both" else row.side
         free = free_bytes(library.folder)
         usual = context.keep_pictures and free >= ROOM_FOR_PICTURES_BYTES
         self.screen.begin(
             row, last, last.side if last is not None else affected,
             last.keep_pictures if last is not None else usual,
-            context.mb_per_minute, free / (1e6 * context.mb_per_minute), goals(library.store, patient_id),
+            context.mb_per_minute, free / (1e6 * context.mb_per_minute),
+            unless_away(lambda: goals(library.store, patient_id), {}),
         )  # fmt: skip
 
         def show(history: Sequence[SessionFigures]) -> None:
@@ -61,6 +63,9 @@ class ExerciseFlow(Flow):
         # What cannot be read proposes nothing; opening it tells why.
         self.run(lambda: library.history(patient_id), show, lambda _: None)
         context.way.go("exercise")
+
+    def server_back(self) -> None:
+        self.look_for_sets()
 
     def _go_on(self, set_up: SetUp) -> None:
         self.context.now.set_up = set_up
@@ -71,6 +76,8 @@ class ExerciseFlow(Flow):
         """Read them; where that cannot be done the usual ones are offered."""
         try:
             self.sets = read_sets(self.context.library.store)
+        except ServerGone:  # every screen says so
+            self.sets = USUAL_SETS
         except CarpusFault as fault:
             self.sets = USUAL_SETS
             self.context.messages.fault(fault)
@@ -116,7 +123,7 @@ class CameraFlow(Flow):
             self._begin()
             return
         row = self.open_patient(patient_id)
-        last = last_set_up(self.context.library.store, patient_id)
+        last = unless_away(lambda: last_set_up(self.context.library.store, patient_id), None)
         practises = patient_id == PRACTICE_PATIENT
         if practises:
             now.choice = SourceChoice("practice")

@@ -1,0 +1,100 @@
+"""The clinic's server stops while the window is open, and is not there when another is opened: nothing old is shown, a
+patient is measured all the same, and is in the list when it is back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from carpus.app.compose import Desktop
+from carpus.app.desktop import server_watch
+from carpus.app.settings import RecordingSettings, RecordsSettings, ScreenSettings, Settings
+from carpus.core.records.values import PatientEntry
+from tests.journeys.conftest import Open
+from tests.journeys.test_journey import at, click, click_discs, reviewed, wait
+from tests.records.postgres import Cluster
+
+
+@pytest.fixture
+def cluster() -> Iterator[Cluster]:
+    made = Cluster()
+    yield made
+    made.end()
+
+
+def measured(qtbot: QtBot, desktop: Desktop, take: Path) -> Path:
+    """From the exercise to the review, of a stored recording."""
+    journey = desktop.journey
+    at(qtbot, journey, "exercise")
+    if journey.exercise.screen.side.value() is None:
+        click(qtbot, journey.exercise.screen.side.buttons()[0])
+    click(qtbot, journey.exercise.screen.primary)
+    at(qtbot, journey, "camera")
+    journey.camera.screen.set_path(str(take))
+    click(qtbot, journey.camera.screen.primary)
+    at(qtbot, journey, "markers")
+    click_discs(qtbot, desktop, take)
+    click(qtbot, journey.markers.screen.primary)
+    at(qtbot, journey, "live")
+    click(qtbot, journey.live.screen.controls.main)
+    return reviewed(qtbot, desktop)
+
+
+def is_away(desktop: Desktop) -> bool:
+    screen = desktop.journey.patients.screen
+    shown = (screen.list, screen.card, screen.new_button)
+    return screen._away.isVisible() and not any(one.isVisible() and one.isEnabled() for one in shown)
+
+
+def test_a_server_that_stops_hides_the_list_and_measuring_goes_on(
+    qtbot: QtBot, open_desktop: Open, take: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server_watch, "LOOK_MS", 200)
+    settings = Settings(
+        screen=ScreenSettings("light"), recording=RecordingSettings(keep_pictures=False),
+        records=RecordsSettings(url=cluster.url()),
+    )  # fmt: skip
+    desktop = open_desktop(settings)
+    journey, screen = desktop.journey, desktop.journey.patients.screen
+    linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
+    desktop.library.patients.add(PatientEntry("Heron 17", "right"))
+    screen.refresh(linden)
+    assert not desktop.shell.sign.isVisible()
+
+    cluster.stop()
+    wait(qtbot, lambda: is_away(desktop))
+    assert "server" in desktop.shell.sign.text
+    assert screen.search.text() == "Linden 42", "who was chosen can be measured at one press"
+    click(qtbot, screen._away.button)
+    first = measured(qtbot, desktop, take)
+    assert linden in str(first), "known by identity"
+    assert not journey.messages.busy, journey.messages.card.what.text()
+    click(qtbot, desktop.shell.bar.back_button)
+    at(qtbot, journey, "patients")
+    assert is_away(desktop)
+    desktop.close()
+
+    desktop = open_desktop(settings)  # started while it is away
+    journey, screen = desktop.journey, desktop.journey.patients.screen
+    assert is_away(desktop)
+    assert "server" in desktop.shell.sign.text
+    qtbot.keyClicks(screen.search, "heron 17")
+    qtbot.keyClick(screen.search, Qt.Key.Key_Return)
+    measured(qtbot, desktop, take)
+    cluster.start()
+    wait(qtbot, lambda: not desktop.shell.sign.text.startswith("The clinic"))
+    assert journey.now.patient is not None
+    heron = desktop.library.patients.called("Heron 17")
+    assert journey.now.patient.patient_id == heron, "who was typed is who the list says"
+    click(qtbot, desktop.shell.bar.back_button)
+    at(qtbot, journey, "patients")
+    wait(qtbot, lambda: screen.list.isVisible())
+    assert [row.pseudonym for row in screen._rows[:-1]] == ["Heron 17", "Linden 42"]
+    for patient_id in (linden, heron):
+        assert len(desktop.library.sessions(patient_id)) == 1
+    assert screen.new_button.isEnabled()
+    assert screen.search.text() == ""
