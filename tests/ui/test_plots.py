@@ -30,7 +30,7 @@ from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.series import Curve, Series, paint_curves
+from carpus.ui.plot.series import Curve, Series, longest_step_s, paint_curves
 from carpus.ui.plot.session import SessionPlot, paint_session, thinned
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.plot.style import RIGHT_MIDDLE, screen_style, write
@@ -407,3 +407,13 @@ def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_
     for i, one in enumerate(numbered):
         assert one.right() <= 600.0
         assert not any(one.intersects(other) for other in numbered[i + 1 :])
+
+
+@pytest.mark.parametrize("fps", [1.5, 5.0, 30.0])
+def test_a_recording_of_few_frames_a_second_is_drawn_and_its_gaps_stay(fps: float) -> None:
+    time_s = np.arange(40) / fps
+    whole = Series(time_s, np.zeros(40), None, np.zeros(40, bool), longest_step_s(time_s))
+    assert whole.gaps_s() == []
+    value = np.zeros(40)
+    value[10 : 10 + round(0.4 * fps) + 1] = math.nan
+    assert len(replace(whole, value=value).gaps_s()) == 1

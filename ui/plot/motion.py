@@ -15,7 +15,7 @@ from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.marks import Mark, Name, Scales
-from carpus.ui.plot.series import LONGEST_STEP_S, Series
+from carpus.ui.plot.series import Series, longest_step_s
 from carpus.ui.plot.session import SessionPlot, Value, row_at
 from carpus.ui.plot.ways import AXIS_LETTERS, AXIS_TOKENS
 from carpus.ui.translate import tr
@@ -85,17 +85,18 @@ class MotionPlot(SessionPlot):
     def all_series(self, key: int) -> list[tuple[str, str, Series]]:
         assert self.motion is not None
         motion = self.motion
+        step_s = longest_step_s(motion.time_s)
         if self.kind == "zyz":
             sd = motion.zyz_sd_deg[:, key]
-            own = Series(motion.time_s, motion.zyz_deg[:, key], sd, motion.predicted)
+            own = Series(motion.time_s, motion.zyz_deg[:, key], sd, motion.predicted, step_s)
             shown = [(ZYZ_NAMES[key], ("curve_b", "curve_a", "curve_b")[key], own)]
             if key == 2:  # what stays known where the two are not
-                total = Series(motion.time_s, motion.zyz_sum_deg, None, motion.predicted)
+                total = Series(motion.time_s, motion.zyz_sum_deg, None, motion.predicted, step_s)
                 shown.append((ZYZ_SUM, "curve_c", total))
             return shown
         values = self.quantity(key)
         return [
-            (letter, token, Series(motion.time_s, values[:, axis], None, motion.predicted))
+            (letter, token, Series(motion.time_s, values[:, axis], None, motion.predicted, step_s))
             for axis, (letter, token) in enumerate(zip(AXIS_LETTERS, AXIS_TOKENS, strict=True))
         ]
 
@@ -117,7 +118,7 @@ class MotionPlot(SessionPlot):
         row = row_at(self.curves.time_s, time_s)
         for name, token, series in self.all_series(key):
             value = sd = math.nan
-            if len(series.time_s) and abs(float(series.time_s[row]) - time_s) <= LONGEST_STEP_S:
+            if len(series.time_s) and abs(float(series.time_s[row]) - time_s) <= series.longest_step_s:
                 value = float(series.value[row])
                 sd = math.nan if series.sd is None else float(series.sd[row])
             out.append(Value(name, token, value, sd, said=self._said(key, name, value, sd)))

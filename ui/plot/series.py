@@ -20,6 +20,8 @@ from carpus.ui.theme import BAND_ALPHA
 
 LONGEST_STEP_S = 0.2
 """Neighbouring samples further apart than this are not joined: a gap stays a gap."""
+FRAMES_APART = 1.75
+"""Nor are those of a recording of few frames a second, from so many frames apart."""
 
 PIECE = 256
 """Points of the pieces in which a band goes onto a picture of pixels."""
@@ -58,6 +60,11 @@ class Series:
             return []
         times = np.concatenate(([self.time_s[0]], self.time_s[known], [self.time_s[-1]]))
         return [(float(a), float(b)) for a, b in pairwise(times) if b - a > self.longest_step_s]
+
+
+def longest_step_s(time_s: FloatArray) -> float:
+    """How far apart two frames of a recording (N,) may lie so that nothing is missing between them."""
+    return max(LONGEST_STEP_S, FRAMES_APART * float(np.median(np.diff(time_s)))) if len(time_s) > 1 else LONGEST_STEP_S
 
 
 @dataclass(frozen=True, slots=True)

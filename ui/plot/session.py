@@ -23,7 +23,7 @@ from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.marks import Curves, Mark, Name, Remark, RepetitionMarks, Scales, StayWithin, Target, Times
-from carpus.ui.plot.series import LONGEST_STEP_S, Curve, Series
+from carpus.ui.plot.series import Curve, Series, longest_step_s
 from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
 from carpus.ui.translate import tr
 
@@ -133,6 +133,7 @@ class SessionPlot:
             curves.angles_deg[:, column],
             curves.sds_deg[:, column],
             curves.status == TrackStatus.PREDICTED,
+            longest_step_s(curves.time_s),
         )
 
     # --- what is drawn ------------------------------------------------------------------------------------
@@ -260,7 +261,7 @@ def _joint_series(joints: JointCurves, figure: Figure) -> Series | None:
     column = joints.names.index(name)
     value, sd = share * joints.angles_deg[:, column], abs(share) * joints.sds_deg[:, column]
     hidden = np.isfinite(value) & (bound | ~joints.seen[:, column])
-    return Series(joints.time_s, value, sd, hidden)
+    return Series(joints.time_s, value, sd, hidden, longest_step_s(joints.time_s))
 
 
 def _bend_scale(roomy: bool) -> Scale:
@@ -298,7 +299,7 @@ def value_at(curves: ReportCurves, column: int, time_s: float) -> tuple[float, f
     if not len(curves.time_s):
         return math.nan, math.nan
     row = row_at(curves.time_s, time_s)
-    if abs(float(curves.time_s[row]) - time_s) > LONGEST_STEP_S:
+    if abs(float(curves.time_s[row]) - time_s) > longest_step_s(curves.time_s):
         return math.nan, math.nan
     return float(curves.angles_deg[row, column]), float(curves.sds_deg[row, column])
 
@@ -309,7 +310,7 @@ def joint_at(plot: HandPlot, figure: Figure, time_s: float) -> tuple[float, floa
     if series is None or not len(series.time_s):
         return math.nan, math.nan, True
     row = row_at(plot.curves.time_s, time_s)
-    if abs(float(series.time_s[row]) - time_s) > LONGEST_STEP_S or series.sd is None:
+    if abs(float(series.time_s[row]) - time_s) > series.longest_step_s or series.sd is None:
         return math.nan, math.nan, True
     return float(series.value[row]), float(series.sd[row]), bool(series.predicted[row])
 
