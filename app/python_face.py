@@ -22,9 +22,9 @@ from carpus.app.sources import open_recording
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import ANGLE_NAMES
-from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
+from carpus.core.calibration.candidates import marker_candidates
 from carpus.core.calibration.clicks import read_clicks, write_clicks
-from carpus.core.calibration.naming import NamingSettings, propose_names
+from carpus.core.calibration.naming import propose_names
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.detection.settings import DetectionSettings
@@ -414,8 +414,8 @@ def propose_clicks(
             _check_picture(where, "depth", depth, np.uint16, (), frame.shape[:2])
         first = Frame(0, 0.0, frame, depth, depth_unit_m)
     camera = camera or DEFAULT_CAMERA
-    blobs = marker_candidates(first, camera, DetectionSettings(), CandidateSettings())
-    found = propose_names(blobs, camera, hand, markers, NamingSettings())
+    blobs = marker_candidates(first, camera, DetectionSettings())
+    found = propose_names(blobs, camera, hand, markers)
     named = {
         name: (blobs.pixel[blob].tolist(), bool(sure))
         for name, blob, sure in zip(markers.markers, found.blob.tolist(), found.is_sure, strict=True)

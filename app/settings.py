@@ -41,7 +41,19 @@ LAST_FOLDER_FILE = "last-data-folder.txt"
 TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
 DATA_VARIABLE = "CARPUS_DATA"
-GONE = {"report.agreement_limit_deg", "report.retest_days", "screen.keys"}
+GONE = {
+    "report.agreement_limit_deg",
+    "report.retest_days",
+    "screen.keys",
+    *(
+        f"calibration.{name}"
+        for name in (
+            "still_px", "enough_frames", "pixel_sd_px", "pixel_stays_px", "same_disc_px", "least_discs",
+            "most_length_change", "candidates", "naming", "finger_order", "palm_names", "side", "odd_disc",
+            "registration", "back",
+        )
+    ),
+}  # fmt: skip
 """Settings of earlier versions: accepted and ignored."""
 
 logger = logging.getLogger(__name__)
@@ -230,7 +242,7 @@ def _defaults() -> Values:
 
 def _settings(values: Values, file: str) -> Settings:
     """All sections; what a person says of tracking is looked at now, so that its fault is told now."""
-    tracking = {name: values[name] for name in TRACKING if name in values}
+    tracking = {name: values[name] for name in TRACKING if values.get(name)}
     if tracking:
         from carpus.core.pipeline.track import TrackSettings
 

@@ -1,10 +1,13 @@
-"""What shapes a tracked or calibrated number lies in settings, which go into the session; what may not is told here."""
+"""What shapes a tracked or calibrated number is a setting, a constant with its reason beneath, or one that is told
+here. What a person may set stands in the shipped file with a sentence."""
 
 from __future__ import annotations
 
 import ast
+from dataclasses import fields
 from pathlib import Path
 
+from carpus.core.calibration.settings import CalibrationSettings
 from tests.sources import ROOT, SOURCES, parsed
 
 SHAPING = ("hand", "detection", "calibration", "tracking")
@@ -12,58 +15,42 @@ SHAPING = ("hand", "detection", "calibration", "tracking")
 
 NO_CHOICE = {
     "what keeps numbers finite, far from any that counts": {
-        "calibration/clicks": "_NO_PIXEL_PX",
-        "detection/blobs": "_BEYOND_M",
-        "detection/detector": "_NEAREST_M",
         "hand/anatomy_prior": "_FIXED",
-        "hand/back_surface": "_NOWHERE",
         "tracking/association": "IMPOSSIBLE",
         "tracking/digit_filter": "FLOOR",
         "tracking/digit_readout": "_NARROW2",
-        "tracking/finger_model": "_NARROW_RAD",
-        "tracking/hand_filter": "_NEAREST_M",
         "tracking/joint_limits": "_WIDE",
         "tracking/kernel": "_LEAST_PROBABILITY",
-        "tracking/palm_state": "FLOOR _HARDLY_M",
-        "tracking/predicted_measurement": "_FLOOR_M",
-        "tracking/reacquire": "_LOOSE_M2",
+        "tracking/palm_state": "FLOOR",
         "tracking/surface_fit": "_NO_NOISE",
     },
     "what is asked of a hand and how it is drawn; no angle is made of it": {
-        "hand/exercises": "AXIS_LIMIT_DEG AXIS_TICK_DEG EXERCISES STILL_RADIUS_MM",
+        "hand/exercises": "AXIS_TICK_DEG EXERCISES STILL_RADIUS_MM",
     },
     "mathematics": {
         "tracking/digit_association": "_LOG_2_PI",
-        "tracking/joint_limits": "MID_RANGE_RAD RANGE_SD_RAD _ROOT_2_OVER_PI _ROOT_HALF",  # the first of an even spread
+        "tracking/joint_limits": "MID_RANGE_RAD _ROOT_2_OVER_PI _ROOT_HALF",
     },
     "when a search for a least sum of squares has settled": {
         "calibration/neutral_pose": "_ROUNDS _SETTLED",
         "hand/anatomy_prior": "_DIFFERENCE_STEP _MOST_STEPS _SETTLED",
     },
     "tables of the clinical reference; how far a hand may be from them lies in settings": {
-        "calibration/calibrate": "_MCP3_OVER_HAND_LENGTH",
         "hand/anatomy": (
-            "ABDUCTION_LIMIT_RAD BREADTH_SHARE HARD_LIMITS_RAD REFERENCE_LENGTH_M _ARCH_M _FAN_RAD "
-            "_FINGER_OFFSET_M _FINGER_SHARE _NAIL_SHARE_FINGER _NAIL_SHARE_THUMB _PALM_OFFSET_M _PALM_X_SHARE "
-            "_PALM_Y_SHARE _THUMB_OFFSET_M _THUMB_ROLL_RAD _THUMB_SHARE"
+            "_ARCH_M _FAN_RAD _FINGER_OFFSET_M _FINGER_SHARE _NAIL_SHARE_FINGER _NAIL_SHARE_THUMB _PALM_OFFSET_M "
+            "_PALM_X_SHARE _PALM_Y_SHARE _THUMB_OFFSET_M _THUMB_ROLL_RAD _THUMB_SHARE"
         ),
-        "hand/kinematics": "DIP_PER_PIP",
-    },
-    "which of three clinical angles are defined at all, by the clinical reference": {
-        "hand/clinical_angles": "ZYZ_MOST_SD_RAD ZYZ_UNDEFINED_BELOW_RAD",
     },
     "limits and layouts of files and tables": {
-        "calibration/clicks": "_MOST_BYTES",
-        "detection/appearance": "BINS _RANGES",
+        "detection/appearance": "_RANGES",
         "detection/detector": "_SIMILARITY_BINS",
         "detection/stencil": "WEDGES",
-        "hand/back_surface": "TABLE_ROWS",
         "tracking/settings": "_LIMITS",
     },
     "axes and signs": {
         "calibration/calibrate": "_TOWARDS_CAMERA",
+        "calibration/neutral_pose": "TOWARDS_CAMERA",
         "hand/anatomy_prior": "_DOWN",
-        "tracking/digit_association": "BENDS",
         "tracking/finger_depth": "_DOWN",
         "tracking/hand_geometry": "_DOWN _FINGER_PHASES _FINGER_TURNS _THUMB_PHASES _TO_DIP _TURNS",
         "tracking/reacquire": "_MIRROR",
@@ -74,29 +61,22 @@ NO_CHOICE = {
     },
     "where a number stands among others": {
         "calibration/name_checks": "_THUMB",
-        "calibration/still_depth": "_CORNERS",
         "tracking/digit_filter": "_ROLL",
-        "tracking/finger_depth": "FLEXION",
-        "tracking/hand_geometry": "DISCS",
         "tracking/palm_state": "PALM_DISCS",
     },
-    "about the line of sight depths tell nothing: a rank, which no figure hangs on": {
-        "tracking/readout": "_TILT_KNOWN",
-    },
-    "what is home keeps nothing: any time far below a frame's": {
+    "what is home keeps nothing: any time far below that of a frame": {
         "tracking/soft_tissue": "_AT_ONCE_S",
-    },
-    "half of a picture's weight now and half right after": {
-        "tracking/hand_filter": "_TWICE",
     },
 }
 """Numbers of modules that are no setting, by the reason."""
 
 
 def shaping_numbers(path: Path) -> set[str]:
-    """Names that a module gives to numbers: any with a point, and whole ones that stand alone."""
-    found = set()
-    for node in parsed(path).body:
+    """Names that a module gives to numbers without a reason: any with a point, and whole ones that stand alone."""
+    found, body = set(), parsed(path).body
+    for node, beneath in zip(body, [*body[1:], None], strict=True):
+        if isinstance(beneath, ast.Expr) and isinstance(beneath.value, ast.Constant):
+            continue  # its reason
         if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
             continue
         targets = node.targets if isinstance(node, ast.Assign) else [node.target]
@@ -118,5 +98,12 @@ def test_what_shapes_a_number_lies_in_settings() -> None:
     names = [f"{module}.{name}" for some in NO_CHOICE.values() for module in some for name in some[module].split()]
     told = set(names)
     assert len(told) == len(names), "each has one reason"
-    assert found - told == set(), "put it into the settings beside it, or tell why it is none"
+    assert found - told == set(), "say its reason beneath it"
     assert told - found == set(), "gone: take it off the list"
+
+
+def test_each_setting_of_a_calibration_stands_in_the_shipped_file_with_a_sentence() -> None:
+    text = (ROOT / "resources" / "defaults.toml").read_text(encoding="utf-8")
+    section = text.partition("[calibration]\n")[2].partition("\n\n")[0].splitlines()
+    said = {line.partition(" = ")[0] for line in section if "  # " in line}
+    assert said == {field.name for field in fields(CalibrationSettings)}

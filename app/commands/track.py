@@ -362,7 +362,8 @@ def _what_differs(before: Told | None, settings: TrackSettings, version: str) ->
     changed = differences(before.settings, settings)
     if version != __version__:
         changed.append(f"software {__version__} (was {version})")
-    changed += [f"{name} no longer there" for name in before.unknown]
+    if before.unknown:
+        changed.append(f"no settings any more: {', '.join(before.unknown)}")
     return [f"Differs: {change}" for change in changed] or ["Differs: nothing, same settings as before"]
 
 

@@ -89,9 +89,7 @@ class HandCalibrator:
         """Fix the picture, and find all blue discs on it, so that clicks snap at once."""
         self._held = tuple(self._pictures.still())
         settings = self._settings
-        self._candidates = marker_candidates(
-            self._held[0], self._camera, settings.detection, settings.calibration.candidates
-        )
+        self._candidates = marker_candidates(self._held[0], self._camera, settings.detection)
         return self._held[0]
 
     def discs_seen(self) -> int:
@@ -114,7 +112,7 @@ class HandCalibrator:
         radius_px = expected_radius_px(frame, pixel, self._camera, detection)
         found = snapped(self._candidates, pixel, radius_px, detection)
         if not len(found):
-            found = disc_at(frame, pixel, self._camera, detection, self._settings.calibration.candidates)
+            found = disc_at(frame, pixel, self._camera, detection)
         if not len(found):
             return None
         return FoundMarker(found.pixel[0], _width_px(found, 0))
@@ -127,7 +125,7 @@ class HandCalibrator:
             distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
             if distance.size and distance.min() < SAME_DISC_PX:
                 known[markers.index(name)] = int(distance.argmin())
-        found = propose_names(blobs, self._camera, self._side, self._protocol, self._settings.calibration.naming, known)
+        found = propose_names(blobs, self._camera, self._side, self._protocol, known)
         return {
             name: ProposedMarker(blobs.pixel[blob], _width_px(blobs, blob), bool(is_sure))
             for name, blob, is_sure in zip(markers, found.blob.tolist(), found.is_sure, strict=True)
@@ -138,7 +136,7 @@ class HandCalibrator:
         """Measure and judge; called in the background."""
         held, settings = self._held, self._settings
         outcome = calibrate(clicks, held, self._camera, settings.calibration, settings.detection, start_angles_rad)
-        outcome = compared_with_last_time(outcome, self._last_length_mm, self._settings.calibration)
+        outcome = compared_with_last_time(outcome, self._last_length_mm)
         self._outcomes.append((outcome, held))
         return Judged(outcome.verdict, outcome.calibration)
 

@@ -12,11 +12,20 @@ from numpy.typing import NDArray
 
 from carpus.core.assignment import nearest_within
 from carpus.core.calibration.candidates import is_paper, marker_candidates
-from carpus.core.calibration.name_checks import looks_like_other_side, misnamed, odd_disc, plan_view, shifted_names
+from carpus.core.calibration.name_checks import (
+    OFF_THE_HAND_M,
+    SAME_DISC_RADII,
+    SAME_SPOT_PX,
+    looks_like_other_side,
+    misnamed,
+    odd_disc,
+    plan_view,
+    shifted_names,
+)
 from carpus.core.calibration.neutral_pose import pose_by_least_squares
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.calibration.still_depth import depth_offset_px, surface_of
+from carpus.core.calibration.still_depth import COMPARED_WIDTH_PX, SURELY_OFF_PX, depth_offset_px, surface_of
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.detection.appearance import MarkerAppearance, expected_radius_px, learn_appearance, to_hsv
@@ -29,6 +38,16 @@ from carpus.core.types import Detections, FloatArray, Frame, Region
 _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""
 _TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
+STILL_PX = 0.7
+"""By how much the discs of a still hand may have moved."""
+STAYED_PX, MIN_STILL_DISCS = 4.0, 3
+"""While the hand is still a disc lies so near to where it was clicked, so many of them at least."""
+ENOUGH_FRAMES = 5
+"""For a neutral pose worth its name."""
+USUAL_PIXEL_SD_PX, PIXEL_STAYS_PX = 0.3, 0.1
+"""Of a disc's centre where the frames are too few to show it, and what of it no averaging removes."""
+MAX_LENGTH_CHANGE = 0.15
+"""Of a hand since last time: discs put on anew lie up to half a centimetre elsewhere on the 8 cm that are measured."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +112,7 @@ def calibrate(
     first = frames[0]
     radius_px = np.array([expected_radius_px(first, click, camera, detection) for click in clicks.pixel])
     region = _around(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
-    found = _discs_clicked(clicks, first, region, detection.click_reach * radius_px, camera, settings, detection)
+    found = _discs_clicked(clicks, first, region, detection.click_reach * radius_px, camera, detection)
     appearance, blobs, taken, findings = found.appearance, found.blobs, found.taken, found.findings
     detector = Detector(appearance, camera, detection)
     found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)
@@ -101,9 +120,9 @@ def calibrate(
         verdict = _no_verdict(clicks, findings)
         return CalibrationOutcome(verdict, None, StillNoise(), appearance, found_px, 0)
 
-    offset_px = depth_offset_px(first, appearance, found_px, settings.registration)
+    offset_px = depth_offset_px(first, appearance, found_px)
     if offset_px > 0.0:
-        limit_px = settings.registration.surely_off_px * camera.width_px / settings.registration.width_px
+        limit_px = SURELY_OFF_PX * camera.width_px / COMPARED_WIDTH_PX
         findings.append(CalibrationFinding("depth_off", (), offset_px, limit_px, "px"))
 
     def seen() -> Iterator[tuple[float, Detections]]:
@@ -115,12 +134,12 @@ def calibrate(
     hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
     if not any(finding.kind in _NAMES_WRONG for finding in hand.verdict.findings):
         everywhere = detector.detect(first)
-        hand = _with_near_spot(hand, clicks, found_px, radius_px, everywhere, settings)
-        hand = _with_odd_disc(hand, clicks, first, found_px, everywhere, camera, settings, detection)
+        hand = _with_near_spot(hand, clicks, found_px, radius_px, everywhere)
+        hand = _with_odd_disc(hand, clicks, first, found_px, everywhere, camera, detection)
     calibration = hand.calibration
     if calibration is not None:
         still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.lasted_s]
-        calibration = replace(calibration, surface=surface_of(calibration, still, camera, settings.back))
+        calibration = replace(calibration, surface=surface_of(calibration, still, camera))
     return CalibrationOutcome(hand.verdict, calibration, hand.noise, appearance, found_px, capture.frames)
 
 
@@ -134,22 +153,21 @@ def _with_odd_disc(
     found_px: FloatArray,
     everywhere: Detections,
     camera: Camera,
-    settings: CalibrationSettings,
     detection: DetectionSettings,
 ) -> MeasuredHand:
     """The measured hand, doubted where a disc makes no palm, or where a spot that nobody named fits better."""
-    palm, own = list(clicks.protocol.palm), settings.odd_disc
-    taken = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < own.same_spot_px
+    palm = list(clicks.protocol.palm)
+    taken = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < SAME_SPOT_PX
     depth_m = float(hand.verdict.distance_m)
-    near = ~np.isfinite(everywhere.depth_m) | (np.abs(everywhere.depth_m - depth_m) < own.of_the_hand_m)
+    near = ~np.isfinite(everywhere.depth_m) | (np.abs(everywhere.depth_m - depth_m) < OFF_THE_HAND_M)
     spare_px = everywhere.pixel[~taken & near]
-    spare_px = spare_px[is_paper(spare_px, first, to_hsv(first.color_rgb), camera, detection, settings.candidates)]
+    spare_px = spare_px[is_paper(spare_px, first, to_hsv(first.color_rgb), camera, detection)]
     names = clicks.protocol.markers
 
     def plan(pixel: FloatArray) -> FloatArray:
         return plan_view(camera.back_project(camera.undistort(pixel), np.full(len(pixel), depth_m)))
 
-    odd = odd_disc(clicks.side, plan(found_px[palm]), plan(spare_px), own)
+    odd = odd_disc(clicks.side, plan(found_px[palm]), plan(spare_px))
     if odd is None or not np.isfinite(depth_m):
         return hand
     kind: FindingKind = "other_spot" if odd.fits else "spare_spot" if odd.spot >= 0 else "no_palm"
@@ -164,14 +182,13 @@ def _with_near_spot(
     found_px: FloatArray,
     radius_px: FloatArray,
     everywhere: Detections,
-    settings: CalibrationSettings,
 ) -> MeasuredHand:
     """The measured hand, doubted where a spot that nobody named lies so near to a disc that it may be the disc."""
     apart = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1)
     # A disc is its own nearest blob.
     apart[apart.argmin(axis=0)] = np.inf
     near = apart / radius_px
-    if not near.size or not near.min() < settings.odd_disc.near_radii:
+    if not near.size or not near.min() < SAME_DISC_RADII:
         return hand
     spot, marker = np.unravel_index(int(near.argmin()), near.shape)
     spot_px = tuple(map(float, everywhere.pixel[spot]))
@@ -203,7 +220,6 @@ def _discs_clicked(
     region: Region,
     reach_px: FloatArray,
     camera: Camera,
-    settings: CalibrationSettings,
     detection: DetectionSettings,
 ) -> _Found:
     """The discs of the clicked frame under the clicks."""
@@ -218,7 +234,7 @@ def _discs_clicked(
     if np.all(found.taken >= 0):
         return found
     # Small discs and clicks at their edges: colours are better learnt in the middle of what is blue.
-    candidates = marker_candidates(first, camera, detection, settings.candidates)
+    candidates = marker_candidates(first, camera, detection)
     again = tried(_snapped(clicks.pixel, candidates, reach_px))
     return max(found, again, key=lambda each: int(np.count_nonzero(each.taken >= 0)))
 
@@ -291,11 +307,11 @@ def still_capture(
             continue
         distance = np.linalg.norm(start_px[:, None] - blobs.pixel[None], axis=-1)
         nearest = distance.argmin(axis=1)
-        near = distance[np.arange(len(start_px)), nearest] < settings.same_disc_px
-        if np.count_nonzero(near) < settings.least_discs:
+        near = distance[np.arange(len(start_px)), nearest] < STAYED_PX
+        if np.count_nonzero(near) < MIN_STILL_DISCS:
             continue
         moved_px = np.median(blobs.pixel[nearest[near]] - start_px[near], axis=0)
-        if float(np.hypot(*moved_px)) > settings.still_px:
+        if float(np.hypot(*moved_px)) > STILL_PX:
             break
         lasted_s = time_s - begin_s
         pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
@@ -345,7 +361,6 @@ def measure_hand(
         _nanmean(capture.area_px),
         noise,
         camera,
-        settings,
     )
     residual_mm = _residuals_mm(capture, camera, marker_w0_m, rotation, translation, palm)
     hand_length_mm = 1e3 * float(np.linalg.norm(marker_w0_m[palm[3]])) / _MCP3_OVER_HAND_LENGTH
@@ -409,7 +424,6 @@ def _disc_covariances(
     area_px: FloatArray,
     noise: StillNoise,
     camera: Camera,
-    settings: CalibrationSettings,
 ) -> FloatArray:
     """Covariance (M, 3, 3) in W0 of the averaged disc places: across by the pixels, along the ray by the depth."""
     z = point_cam[:, 2]
@@ -417,8 +431,8 @@ def _disc_covariances(
     scatter_m = noise.depth_sd_m if np.isfinite(noise.depth_sd_m) else book_m
     steep2 = np.maximum(said_sd_m**2 - book_m**2, 0.0)  # of a slope, as steep in every frame
     along = scatter_m**2 / np.maximum(depth_count, 1) + camera.sensor.stays_sd_m(z) ** 2 + steep2
-    pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else settings.pixel_sd_px
-    across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), settings.pixel_stays_px) * z / camera.fx_px
+    pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else USUAL_PIXEL_SD_PX
+    across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), PIXEL_STAYS_PX) * z / camera.fx_px
     ray = point_cam / z[:, None]
     flat = np.diag([1.0, 1.0, 0.0])
     in_cam = across_m[:, None, None] ** 2 * flat + along[:, None, None] * (ray[:, :, None] * ray[:, None, :])
@@ -448,15 +462,15 @@ def _judged(
 ) -> list[CalibrationFinding]:
     names = clicks.protocol.markers
     out: list[CalibrationFinding] = []
-    shifted = shifted_names(clicks.side, plan[list(clicks.protocol.palm)], settings.palm_names)
+    shifted = shifted_names(clicks.side, plan[list(clicks.protocol.palm)])
     if len(shifted) > 2:
         out.append(CalibrationFinding("shifted", shifted))
-    elif looks_like_other_side(clicks.protocol, clicks.side, plan, settings.side):
+    elif looks_like_other_side(clicks.protocol, clicks.side, plan):
         out.append(CalibrationFinding("wrong_side"))
     elif shifted and not clicks.protocol.has_fingers:
         out.append(CalibrationFinding("swapped", shifted))
     elif clicks.protocol.has_fingers:
-        names_at_fault = misnamed(clicks.protocol, clicks.side, plan, settings.finger_order)
+        names_at_fault = misnamed(clicks.protocol, clicks.side, plan)
         if names_at_fault is not None and names_at_fault.alone:
             out.append(CalibrationFinding("misnamed", (names_at_fault.alone,)))
         elif names_at_fault is not None:
@@ -475,8 +489,8 @@ def _judged(
         out.append(CalibrationFinding("tilt", (), verdict.tilt_deg, settings.most_tilt_deg, "deg"))
     if verdict.distance_m < settings.least_distance_m:
         out.append(CalibrationFinding("distance", (), verdict.distance_m, settings.least_distance_m, "m"))
-    if verdict.frames_used < settings.enough_frames:
-        out.append(CalibrationFinding("few_frames", (), verdict.frames_used, settings.enough_frames, "frames"))
+    if verdict.frames_used < ENOUGH_FRAMES:
+        out.append(CalibrationFinding("few_frames", (), verdict.frames_used, ENOUGH_FRAMES, "frames"))
     return out
 
 
@@ -485,13 +499,11 @@ def _no_verdict(clicks: Clicks, findings: list[CalibrationFinding]) -> Verdict:
     return Verdict(unknown, np.nan, np.nan, np.nan, 0, tuple(findings))
 
 
-def compared_with_last_time(
-    outcome: CalibrationOutcome, last_length_mm: float, settings: CalibrationSettings
-) -> CalibrationOutcome:
+def compared_with_last_time(outcome: CalibrationOutcome, last_length_mm: float) -> CalibrationOutcome:
     """The outcome, doubted where the hand is not as long as the same hand was; NaN: there is none to compare with."""
     now_mm = outcome.verdict.hand_length_mm
     if not (math.isfinite(last_length_mm) and math.isfinite(now_mm)):
         return outcome
-    if abs(now_mm - last_length_mm) <= settings.most_length_change * last_length_mm:
+    if abs(now_mm - last_length_mm) <= MAX_LENGTH_CHANGE * last_length_mm:
         return outcome
     return _doubted(outcome, CalibrationFinding("other_length", (), now_mm, last_length_mm, "mm"))

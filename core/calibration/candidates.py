@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import cv2
@@ -17,77 +17,69 @@ from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
-
-@dataclass(frozen=True, slots=True)
-class CandidateSettings:
-    """What is taken for a disc before today's colours are known.
-
-    ``blue``: lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales);
-    ``tinged_blue`` of discs so small that they take on some of the skin; with it a sleeve falls into specks.
-    ``least_area`` and ``least_tinged_area`` of such spots over a disc's. ``most_tried`` spots are looked at; ``fewest``
-    make a marked hand. ``window_radii`` about a click are searched. ``most_alike``: Bhattacharyya coefficient of a spot
-    to what lies around it, above which it is no paper. ``least_colour``: strongest channel less the weakest, of 255:
-    coloured paper in a dim room has 60, a dark pullover up to 15. ``least_value``: strongest channel of a spot: 90 on
-    paper in a dim room; darker nothing has such a colour but by chance. ``least_step``: distance in colour (RGB) of
-    most of the ring about a disc from the disc: 65 in a dim room, in cloth rarely 45. ``of_the_usual``: all discs are
-    of one paper: a spot with less than this share of the usual colour of the spots is none of them.
-    """
-
-    blue: tuple[tuple[int, ...], ...] = ((90, 60, 30), (130, 255, 255))
-    tinged_blue: tuple[tuple[int, ...], ...] = ((85, 50, 25), (145, 255, 255))
-    least_area: float = 0.3
-    least_tinged_area: float = 0.2
-    most_tried: int = 400
-    fewest: int = 3
-    window_radii: float = 8.0
-    most_alike: float = 0.6
-    least_colour: float = 24.0
-    least_value: float = 60.0
-    least_step: float = 50.0
-    of_the_usual: float = 0.35
+PAPER_BLUE: tuple[tuple[int, ...], ...] = ((90, 60, 30), (130, 255, 255))
+"""Lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""
+TINGED_BLUE: tuple[tuple[int, ...], ...] = ((85, 50, 25), (145, 255, 255))
+"""The same of discs so small that they take on some of the skin; with it a sleeve falls into specks."""
+MIN_SPOT_AREA = 0.3
+"""Area of a spot over a disc's."""
+MIN_TINGED_AREA = 0.2
+"""The same of a tinged one."""
+MAX_TRIED_SPOTS = 400
+"""In cloth of the paper's hue there are more spots than discs; so many are looked at."""
+MIN_SPOTS = 3
+"""Fewer spots are no marked hand."""
+CLICK_WINDOW_RADII = 8.0
+"""So far about a click is searched."""
+MAX_ALIKE = 0.6
+"""Bhattacharyya coefficient of a spot to what lies around it, above which it is no paper."""
+MIN_COLOUR = 24.0
+"""Strongest channel less the weakest, of 255: coloured paper in a dim room has 60, a dark pullover up to 15."""
+MIN_VALUE = 60.0
+"""Strongest channel of a spot: 90 on paper in a dim room; darker nothing has such a colour but by chance."""
+MIN_COLOUR_STEP = 50.0
+"""Distance in colour (RGB) of most of the ring about a disc from the disc: 65 in a dim room, in cloth rarely 45."""
+MIN_USUAL_SHARE = 0.35
+"""All discs are of one paper: a spot with less than this share of the usual colour of the spots is none of them."""
 
 
-def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings, own: CandidateSettings) -> Detections:
+def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings) -> Detections:
     """Every blue disc-sized blob of a picture, exactly placed; none where fewer than three are seen.
 
     A first, wide search for blue shows what today's paper and skin look like; the detector then finds the discs.
     """
     hsv = appearance.to_hsv(frame.color_rgb)
-    blue = cv2.inRange(hsv, *(np.array(limit) for limit in own.blue))
+    blue = cv2.inRange(hsv, *(np.array(limit) for limit in PAPER_BLUE))
     opened = cv2.morphologyEx(blue, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
-    spots = _paper(_disc_sized(opened, own.least_area, frame, camera, settings), frame, hsv, camera, settings, own)
-    if len(spots) < own.fewest:
-        tinged = cv2.inRange(hsv, *(np.array(limit) for limit in own.tinged_blue))
-        spots = _paper(
-            _disc_sized(tinged, own.least_tinged_area, frame, camera, settings), frame, hsv, camera, settings, own
-        )
-    if len(spots) < own.fewest:
+    spots = _paper(_disc_sized(opened, MIN_SPOT_AREA, frame, camera, settings), frame, hsv, camera, settings)
+    if len(spots) < MIN_SPOTS:
+        tinged = cv2.inRange(hsv, *(np.array(limit) for limit in TINGED_BLUE))
+        spots = _paper(_disc_sized(tinged, MIN_TINGED_AREA, frame, camera, settings), frame, hsv, camera, settings)
+    if len(spots) < MIN_SPOTS:
         return Detections.none()
     looks, _ = learn_appearance(frame, spots, camera, settings)
     # In cloth of the paper's hue there are more spots than discs: they must not crowd these out before they are tried.
-    found = Detector(looks, camera, replace(settings, most_blobs=own.most_tried)).detect(frame)
-    kept = is_paper(found.pixel, frame, hsv, camera, settings, own)
-    return found.only(kept) if np.count_nonzero(kept) >= own.fewest else Detections.none()
+    found = Detector(looks, camera, replace(settings, most_blobs=MAX_TRIED_SPOTS)).detect(frame)
+    kept = is_paper(found.pixel, frame, hsv, camera, settings)
+    return found.only(kept) if np.count_nonzero(kept) >= MIN_SPOTS else Detections.none()
 
 
-def _paper(
-    pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings, own: CandidateSettings
-) -> FloatArray:
-    return pixel[is_paper(pixel, frame, hsv, camera, settings, own)]
+def _paper(pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings) -> FloatArray:
+    return pixel[is_paper(pixel, frame, hsv, camera, settings)]
 
 
 def is_paper(
-    pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings, own: CandidateSettings
+    pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings
 ) -> NDArray[np.bool_]:
     """Which spots (B, 2) have a colour of their own, other than what lies around them, and about as much of it as
     the others. Dark cloth falls into specks whose hue is blue by chance; they have hardly any colour."""
     colour = np.zeros(len(pixel))
     for i, (at, radius_px) in enumerate(zip(pixel, _radii_px(frame, pixel, camera, settings), strict=True)):
         others = pixel[(np.abs(pixel - at).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
-        colour[i] = _own_colour(frame.color_rgb, hsv, at, radius_px, others, own)
-    coloured = colour >= own.least_colour
+        colour[i] = _own_colour(frame.color_rgb, hsv, at, radius_px, others)
+    coloured = colour >= MIN_COLOUR
     usual = float(np.median(colour[coloured])) if coloured.any() else 0.0
-    return np.asarray(coloured & (colour >= own.of_the_usual * usual))
+    return np.asarray(coloured & (colour >= MIN_USUAL_SHARE * usual))
 
 
 def _own_colour(
@@ -96,7 +88,6 @@ def _own_colour(
     at: FloatArray,
     radius_px: float,
     others: FloatArray,
-    settings: CandidateSettings,
 ) -> float:
     """Strongest channel less the weakest of a spot, 0 for one that looks like what lies around it."""
     half = int(3.0 * radius_px) + 2
@@ -113,9 +104,9 @@ def _own_colour(
         return 0.0
     step = np.linalg.norm(rgb[ring] - np.median(rgb[own], axis=0), axis=1)
     mine, around = (appearance.histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
-    if np.quantile(step, 0.7) < settings.least_step or appearance.bhattacharyya(mine, around) > settings.most_alike:
+    if np.quantile(step, 0.7) < MIN_COLOUR_STEP or appearance.bhattacharyya(mine, around) > MAX_ALIKE:
         return 0.0
-    if np.median(rgb[own].max(axis=1)) < settings.least_value:
+    if np.median(rgb[own].max(axis=1)) < MIN_VALUE:
         return 0.0
     return float(np.median(rgb[own].max(axis=1) - rgb[own].min(axis=1)))
 
@@ -129,15 +120,13 @@ def _disc_sized(mask: Any, least_area: float, frame: Frame, camera: Camera, sett
     return found.centre_px[(found.area_px > least_area * full) & (found.area_px < 2.0 * full)]
 
 
-def disc_at(
-    frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings, own: CandidateSettings
-) -> Detections:
+def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> Detections:
     """The disc that covers a pixel (2,), whatever its colour: one blob, or none.
 
     Only a small window is looked at. A spot that looks like all that lies around it is no disc.
     """
     radius_px = expected_radius_px(frame, pixel, camera, settings)
-    half = own.window_radii * radius_px
+    half = CLICK_WINDOW_RADII * radius_px
     height, width = frame.color_rgb.shape[:2]
     left, top = (int(max(0.0, value - half)) for value in pixel)
     right, bottom = int(min(width, pixel[0] + half + 1)), int(min(height, pixel[1] + half + 1))
@@ -154,9 +143,9 @@ def disc_at(
     squared = (u - centre[0, 0]) ** 2 + (v - centre[0, 1]) ** 2
     ring = (squared > (1.5 * radius_px) ** 2) & (squared < (3.0 * radius_px) ** 2)
     around = appearance.histogram(hsv, ring, smooth_bins=1.2)
-    if appearance.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > own.most_alike:
+    if appearance.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > MAX_ALIKE:
         return Detections.none()
-    if not is_paper(centre + corner, frame, appearance.to_hsv(frame.color_rgb), camera, settings, own).all():
+    if not is_paper(centre + corner, frame, appearance.to_hsv(frame.color_rgb), camera, settings).all():
         return Detections.none()
     window = Detector(looks, camera, settings).region_about(centre, np.zeros((1, 2, 2)), np.array([0.5]))
     found = Detector(looks, camera, settings).detect(part, window)

@@ -26,27 +26,24 @@ _THUMB = 1
 _OTHER: dict[Side, Side] = {"right": "left", "left": "right"}
 
 
-@dataclass(frozen=True, slots=True)
-class FingerOrderSettings:
-    """When lines of discs are no fingers.
-
-    A line that turns aside by more than ``most_turn_deg`` at one disc is none; the thumb's base lies freely, up to
-    ``most_thumb_turn_deg``. ``most_length`` and ``most_thumb_length``: longest pieces of a line, wrist to tip, over
-    the length from WRIST to the middle knuckle; ``short`` ones on that scale have no direction worth judging.
-    Faults count by ``length_weight`` for each such length too much, one for ``turn_deg`` too much and for a
-    crossing, and ``order_weight`` for knuckles out of order. With ``clearly`` of them the names are doubted: two
-    bent fingers may cross once (1) by themselves.
-    """
-
-    most_turn_deg: float = 50.0
-    most_thumb_turn_deg: float = 75.0
-    most_length: tuple[float, ...] = (1.25, 0.85, 0.62, 0.45)
-    most_thumb_length: tuple[float, ...] = (0.6, 0.95, 0.75, 0.62)
-    short: float = 0.08
-    length_weight: float = 4.0
-    turn_deg: float = 45.0
-    order_weight: float = 1.5
-    clearly: float = 1.2
+MAX_TURN_DEG = 50.0
+"""A line of discs that turns aside by more at one disc is no finger."""
+MAX_THUMB_TURN_DEG = 75.0
+"""As :data:`MAX_TURN_DEG` of the thumb, whose base lies freely."""
+MAX_LENGTH: tuple[float, ...] = (1.25, 0.85, 0.62, 0.45)
+"""Longest pieces of a finger, wrist to tip, over the length from WRIST to the middle knuckle."""
+MAX_THUMB_LENGTH: tuple[float, ...] = (0.6, 0.95, 0.75, 0.62)
+"""As :data:`MAX_LENGTH` of the thumb."""
+SHORT_LENGTH = 0.08
+"""Pieces as short on that scale have no direction worth judging."""
+LENGTH_WEIGHT = 4.0
+"""Faults counted for each such length too much; a crossing is one."""
+TURN_FAULT_DEG = 45.0
+"""Turned aside by so much too far is one fault."""
+ORDER_WEIGHT = 1.5
+"""Faults counted for a knuckle out of order."""
+DOUBTFUL_FAULTS = 1.2
+"""With so many faults names are doubted: two bent fingers may cross once by themselves."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,27 +81,27 @@ class Misnamed:
     alone: str = ""
 
 
-def misnamed(protocol: MarkerProtocol, side: Side, plan: FloatArray, settings: FingerOrderSettings) -> Misnamed | None:
+def misnamed(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> Misnamed | None:
     """What is wrong with the names of a ``plan`` (M, 2) seen from the camera, y up; None when nothing is."""
     lines = _lines_of(protocol)
-    now = _faults(lines, side, plan, settings)
-    if now < settings.clearly:
+    now = _faults(lines, side, plan)
+    if now < DOUBTFUL_FAULTS:
         return None
     best = np.inf
     rows: tuple[tuple[int, ...], tuple[int, ...]] = ((0,), (0,))
     for one, other in _exchanges(lines, len(plan)):
         trial = plan.copy()
         trial[[*one, *other]] = plan[[*other, *one]]
-        value = _faults(lines, side, trial, settings)
+        value = _faults(lines, side, trial)
         if value < best - 1e-9:
             best, rows = value, (one, other)
     names = protocol.markers
     exchanged = Misnamed((tuple(names[i] for i in rows[0]), tuple(names[i] for i in rows[1])))
-    if best < settings.clearly:
+    if best < DOUBTFUL_FAULTS:
         return exchanged
     # No exchange mends it all: is it one disc that lies outside of the hand?
-    alone, without = _worst_finger(lines, side, plan, settings)
-    return Misnamed(alone=names[alone]) if without < settings.clearly or best >= now - settings.clearly else exchanged
+    alone, without = _worst_finger(lines, side, plan)
+    return Misnamed(alone=names[alone]) if without < DOUBTFUL_FAULTS or best >= now - DOUBTFUL_FAULTS else exchanged
 
 
 def _exchanges(lines: _Lines, count: int) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
@@ -114,7 +111,7 @@ def _exchanges(lines: _Lines, count: int) -> list[tuple[tuple[int, ...], tuple[i
     return [*single, *combinations(fingers, 2)]
 
 
-def _worst_finger(lines: _Lines, side: Side, plan: FloatArray, settings: FingerOrderSettings) -> tuple[int, float]:
+def _worst_finger(lines: _Lines, side: Side, plan: FloatArray) -> tuple[int, float]:
     """The disc without which least is wrong, and how much: laid between its neighbours on the line, as if it fitted."""
     left = np.full(len(plan), np.inf)
     for chain in lines.chains.values():
@@ -125,11 +122,11 @@ def _worst_finger(lines: _Lines, side: Side, plan: FloatArray, settings: FingerO
                 plan[chain[place + 1]] if place + 1 < len(chain) else before + 0.5 * (before - plan[chain[place - 2]])
             )
             trial[chain[place]] = 0.5 * (before + after)
-            left[chain[place]] = min(left[chain[place]], _faults(lines, side, trial, settings))
+            left[chain[place]] = min(left[chain[place]], _faults(lines, side, trial))
     return int(np.argmin(left)), float(left.min())
 
 
-def _faults(lines: _Lines, side: Side, plan: FloatArray, settings: FingerOrderSettings) -> float:
+def _faults(lines: _Lines, side: Side, plan: FloatArray) -> float:
     """Sum of all that speaks against the names, 0 for a usual hand."""
     size = float(np.median([np.hypot(*(plan[k] - plan[0])) for k in lines.knuckles]))
     if not size > 0.0:
@@ -138,19 +135,19 @@ def _faults(lines: _Lines, side: Side, plan: FloatArray, settings: FingerOrderSe
     for digit, chain in lines.chains.items():
         steps = np.diff(plan[list(chain)], axis=0)
         length = np.hypot(steps[:, 0], steps[:, 1])
-        most = np.array(settings.most_thumb_length if digit == _THUMB else settings.most_length)
-        faults += float(np.maximum(length / size - most, 0.0).sum()) * settings.length_weight
+        most = np.array(MAX_THUMB_LENGTH if digit == _THUMB else MAX_LENGTH)
+        faults += float(np.maximum(length / size - most, 0.0).sum()) * LENGTH_WEIGHT
         along = (steps[:-1] * steps[1:]).sum(axis=1)
         across = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
         turn_deg = np.degrees(np.abs(np.arctan2(across, along)))
-        base_deg = settings.most_thumb_turn_deg if digit == _THUMB else settings.most_turn_deg
-        limit_deg = np.array([base_deg] * 2 + [settings.most_turn_deg])
+        base_deg = MAX_THUMB_TURN_DEG if digit == _THUMB else MAX_TURN_DEG
+        limit_deg = np.array([base_deg] * 2 + [MAX_TURN_DEG])
         # A very short piece, as of a finger bent towards the camera's line of sight, has no direction worth judging.
-        weight = np.clip(np.minimum(length[:-1], length[1:]) / (settings.short * size), 0.0, 1.0)
-        faults += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / settings.turn_deg
+        weight = np.clip(np.minimum(length[:-1], length[1:]) / (SHORT_LENGTH * size), 0.0, 1.0)
+        faults += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / TURN_FAULT_DEG
     start, end = (plan[[piece[end] for piece in lines.pieces]] for end in (0, 1))
     faults += float(crossing(start, end, np.array(lines.beside, dtype=np.int64).reshape(-1, 2)).sum())
-    return faults + settings.order_weight * _knuckles_out_of_order(lines, side, plan)
+    return faults + ORDER_WEIGHT * _knuckles_out_of_order(lines, side, plan)
 
 
 def crossing(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -174,17 +171,14 @@ def _knuckles_out_of_order(lines: _Lines, side: Side, plan: FloatArray) -> int:
 _ORDERS = np.array(list(permutations(range(len(PALM_MARKERS)))))
 
 
-@dataclass(frozen=True, slots=True)
-class PalmNameSettings:
-    """``good_misfit``, as a share of the palm's size, below which nothing is questioned: hands differ from the average
-    by up to 0.05, and the next best order of the names of a right palm leaves 0.25. The better order must leave less
-    than the share ``clearly`` of the misfit of the names as clicked."""
-
-    good_misfit: float = 0.08
-    clearly: float = 0.6
+GOOD_PALM_MISFIT = 0.08
+"""Share of the palm's size below which its names are not questioned: hands differ from the average by up to 0.05,
+and the next best order of the names of a right palm leaves 0.25."""
+BETTER_NAMES_SHARE = 0.6
+"""Another order must leave less than this share of the misfit of the names as clicked."""
 
 
-def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings) -> tuple[str, ...]:
+def shifted_names(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
     """The wrong names among the palm's, empty when another order does not fit clearly better.
 
     ``palm_plan`` (6, 2) the discs in the order of ``PALM_MARKERS``, seen from the camera, y up. The first disc that
@@ -193,7 +187,7 @@ def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings)
     """
     misfits = misfit(average_palm(side), palm_plan[_ORDERS])
     best = int(misfits.argmin())
-    if misfits[0] < settings.good_misfit or misfits[best] > settings.clearly * misfits[0]:
+    if misfits[0] < GOOD_PALM_MISFIT or misfits[best] > BETTER_NAMES_SHARE * misfits[0]:
         return ()
     if misfits[best] > misfit(average_palm(_OTHER[side]), palm_plan):
         return ()  # the names are in order, but on the other hand
@@ -201,11 +195,11 @@ def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings)
     return tuple(PALM_MARKERS[i] for i in _ring_by_ring(right_name))
 
 
-def names_fit(side: Side, palm_plan: FloatArray, settings: PalmNameSettings) -> bool:
+def names_fit(side: Side, palm_plan: FloatArray) -> bool:
     """Whether six names, given by nobody yet, lie where a palm of this hand has them, and not better on the other
     hand. ``palm_plan`` as in :func:`shifted_names`."""
     misfits, others = (misfit(average_palm(one), palm_plan[_ORDERS]) for one in (side, _OTHER[side]))
-    return bool(misfits[0] < settings.good_misfit and misfits[0] == misfits.min() < others.min())
+    return bool(misfits[0] < GOOD_PALM_MISFIT and misfits[0] == misfits.min() < others.min())
 
 
 @lru_cache(maxsize=8)
@@ -245,13 +239,10 @@ def _ring_by_ring(right_name: NDArray[np.int64]) -> list[int]:
     return out
 
 
-@dataclass(frozen=True, slots=True)
-class SideSettings:
-    """``good_misfit``, as a share of the constellation's size, below which nothing is questioned; the other hand must
-    leave less than the share ``clearly`` of it to be called the likelier one."""
-
-    good_misfit: float = 0.05
-    clearly: float = 0.6
+GOOD_SIDE_MISFIT = 0.05
+"""Share of the constellation's size below which the side is not questioned: hands differ by up to so much."""
+OTHER_SIDE_SHARE = 0.6
+"""The other hand must leave less than this share of the misfit to be called the likelier one."""
 
 
 def plan_view(point_cam_m: FloatArray) -> FloatArray:
@@ -259,11 +250,11 @@ def plan_view(point_cam_m: FloatArray) -> FloatArray:
     return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
 
 
-def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray, settings: SideSettings) -> bool:
+def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
     """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
     average = _average_plan(protocol, side)
     own, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER[side]), plan)
-    if own < settings.good_misfit or mirrored >= settings.clearly * own:
+    if own < GOOD_SIDE_MISFIT or mirrored >= OTHER_SIDE_SHARE * own:
         return False
     pairs = np.array(list(combinations(range(len(plan)), 2)))
     swapped = np.repeat(plan[None], len(pairs), axis=0)
@@ -272,27 +263,22 @@ def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray
     return bool(mirrored < misfit(average, swapped).min())
 
 
-@dataclass(frozen=True, slots=True)
-class OddDiscSettings:
-    """When a disc is odd.
-
-    ``questioned``: misfit, as a share of the palm's size, from which a spot without a name may stand in for a disc;
-    what does must leave less than the share ``clearly`` of it. ``no_palm``: misfit that no palm has: hands differ by up
-    to 0.05, discs stuck 4 mm off by up to 0.12. A spot as near to the palm's discs as ``beside``, a share of its
-    length, lies on the palm: there is one disc too many. More than ``most_spare`` of these are the discs of a whole
-    hand, or a pattern; nobody is asked of each. Spots within ``same_spot_px`` of a disc are that disc; one farther than
-    ``of_the_hand_m`` from the depth of the palm lies on something else. One within ``near_radii`` of a disc's middle,
-    in its radii, may be the disc itself.
-    """
-
-    questioned: float = 0.08
-    clearly: float = 0.6
-    no_palm: float = 0.17
-    beside: float = 0.18
-    most_spare: int = 2
-    same_spot_px: float = 4.0
-    of_the_hand_m: float = 0.06
-    near_radii: float = 1.6
+QUESTIONED_MISFIT = 0.08
+"""Share of the palm's size from which a spot without a name may stand in for a disc."""
+BETTER_DISC_SHARE = 0.6
+"""What stands in for a disc must leave less than this share of the misfit."""
+NO_PALM_MISFIT = 0.17
+"""A misfit that no palm has: hands differ by up to 0.05, discs stuck 4 mm off by up to 0.12."""
+BESIDE_SHARE = 0.18
+"""A spot as near to the palm's discs, a share of its length, lies on the palm: there is one disc too many."""
+MAX_SPARE_SPOTS = 2
+"""More of these are the discs of a whole hand, or a pattern: nobody is asked of each."""
+SAME_SPOT_PX = 4.0
+"""A spot as near to a disc is that disc."""
+OFF_THE_HAND_M = 0.06
+"""A spot farther from the depth of the palm lies on something else."""
+SAME_DISC_RADII = 1.6
+"""A spot within so many radii of a disc's middle may be the disc itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,34 +291,34 @@ class OddDisc:
     fits: bool
 
 
-def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray, settings: OddDiscSettings) -> OddDisc | None:
+def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddDisc | None:
     """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
     average = average_palm(side)
     own = misfit(average, palm_plan)
     best = (float(own), -1, -1)
-    if own >= settings.questioned:
+    if own >= QUESTIONED_MISFIT:
         for marker in range(len(palm_plan)):
             for spot in range(len(spots_plan)):
                 other = palm_plan.copy()
                 other[marker] = spots_plan[spot]
                 best = min(best, (float(misfit(average, other)), marker, spot))
-    if best[0] < settings.clearly * own:
+    if best[0] < BETTER_DISC_SHARE * own:
         return OddDisc(best[1], best[2], fits=True)
-    if own >= settings.no_palm:
+    if own >= NO_PALM_MISFIT:
         return OddDisc(int(misfit_without(average, palm_plan).argmin()), -1, fits=False)
-    spare = _beside(palm_plan, spots_plan, settings)
-    if 0 < len(spare) <= settings.most_spare:
+    spare = _beside(palm_plan, spots_plan)
+    if 0 < len(spare) <= MAX_SPARE_SPOTS:
         return OddDisc(-1, int(spare[0]), fits=False)
     return None
 
 
-def _beside(palm_plan: FloatArray, spots_plan: FloatArray, settings: OddDiscSettings) -> NDArray[np.int64]:
+def _beside(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.int64]:
     if not len(spots_plan):
         return np.empty(0, dtype=np.int64)
     length = float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
     distance = np.linalg.norm(spots_plan[:, None] - palm_plan[None], axis=-1).min(axis=1)
     inside = np.array([_is_inside(spot, palm_plan) for spot in spots_plan])
-    return np.flatnonzero(inside | (distance < settings.beside * length))
+    return np.flatnonzero(inside | (distance < BESIDE_SHARE * length))
 
 
 def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
-from carpus.core.calibration.name_checks import PalmNameSettings, average_palm, misfit, misfit_without, names_fit
+from carpus.core.calibration.name_checks import average_palm, misfit, misfit_without, names_fit
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
@@ -26,29 +26,27 @@ from carpus.core.types import Detections, FloatArray, Side
 IntArray = NDArray[np.int64]
 
 
-@dataclass(frozen=True, slots=True)
-class NamingSettings:
-    """How names are proposed.
-
-    The average hand of ``reference_m`` length is laid over the blobs by a scale of ``least_scale`` to ``most_scale``:
-    hands 112 to 225 mm long. ``gate_m`` of the first, rough laying-over, for a hand of that length; ``tried`` of the
-    best are refined. A disc farther than ``close_m`` from where the fitted hand has it is not given its name;
-    ``sure_m``: by so much another disc must be farther away than the named one. ``no_palm``: misfit of the palm's
-    discs, as a share of their size, from which one of them is something else: simulated hands leave up to 0.05, discs
-    stuck 4 mm off up to 0.12; one farther than ``off_the_hand_m`` from the depth of the others lies on something else.
-    ``usual_depth_m`` where no depth is.
-    """
-
-    reference_m: float = 0.180
-    least_scale: float = 0.62
-    most_scale: float = 1.25
-    gate_m: float = 0.016
-    tried: int = 24
-    close_m: float = 0.011
-    sure_m: float = 0.006
-    no_palm: float = 0.12
-    off_the_hand_m: float = 0.030
-    usual_depth_m: float = 0.7
+REFERENCE_HAND_M = 0.180
+"""Length of the average hand that is laid over the blobs."""
+MIN_SCALE = 0.62
+"""With :data:`MAX_SCALE`: hands 112 to 225 mm long."""
+MAX_SCALE = 1.25
+"""Largest scale of the average hand."""
+GATE_M = 0.016
+"""Reach of the first, rough laying-over, for a hand of the average length."""
+REFINED_FITS = 24
+"""So many of the best rough fits are refined; more only cost time."""
+CLOSE_M = 0.011
+"""A disc farther from where the fitted hand has it is not given its name."""
+SURE_M = 0.006
+"""By so much another disc must be farther away than the named one."""
+NO_PALM_MISFIT = 0.12
+"""Share of the palm's size from which one of its discs is something else: simulated hands leave up to 0.05, discs
+stuck 4 mm off up to 0.12."""
+OFF_THE_HAND_M = 0.030
+"""A disc farther from the depth of the others lies on something else."""
+USUAL_DEPTH_M = 0.7
+"""Distance of the hand where no depth is read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +65,6 @@ def propose_names(
     camera: Camera,
     side: Side,
     protocol: MarkerProtocol,
-    settings: NamingSettings,
     known: Mapping[int, int] | None = None,
 ) -> NameProposal:
     """Names for the blobs of a flat, neutral hand with its back to the camera.
@@ -77,10 +74,10 @@ def propose_names(
     """
     fixed = dict(known or {})
     rows = np.array(protocol.sites)
-    place = _in_picture_plane(blobs, camera, settings.usual_depth_m)
-    fits = _rough_fits(place, rows, side, fixed, settings)
+    place = _in_picture_plane(blobs, camera, USUAL_DEPTH_M)
+    fits = _rough_fits(place, rows, side, fixed)
     chains = [np.array(chain[1:]) for chain in protocol.chains.values()]
-    refined = [_refined(place, fit, fixed, chains, settings) for fit in fits]
+    refined = [_refined(place, fit, fixed, chains) for fit in fits]
     if not refined:
         return _only(fixed, rows.size)
     best = min(refined, key=lambda one: one.cost)
@@ -94,9 +91,9 @@ def propose_names(
     if not protocol.has_fingers and (best.blob >= 0).all():
         # Six discs of the other hand, turned round, may lie within reach too: then a person looks at each name.
         plan = np.stack((place[best.blob].real, place[best.blob].imag), axis=1)
-        sure &= names_fit(side, plan, PalmNameSettings())
+        sure &= names_fit(side, plan)
     sure[list(fixed)] = True
-    blob = _of_one_palm(best.blob, place, blobs.depth_m, fixed, side, protocol, settings)
+    blob = _of_one_palm(best.blob, place, blobs.depth_m, fixed, side, protocol)
     return NameProposal(blob, sure & (blob >= 0), np.where(blob >= 0, best.misfit_m, np.nan))
 
 
@@ -107,7 +104,6 @@ def _of_one_palm(
     fixed: Mapping[int, int],
     side: Side,
     protocol: MarkerProtocol,
-    settings: NamingSettings,
 ) -> IntArray:
     """Names (M,) without those on spots that lie where no palm has the disc, which is not in the picture; a person's
     own names stay. Four discs fit too many things to say which of them is odd."""
@@ -117,11 +113,11 @@ def _of_one_palm(
         named = out[rows] >= 0
         spots = out[rows[named]]
         off_m = np.abs(depth_m[spots] - np.median(depth_m[spots]))
-        if (off_m > settings.off_the_hand_m).any():
+        if (off_m > OFF_THE_HAND_M).any():
             badness = off_m
         else:
             average, plan = average_palm(side)[named], np.stack((place[spots].real, place[spots].imag), axis=1)
-            if misfit(average, plan) < settings.no_palm:
+            if misfit(average, plan) < NO_PALM_MISFIT:
                 break
             badness = 1.0 - misfit_without(average, plan)
         badness = np.where(free[named], badness, -1.0)
@@ -177,9 +173,7 @@ def _postures(side: Side, reference_m: float) -> FloatArray:
     return np.array(out)
 
 
-def _rough_fits(
-    place: FloatArray, rows: IntArray, side: Side, fixed: Mapping[int, int], settings: NamingSettings
-) -> list[_LaidHand]:
+def _rough_fits(place: FloatArray, rows: IntArray, side: Side, fixed: Mapping[int, int]) -> list[_LaidHand]:
     """The likeliest ways to lay a posture over the blobs, best first: two of its discs on two of the blobs."""
     if place.size < 3:
         return []
@@ -187,25 +181,25 @@ def _rough_fits(
     apart = first != second
     first, second = first[apart], second[apart]
     found: list[tuple[float, _LaidHand]] = []
-    for posture in _postures(side, settings.reference_m)[:, rows]:
+    for posture in _postures(side, REFERENCE_HAND_M)[:, rows]:
         for a, b in _pairs(rows, fixed):
             ends = _ends(a, b, first, second, fixed)
             turn = (place[ends[1]] - place[ends[0]]) / (posture[b] - posture[a])
             scale = np.abs(turn)
-            usable = (scale > settings.least_scale) & (scale < settings.most_scale)
+            usable = (scale > MIN_SCALE) & (scale < MAX_SCALE)
             turn, start, scale = turn[usable], place[ends[0]][usable], scale[usable]
             if not turn.size:
                 continue
             laid = start[:, None] + turn[:, None] * (posture - posture[a])
-            near2 = (np.abs(laid[:, :, None] - place).min(axis=2) / (settings.gate_m * scale[:, None])) ** 2
+            near2 = (np.abs(laid[:, :, None] - place).min(axis=2) / (GATE_M * scale[:, None])) ** 2
             # A marker counts the more the nearer a blob is; a hand of the usual size a little more.
             score = np.maximum(1.0 - near2, 0.0).sum(axis=1) - 2.0 * np.log(scale) ** 2
             for row, blob in fixed.items():
-                score -= 4.0 * (np.abs(laid[:, row] - place[blob]) > 2.0 * settings.gate_m)
+                score -= 4.0 * (np.abs(laid[:, row] - place[blob]) > 2.0 * GATE_M)
             for i in np.argsort(-score)[:6]:
                 found.append((float(score[i]), _LaidHand(laid[i], float(scale[i]))))
     found.sort(key=lambda one: -one[0])
-    return [fit for _, fit in found[: settings.tried]]
+    return [fit for _, fit in found[:REFINED_FITS]]
 
 
 def _pairs(rows: IntArray, fixed: Mapping[int, int]) -> list[tuple[int, int]]:
@@ -226,24 +220,22 @@ def _ends(a: int, b: int, first: IntArray, second: IntArray, fixed: Mapping[int,
     return first, second
 
 
-def _refined(
-    place: FloatArray, fit: _LaidHand, fixed: Mapping[int, int], chains: Sequence[IntArray], settings: NamingSettings
-) -> _Named:
+def _refined(place: FloatArray, fit: _LaidHand, fixed: Mapping[int, int], chains: Sequence[IntArray]) -> _Named:
     """Named by the nearest overall; the whole hand, then each of its digits, moved to what was named."""
     laid = fit.place
-    reach = 2.2 * settings.gate_m * fit.scale
+    reach = 2.2 * GATE_M * fit.scale
     for step in range(6):
         blob = _assigned(place, laid, reach, fixed)
         laid = _moved(laid, place, blob) if step < 3 else _chains_moved(laid, place, blob, chains)
-        reach = max(0.7 * reach, settings.close_m * fit.scale)
+        reach = max(0.7 * reach, CLOSE_M * fit.scale)
     blob = _assigned(place, laid, reach, fixed)
     distance = np.abs(laid[:, None] - place)
     own = np.where(blob >= 0, distance[np.arange(blob.size), blob], np.nan)
     others = distance.copy()
     others[np.arange(blob.size)[blob >= 0], blob[blob >= 0]] = np.inf
-    sure = (blob >= 0) & (others.min(axis=1, initial=np.inf) - own > settings.sure_m * fit.scale)
+    sure = (blob >= 0) & (others.min(axis=1, initial=np.inf) - own > SURE_M * fit.scale)
     size = math.log(fit.scale)
-    cost = float(np.where(blob >= 0, (own / (settings.close_m * fit.scale)) ** 2, 2.0).sum()) + 2.0 * size**2
+    cost = float(np.where(blob >= 0, (own / (CLOSE_M * fit.scale)) ** 2, 2.0).sum()) + 2.0 * size**2
     return _Named(blob, sure, own, cost)
 
 

@@ -102,55 +102,53 @@ TABLE_ROWS = 1024
 """Of a surface as a table: twice what the largest hand has."""
 
 
-@dataclass(frozen=True, slots=True)
-class BackSurfaceSettings:
-    """A lattice of ``step_m`` over the outline of its corners made ``wider``. A node's plane is that of the points
-    within about ``reach_m``, their weight falling by the normal curve of half of it and none below ``least_weight``, of
-    which there must be ``least_points``. Points ``farthest_m`` from the level of the corners are of something else. A
-    surface has ``least_nodes``."""
+STEP_M = 0.002
+"""Between the nodes of the surface."""
+WIDER = 1.12
+"""The area is so many times the outline of the discs that span it."""
+REACH_M = 0.004
+"""How far a reading counts about a node."""
+MIN_WEIGHT = 0.05
+"""A node with less weight of readings is unknown."""
+MIN_POINTS = 12
+"""A node with fewer readings is unknown."""
+FARTHEST_M = 0.020
+"""Readings farther from the plane of the discs are of something else."""
+MIN_NODES = 60
+"""With fewer known nodes there is no surface."""
 
-    step_m: float = 0.002
-    wider: float = 1.12
-    reach_m: float = 0.004
-    least_weight: float = 0.05
-    least_points: int = 12
-    farthest_m: float = 0.020
-    least_nodes: int = 60
 
-
-def back_surface_from(point_m: FloatArray, corner_m: FloatArray, settings: BackSurfaceSettings) -> BackSurface | None:
+def back_surface_from(point_m: FloatArray, corner_m: FloatArray) -> BackSurface | None:
     """The surface that points (P, 3) in W0 show within the discs ``corner_m`` (4, 3) WRIST, CMC1, MCP2, MCP3, a little
     widened; None where too little of it was seen.
 
     Each node's plane is fitted to the points about it, the nearer the weightier.
     """
     middle = corner_m.mean(axis=0)
-    outline = middle[:2] + settings.wider * (corner_m[:, :2] - middle[:2])
+    outline = middle[:2] + WIDER * (corner_m[:, :2] - middle[:2])
     outline = outline[np.argsort(np.arctan2(*(outline - middle[:2]).T[::-1]))]
     low, high = outline.min(axis=0), outline.max(axis=0)
     level = np.median(corner_m[:, 2])
-    near = (point_m[:, :2] > low - settings.reach_m).all(axis=1) & (point_m[:, :2] < high + settings.reach_m).all(
-        axis=1
-    )
-    point = point_m[near & (np.abs(point_m[:, 2] - level) < settings.farthest_m)]
-    columns, rows = (np.ceil((high - low) / settings.step_m).astype(int) + 1).tolist()
-    grid = low + settings.step_m * np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1)  # (H, W, 2)
+    near = (point_m[:, :2] > low - REACH_M).all(axis=1) & (point_m[:, :2] < high + REACH_M).all(axis=1)
+    point = point_m[near & (np.abs(point_m[:, 2] - level) < FARTHEST_M)]
+    columns, rows = (np.ceil((high - low) / STEP_M).astype(int) + 1).tolist()
+    grid = low + STEP_M * np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1)  # (H, W, 2)
     found = np.full((rows, columns, 3), np.nan)
     for row, column in np.argwhere(_inside(grid, outline)):
         apart = point[:, :2] - grid[row, column]
-        weight = np.exp(-0.5 * (apart * apart).sum(axis=1) / (0.5 * settings.reach_m) ** 2)
-        weight[weight < settings.least_weight] = 0.0
-        if np.count_nonzero(weight) < settings.least_points:
+        weight = np.exp(-0.5 * (apart * apart).sum(axis=1) / (0.5 * REACH_M) ** 2)
+        weight[weight < MIN_WEIGHT] = 0.0
+        if np.count_nonzero(weight) < MIN_POINTS:
             continue
         design = np.column_stack((np.ones(len(point)), apart)) * np.sqrt(weight)[:, None]
         plane, _, rank, _ = np.linalg.lstsq(design, point[:, 2] * np.sqrt(weight), rcond=None)
         if rank == 3:
             found[row, column] = plane
     known = np.isfinite(found[..., 0])
-    if not settings.least_nodes <= np.count_nonzero(known) <= TABLE_ROWS - 2:
+    if not MIN_NODES <= np.count_nonzero(known) <= TABLE_ROWS - 2:
         return None
     centre = np.append(grid[known].mean(axis=0), found[known][:, 0].mean())
-    return BackSurface(low, settings.step_m, found[..., 0], found[..., 1], found[..., 2], centre)
+    return BackSurface(low, STEP_M, found[..., 0], found[..., 1], found[..., 2], centre)
 
 
 def _inside(place: FloatArray, outline: FloatArray) -> NDArray[np.bool_]:

@@ -104,7 +104,7 @@ def test_another_version_and_a_setting_that_is_gone_are_said(tmp_path: Path, com
     done = command("track", session, "--output", tmp_path / "again.h5")
     assert done.code == 0
     assert "was 0.0.9" in done.out
-    assert "tracker.oracle no longer there" in done.out
+    assert "no settings any more: tracker.oracle" in done.out
 
 
 def test_a_recording_is_tracked_with_the_settings_of_the_person_and_streamed_when_chosen(tmp_path: Path) -> None:

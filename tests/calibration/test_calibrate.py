@@ -163,9 +163,9 @@ def test_a_hand_of_another_length_than_last_time_is_doubted() -> None:
     outcome = outcome_of(Scene())
     length_mm = outcome.verdict.hand_length_mm
     for same in (math.nan, length_mm, 0.9 * length_mm, 1.1 * length_mm):
-        assert compared_with_last_time(outcome, same, CalibrationSettings()) is outcome
+        assert compared_with_last_time(outcome, same) is outcome
     for other in (0.8 * length_mm, 1.25 * length_mm):
-        doubted = compared_with_last_time(outcome, other, CalibrationSettings())
+        doubted = compared_with_last_time(outcome, other)
         finding = only(doubted.verdict.findings, "other_length")
         assert (finding.value, finding.limit) == (length_mm, other)
         assert doubted.calibration is not None

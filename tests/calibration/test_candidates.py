@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import calibrate
-from carpus.core.calibration.candidates import CandidateSettings, disc_at, marker_candidates, snapped
-from carpus.core.calibration.naming import NamingSettings, propose_names
+from carpus.core.calibration.candidates import disc_at, marker_candidates, snapped
+from carpus.core.calibration.naming import propose_names
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.detection.settings import DetectionSettings
@@ -19,7 +19,7 @@ from carpus.core.simulation.recording import SimulatedPictures, clicks_of
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, Frame, Side
 
-SETTINGS, OWN = DetectionSettings(), CandidateSettings()
+SETTINGS = DetectionSettings()
 RADIUS_PX = 4.8
 
 
@@ -40,7 +40,7 @@ def seen(seed: int, paper_to: str = "blue") -> tuple[Frame, Camera, FloatArray]:
 @pytest.mark.parametrize("seed", [0, 1, 3])
 def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -> None:
     frame, camera, discs = seen(seed)
-    found = marker_candidates(frame, camera, SETTINGS, OWN)
+    found = marker_candidates(frame, camera, SETTINGS)
     rng = np.random.default_rng(seed)
     for disc in discs:
         taken = snapped(found, disc + rng.normal(0.0, 1.5, 2), RADIUS_PX, SETTINGS)
@@ -54,8 +54,8 @@ def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: in
     spec = RecordingSpec(seed=seed, hand=side, protocol="hand21", motion="rest", false_blobs=2.0)
     pictures = SimulatedPictures(spec)
     color, depth = pictures.sensed(0, pictures.clean(0))
-    found = marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS, OWN)
-    proposal = propose_names(found, pictures.truth.camera, side, HAND21, NamingSettings())
+    found = marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS)
+    proposal = propose_names(found, pictures.truth.camera, side, HAND21)
     assert (proposal.blob >= 0).all()
     assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 3.0  # under a disc
 
@@ -78,7 +78,7 @@ def test_clicks_at_the_edges_of_small_discs_are_found_all_the_same() -> None:
 def test_a_click_on_a_disc_of_any_colour_finds_it(paper_to: str) -> None:
     frame, camera, discs = seen(0, paper_to)
     for disc in discs:
-        taken = disc_at(frame, disc + 1.0, camera, SETTINGS, OWN)
+        taken = disc_at(frame, disc + 1.0, camera, SETTINGS)
         assert len(taken) == 1
         assert np.linalg.norm(taken.pixel[0] - disc) < 1.0
 
@@ -87,18 +87,18 @@ def test_a_click_on_bare_skin_finds_nothing() -> None:
     frame, camera, discs = seen(0)
     middles = [(a + b) / 2 for i, a in enumerate(discs) for b in discs[:i]]
     bare = [spot for spot in middles if np.linalg.norm(discs - spot, axis=1).min() > 4 * RADIUS_PX]
-    found = marker_candidates(frame, camera, SETTINGS, OWN)
+    found = marker_candidates(frame, camera, SETTINGS)
     bare = [spot for spot in bare if np.linalg.norm(found.pixel - spot, axis=1).min() > 4 * RADIUS_PX]
     assert len(bare) >= 3
-    assert sum(len(disc_at(frame, spot, camera, SETTINGS, OWN)) for spot in bare) == 0
+    assert sum(len(disc_at(frame, spot, camera, SETTINGS)) for spot in bare) == 0
 
 
 def test_a_picture_without_a_hand_has_no_candidates_and_a_click_at_its_edge_finds_nothing() -> None:
     frame, camera, _ = seen(0)
     grey = Frame(0, 0.0, np.full_like(frame.color_rgb, 90), None, 1.0)
-    assert len(marker_candidates(grey, camera, SETTINGS, OWN)) == 0
+    assert len(marker_candidates(grey, camera, SETTINGS)) == 0
     for corner in ((0.0, 0.0), (639.0, 479.0)):
-        assert len(disc_at(grey, np.array(corner), camera, SETTINGS, OWN)) == 0
+        assert len(disc_at(grey, np.array(corner), camera, SETTINGS)) == 0
 
 
 def in_dark_cloth(frame: Frame, base: tuple[int, int, int], from_row: int, seed: int) -> Frame:
@@ -120,18 +120,18 @@ CLOTHS = [(26, 29, 40), (20, 20, 24), (40, 46, 66)]
 def test_a_dark_pullover_has_no_discs(seed: int, base: tuple[int, int, int]) -> None:
     frame, camera, _ = seen(0)
     cloth = in_dark_cloth(frame, base, 0, seed)
-    found = marker_candidates(cloth, camera, SETTINGS, OWN)
+    found = marker_candidates(cloth, camera, SETTINGS)
     assert len(found) <= 8  # it was all that is ever handed on, 48
-    assert not (propose_names(found, camera, "right", HAND21, NamingSettings()).blob >= 0).any()
+    assert not (propose_names(found, camera, "right", HAND21).blob >= 0).any()
     clicks = np.random.default_rng(seed).uniform((20, 20), (620, 460), (30, 2))
-    assert sum(len(disc_at(cloth, click, camera, SETTINGS, OWN)) for click in clicks) <= 1
+    assert sum(len(disc_at(cloth, click, camera, SETTINGS)) for click in clicks) <= 1
 
 
 @pytest.mark.parametrize("base", CLOTHS)
 def test_a_dark_pullover_beside_the_hand_hides_no_disc(base: tuple[int, int, int]) -> None:
     frame, camera, discs = seen(0)
     below = int(discs[:, 1].max() + 25)
-    found = marker_candidates(in_dark_cloth(frame, base, below, 0), camera, SETTINGS, OWN)
+    found = marker_candidates(in_dark_cloth(frame, base, below, 0), camera, SETTINGS)
     for disc in discs:
         assert np.linalg.norm(found.pixel - disc, axis=1).min() < 1.0
     assert len(found) <= 14

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
-from carpus.core.calibration.name_checks import OddDiscSettings, average_palm, odd_disc
+from carpus.core.calibration.name_checks import average_palm, odd_disc
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.hand.protocols import PALM_MARKERS
@@ -91,7 +91,7 @@ def test_no_palm_has_this_shape_and_the_disc_at_fault_is_named(side: Side) -> No
         outward = plan[marker] - plan.mean(axis=0)
         plan[marker] -= 0.9 * outward  # pulled into the middle
         plan += rng.normal(0.0, 0.001, plan.shape)
-        odd = odd_disc(side, plan, NO_SPOT, OddDiscSettings())
+        odd = odd_disc(side, plan, NO_SPOT)
         assert odd is not None
         assert (odd.marker, odd.fits) == (marker, False)
 
@@ -102,7 +102,7 @@ def test_hands_and_sticking_differ_without_a_question() -> None:
     for _ in range(300):
         plan = average_palm("right") * rng.uniform(0.92, 1.08, 2)  # slender and broad hands
         plan = plan + rng.normal(0.0, 0.003, plan.shape)
-        asked += odd_disc("right", plan, NO_SPOT, OddDiscSettings()) is not None
+        asked += odd_disc("right", plan, NO_SPOT) is not None
     assert asked <= 3
 
 
@@ -110,4 +110,4 @@ def test_the_discs_of_the_fingers_are_no_spare_spots_of_the_palm() -> None:
     palm = average_palm("right")
     along = (palm[2:6] - palm[0]) / np.linalg.norm(palm[2:6] - palm[0], axis=1)[:, None]
     fingers = np.concatenate([palm[2:6] + reach * along for reach in (0.045, 0.07, 0.09)])
-    assert odd_disc("right", palm, fingers, OddDiscSettings()) is None
+    assert odd_disc("right", palm, fingers) is None

@@ -9,7 +9,7 @@ import pytest
 
 from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.calibration.still_depth import RegistrationSettings, depth_offset_px
+from carpus.core.calibration.still_depth import depth_offset_px
 from carpus.core.detection.appearance import learn_appearance
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.simulation.recording import SimulatedPictures, clicks_of
@@ -23,7 +23,7 @@ SEEDS = (1, 2, 5, 11)
 def offset_px(pictures: SimulatedPictures, frame: Frame) -> float:
     clicks = clicks_of(pictures.truth)
     looks, centre = learn_appearance(frame, clicks.pixel, pictures.truth.camera, DETECTION)
-    return depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])], RegistrationSettings())
+    return depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])])
 
 
 def moved(frame: Frame, columns: int, rows: int) -> Frame:

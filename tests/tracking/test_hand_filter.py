@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.hand.back_surface import BackSurfaceSettings, back_surface_from
+from carpus.core.hand.back_surface import back_surface_from
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
@@ -116,7 +116,7 @@ def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     corner = palm_of(known).marker_position_w0_m[:4]
     x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-0.02, 0.11, 0.0015), np.arange(-0.05, 0.05, 0.0015)))
     level = np.full(x.size, np.median(corner[:, 2]))
-    surface = back_surface_from(np.stack((x, y, level), axis=1), corner, BackSurfaceSettings())
+    surface = back_surface_from(np.stack((x, y, level), axis=1), corner)
     assert surface is not None
     settings = TrackerSettings(use_surface=use_surface)
     return HandFilter(replace(known, surface=surface), seen.truth.camera, settings), seen.detections[0]

@@ -10,7 +10,7 @@ import pytest
 
 from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
+from carpus.core.hand.back_surface import BackSurface, back_surface_from
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate, View, error_reset
 from carpus.core.tracking.predicted_measurement import shape_partial_update
@@ -53,7 +53,7 @@ def surface() -> BackSurface:
     points = np.stack((x.ravel(), y.ravel(), height_m(x, y).ravel()), axis=1)
     corner = RIGHT_PALM_M[:4].copy()
     corner[:, 2] = height_m(corner[:, 0], corner[:, 1])
-    found = back_surface_from(points, corner, BackSurfaceSettings())
+    found = back_surface_from(points, corner)
     assert found is not None
     return found
 
@@ -245,6 +245,6 @@ def test_a_surface_far_from_what_was_believed_is_another(surface: BackSurface, o
 
 
 def test_too_little_of_the_back_is_no_surface() -> None:
-    assert back_surface_from(np.empty((0, 3)), RIGHT_PALM_M[:4], BackSurfaceSettings()) is None
+    assert back_surface_from(np.empty((0, 3)), RIGHT_PALM_M[:4]) is None
     lonely = np.column_stack((np.linspace(0.0, 0.08, 40), np.zeros(40), np.zeros(40)))
-    assert back_surface_from(lonely, RIGHT_PALM_M[:4], BackSurfaceSettings()) is None
+    assert back_surface_from(lonely, RIGHT_PALM_M[:4]) is None

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
+from carpus.core.calibration.candidates import marker_candidates
 from carpus.core.calibration.card.card import (
     CHECK_S,
     FIGURES,
@@ -118,7 +118,7 @@ class CardWatch:
         if frame.depth_raw is None or now_s - self._last_s < LOOK_EVERY_S:
             return None
         since_s, self._last_s = now_s - self._last_s, now_s
-        blobs = marker_candidates(frame, self._camera, self._settings, CandidateSettings())
+        blobs = marker_candidates(frame, self._camera, self._settings)
         self._looked += 1
         found = card_blobs(blobs, self._camera)
         moved = False
