@@ -19,6 +19,7 @@ from carpus.core.capture.devices.cameras import CAMERAS, check_address
 from carpus.core.errors import CameraUnknown
 from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
 from carpus.core.names import known_names, nearest
+from carpus.core.rounding import written
 
 if TYPE_CHECKING:
     from carpus.core.errors import CarpusFault
@@ -102,7 +103,7 @@ def bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
     seconds = time.monotonic() - begin_s
     if last and seconds >= SPEAK_AFTER_S:
         behind = f", {note_now}" if note_now else ""
-        say(f"{what}, {last} {unit}s in {seconds:.0f} s, {last / seconds:.3g} a second{behind}")
+        say(f"{what}, {last} {unit}s in {written(seconds)} s, {last / seconds:.3g} a second{behind}")
 
 
 def on_stop(action: Callable[[], object]) -> None:

@@ -29,6 +29,7 @@ from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
 from carpus.core.errors import CalibrationImpossible
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.results.figures import SessionFigures
+from carpus.core.rounding import written
 from carpus.core.simulation.recording import SimulatedPictures, clicks_of, is_cached
 from carpus.core.types import FloatArray
 from carpus.ui import numbers, terms
@@ -234,8 +235,8 @@ def _told_by_qt(_kind: object, _context: object, message: str) -> None:
 def lines_of(figures: SessionFigures) -> list[str]:
     """The main figures of a session as plain lines."""
     quality = figures.quality
-    shares = f"{100.0 * quality.measured_share:.1f} % measured, {quality.dropped} missing"
-    lines = [f"Frames:  {quality.frames} in {figures.duration_s:.1f} s, {shares}"]
+    shares = f"{written(100.0 * quality.measured_share, 1)} % measured, {quality.dropped} missing"
+    lines = [f"Frames:  {quality.frames} in {written(figures.duration_s, 1)} s, {shares}"]
     lines.append(f"Repetitions: {figures.counted}")
     for row in figures.rows:
         name = terms.movement_long_name(row.movement)

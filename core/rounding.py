@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from decimal import ROUND_HALF_UP, Decimal
 
 
@@ -15,10 +16,12 @@ def rounded(value: float) -> int:
 
 
 def written(value: float, decimals: int = 0) -> str:
-    """A finite number with that many decimals, halves away from zero; nothing is minus nothing.
+    """A number with that many decimals, halves away from zero; nothing is never minus nothing.
 
-    >>> written(44.5), written(-44.5), written(0.25, 1), written(-0.04, 1)
-    ('45', '-45', '0.3', '0.0')
+    >>> written(44.5), written(-44.5), written(0.25, 1), written(-0.04, 1), written(math.nan)
+    ('45', '-45', '0.3', '0.0', 'nan')
     """
+    if not math.isfinite(value):
+        return f"{value}"
     shown = Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_UP)
-    return f"{shown + 0:.{decimals}f}".removeprefix("-") if shown == 0 else f"{shown:.{decimals}f}"
+    return f"{abs(shown) if shown == 0 else shown:f}"

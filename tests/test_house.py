@@ -115,6 +115,15 @@ def test_what_is_larger_than_the_rule_is_named_in_the_decisions() -> None:
     assert large - told == set()
 
 
+def test_what_a_person_reads_is_rounded_by_one_function() -> None:
+    """Halves away from zero: Python's own formats round them to even."""
+    own = re.compile(r"\{[^{}\"]+:\.\df\}")
+    texts = [path for path in modules("ui", "core") if {"ui", "results"} & set(path.relative_to(ROOT).parts)]
+    assert len(texts) > 100
+    lines = ((path.name, line) for path in texts for line in path.read_text("utf-8").splitlines() if own.search(line))
+    assert [one for one in lines if "times[row]" not in one[1]] == []
+
+
 def test_core_loads_no_window_and_no_command_line() -> None:
     names = [
         ".".join(("carpus", *path.relative_to(ROOT).with_suffix("").parts))

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from carpus.core.rounding import written
 from carpus.ui import numbers
 from carpus.ui.marker_words import finger_name, long_finger_name
 from carpus.ui.translate import inside, tr
@@ -105,7 +106,7 @@ def _long_name(figure: Figure) -> str:
 
 
 def _end_names(figure: Figure) -> tuple[str, str]:
-    low, high = (f"{abs(value):.0f}°" for value in figure.range_deg)
+    low, high = (f"{written(abs(value))}°" for value in figure.range_deg)
     if figure.is_lift:
         return tr("In the palm’s plane"), tr("Lifted {angle}").format(angle=high)
     if figure.row != "spread":

@@ -9,6 +9,7 @@ from datetime import date, datetime
 
 from PySide6.QtCore import QDate
 
+from carpus.core.rounding import rounded, written
 from carpus.ui import language
 from carpus.ui.translate import tr
 
@@ -19,10 +20,10 @@ UNKNOWN = "\N{EN DASH}"
 def degrees(value_deg: float) -> str:
     """``42°`` without sign (the word carries it); a dash when unknown.
 
-    >>> degrees(-41.6), degrees(float("nan"))
-    ('42°', '–')
+    >>> degrees(-41.6), degrees(44.5), degrees(-44.5), degrees(float("nan"))
+    ('42°', '45°', '45°', '–')
     """
-    return f"{_whole(abs(value_deg))}°" if math.isfinite(value_deg) else UNKNOWN
+    return f"{rounded(abs(value_deg))}°" if math.isfinite(value_deg) else UNKNOWN
 
 
 def signed_degrees(value_deg: float) -> str:
@@ -47,17 +48,17 @@ def spread(spread_deg: float) -> str:
     """``± 2°``; empty when unknown. A spread below half a degree still says one, never none."""
     if not math.isfinite(spread_deg):
         return ""
-    return f"±{NARROW_GAP}{max(1, _whole(spread_deg))}°"
+    return f"±{NARROW_GAP}{max(1, rounded(spread_deg))}°"
 
 
 def speed(value_deg_s: float) -> str:
     """``38°/s``."""
-    return f"{_whole(abs(value_deg_s))}°/s" if math.isfinite(value_deg_s) else UNKNOWN
+    return f"{rounded(abs(value_deg_s))}°/s" if math.isfinite(value_deg_s) else UNKNOWN
 
 
 def millimetres(value_mm: float) -> str:
     """``12 mm``."""
-    return f"{_whole(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
+    return f"{rounded(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
 
 
 def shortest(value: float) -> str:
@@ -77,7 +78,7 @@ def fixed(value: float, decimals: int) -> str:
     """
     if not math.isfinite(value):
         return UNKNOWN
-    return _in_the_language(f"{round(value, decimals) + 0.0:.{decimals}f}")
+    return _in_the_language(written(value, decimals))
 
 
 def signed(value: float, decimals: int) -> str:
@@ -154,9 +155,9 @@ def since(when: datetime, now: datetime) -> str:
 def room_left(minutes: float) -> str:
     """How long a disk takes recordings: ``8 min``, ``17 h``, ``more than 99 h``."""
     if minutes < 600.0:
-        return tr("{minutes} min").format(minutes=f"{minutes:.0f}")
+        return tr("{minutes} min").format(minutes=written(minutes))
     hours = minutes / 60.0
-    return tr("more than 99 h") if hours > 99.0 else tr("{hours} h").format(hours=f"{hours:.0f}")
+    return tr("more than 99 h") if hours > 99.0 else tr("{hours} h").format(hours=written(hours))
 
 
 def long_date(when: date | datetime) -> str:
@@ -229,10 +230,6 @@ def ordinal(number: int) -> str:
     last = 0 if number % 100 in (11, 12, 13) else number % 10
     pattern = {1: tr("{number}st"), 2: tr("{number}nd"), 3: tr("{number}rd")}.get(last, tr("{number}th"))
     return pattern.format(number=number)
-
-
-def _whole(value: float) -> int:
-    return math.floor(value + 0.5)
 
 
 def _qdate(when: date | datetime) -> QDate:

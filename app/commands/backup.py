@@ -12,6 +12,7 @@ from carpus.app.command_line import bar, tell
 from carpus.app.of_file import copy_of_server, initials, open_store
 from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
 from carpus.core.errors import BackupMissing, CarpusFault
+from carpus.core.rounding import written
 
 EXAMPLE = """carpus backup /media/backup
 carpus backup /media/backup --list"""
@@ -36,7 +37,10 @@ def run(arguments: argparse.Namespace) -> int:
         raise BackupMissing(place)
     if arguments.list:
         for one in there:
-            print(f"{one.name}  {one.sessions} sessions, {one.size_bytes / 1e6:.1f} MB, Carpus {one.software_version}")
+            print(
+                f"{one.name}  {one.sessions} sessions, {written(one.size_bytes / 1e6, 1)} MB, "
+                f"Carpus {one.software_version}"
+            )
         return 0
     if arguments.compare:
         with bar("reading", "file") as progress:
@@ -62,6 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
             Log(store, "command", initials).note("backed_up", "everything", sessions=made.sessions)
     except CarpusFault as fault:  # of a folder that can only be read: the back-up is made all the same
         tell(fault)
-    print(f"{made.name}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, read back and compared: all equal.")
+    size = written(made.size_bytes / 1e6, 1)
+    print(f"{made.name}: {made.sessions} sessions, {size} MB, read back and compared: all equal.")
     thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
     return 0

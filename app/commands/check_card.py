@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import bar, misused, say, tell
+from carpus.core.rounding import written
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -94,9 +95,12 @@ def _print_figures(reading: CardReading) -> None:
 
     for figure, measured, sd, off in zip(FIGURES, reading.measured, reading.sd, reading.errors, strict=True):
         unit = "°" if figure.kind == "angle" else " mm"
-        print(f"{figure.name:<20} {measured:7.2f} ± {sd:.2f}{unit}, off by {off:+.2f}{unit}")
+        print(f"{figure.name:<20} {measured:7.2f} ± {written(sd, 2)}{unit}, off by {off:+.2f}{unit}")
     share = 100.0 * (reading.scale - 1.0)
-    print(f"{'All distances':<20} {share:+.2f} %; {reading.pictures} pictures, {reading.distance_m * 100:.0f} cm away")
+    print(
+        f"{'All distances':<20} {share:+.2f} %; {reading.pictures} pictures, "
+        f"{written(reading.distance_m * 100)} cm away"
+    )
 
 
 def _shown(source: FrameSource) -> Iterator[Frame]:

@@ -14,6 +14,7 @@ from carpus.core.names import folded, known_names
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
+from carpus.core.rounding import written
 from carpus.core.session.reader import read_outline
 
 EXAMPLE = """carpus erase "Fern 12"
@@ -72,7 +73,7 @@ def _told() -> int:
 
 
 def _say(plan: ErasurePlan) -> None:
-    print(f"This goes: {plan.sessions} sessions, {len(plan.files)} files, {plan.size_bytes / 1e6:.1f} MB")
+    print(f"This goes: {plan.sessions} sessions, {len(plan.files)} files, {written(plan.size_bytes / 1e6, 1)} MB")
     for one in plan.made:
         print(f"This stays, delete it yourself: {one.kind} {one.path}")
     for path in plan.outside:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from carpus.app.command_line import add_region, tell
 from carpus.app.of_file import read_figures
 from carpus.core.errors import ReferenceUnreadable, StudyUnsuited
+from carpus.core.rounding import written
 
 if TYPE_CHECKING:
     pass
@@ -68,12 +69,12 @@ def run(arguments: argparse.Namespace) -> int:
                 f"{'ICC(3,1) (interval)':20}   last - first   SEM of one rater"
             )
         for (of, movement), f in one.found.items():
-            mdc = f"{f.mdc95:5.1f} ({f.mdc95_interval[0]:.1f} to {f.mdc95_interval[1]:.1f})"
+            mdc = f"{f.mdc95:5.1f} ({written(f.mdc95_interval[0], 1)} to {written(f.mdc95_interval[1], 1)})"
             iccs = [
-                f"{icc:.2f} ({low:.2f} to {high:.2f})"
+                f"{written(icc, 2)} ({written(low, 2)} to {written(high, 2)})"
                 for icc, (low, high) in ((f.icc, f.icc_interval), (f.icc_3_1, f.icc_3_1_interval))
             ]
-            own = f"{f.sem_same_rater:.2f}" if math.isfinite(f.sem_same_rater) else "-"
+            own = written(f.sem_same_rater, 2) if math.isfinite(f.sem_same_rater) else "-"
             print(
                 f"  {f'{of} {movement}':26} {f.people:3d}  {f.sem:5.2f}   {mdc:22}   {iccs[0]:20}   {iccs[1]:20}   "
                 f"{f.step:12.2f}   {own}"

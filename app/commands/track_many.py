@@ -21,6 +21,7 @@ from carpus.core.formats.measures_files import check_place, measures_file
 from carpus.core.formats.new_output import cell, new_table
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.research.papers.track import settings_told
+from carpus.core.rounding import written
 from carpus.core.session.reader import read_outline
 from carpus.core.words import one_sentence
 
@@ -126,7 +127,7 @@ def run_many(
 def _pace(done: Sequence[Outcome], begin_s: float) -> str:
     """Frames tracked a second, of all processes together; nothing before the first."""
     frames = sum(each.frames for each in done if each.result == "tracked")
-    return f"{frames / max(time.monotonic() - begin_s, 1e-3):.0f} frames a second" if frames else ""
+    return f"{written(frames / max(time.monotonic() - begin_s, 1e-3))} frames a second" if frames else ""
 
 
 def _coming(tasks: Sequence[Task], arguments: argparse.Namespace) -> Iterator[Outcome]:
@@ -151,7 +152,7 @@ def _told(done: Sequence[Outcome], tables: Sequence[Path], seconds: float) -> in
     for line in fault_lines(done):
         print(line)
     results = f"tracked {count['tracked']}, done before {count['kept']}, faults {count['fault']}"
-    a_minute = f", {60.0 * count['tracked'] / seconds:.1f} a minute" if count["tracked"] else ""
+    a_minute = f", {written(60.0 * count['tracked'] / seconds, 1)} a minute" if count["tracked"] else ""
     print(f"Recordings: {len(done)}, {results}{a_minute}")
     for path in tables:
         print(f"Table: {path}")

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.pipeline.live_values import LiveCounters
+from carpus.core.rounding import rounded
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words, shortened
 from carpus.ui.flow import STEPS, TABS, ScreenContext
@@ -29,6 +30,7 @@ class Bar(QObject):
         self._shell, self._now, self._way = context.shell, context.now, context.way
         self._camera, self._review, self._is_demo = context.camera, review, context.is_demo
         self._again, self._store = (-1, 0), context.library.store
+        self._lost_before = 0
         self._way.arrived.connect(lambda _: self.show())
         self._way.changed.connect(self.show)
         self._camera.looked.connect(self.show_camera)
@@ -132,14 +134,16 @@ class Bar(QObject):
         self._shell.bar.lock_aside(state != "off")
 
     def show_counters(self, counters: LiveCounters) -> None:
-        """Pictures a second, what was lost, and for how long the disk has room."""
+        """Pictures a second, what a recording lost, and for how long the disk has room."""
         least = 12 if self._now.kind == "practice" else 25  # 15 are drawn, as few as are enough
         few = counters.fps < least
         words = self.tr("{count} pictures/s, under {least}") if few else self.tr("{count} pictures/s")
-        words = words.format(count=round(counters.fps), least=least)
+        words = words.format(count=rounded(counters.fps), least=least)
         lost = counters.dropped + counters.missing
-        if lost:
-            words = self.tr("{words}, {lost} lost").format(words=words, lost=lost)
+        if not counters.recording:
+            self._lost_before = lost
+        if lost > self._lost_before:  # of this recording: what was missed before it is missing nowhere
+            words = self.tr("{words}, {lost} lost").format(words=words, lost=lost - self._lost_before)
         if self._now.source is not None and self._now.source.rests():
             self._shell.bar.camera.show_state("warn", self.tr("Movement is being drawn"))
         else:

@@ -28,6 +28,7 @@ from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.phrase import phrase
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.seen import best_motion
+from carpus.core.rounding import written
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
 
@@ -214,7 +215,7 @@ def _check_match(reference: Reference, curves: ClockCurves, shift: Shift) -> Non
     if not match >= LEAST_MATCH:
         raise ReferenceUnsuited(
             reference.path,
-            phrase("the curves match by {match} at best: is it the same movement?", match=f"{match:.2f}"),
+            phrase("the curves match by {match} at best: is it the same movement?", match=written(match, 2)),
         )
 
 
@@ -224,7 +225,7 @@ def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = m
         phrase(
             "{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement",
             angle=one.name,
-            r=f"{one.figures_deg.correlation:.3f}",
+            r=written(one.figures_deg.correlation, 3),
         )
         for one in pairs
         if one.figures_deg.is_opposite
@@ -247,8 +248,8 @@ def _remarks_of_space(alignment: Alignment | None) -> list[str]:
     return [
         phrase(
             "discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps",
-            apart=f"{1e3 * alignment.residual_m:.1f}",
-            most=f"{1e3 * FAR_APART_M:.0f}",
+            apart=written(1e3 * alignment.residual_m, 1),
+            most=written(1e3 * FAR_APART_M),
         )
     ]
 
@@ -256,7 +257,9 @@ def _remarks_of_space(alignment: Alignment | None) -> list[str]:
 def _remarks_of_clocks(shift: Shift, overlap_s: float) -> list[str]:
     out: list[str] = []
     if overlap_s < SAFE_OVERLAP_S:
-        out.append(phrase("only {time} s are in common: the shift of the clocks is not sure", time=f"{overlap_s:.1f}"))
+        out.append(
+            phrase("only {time} s are in common: the shift of the clocks is not sure", time=written(overlap_s, 1))
+        )
     if shift.match < 0.0 and math.isfinite(shift.most_s):
         out.append(
             phrase("the curves run against each other, or the shift is beyond {most} s", most=f"{shift.most_s:g}")
@@ -266,15 +269,15 @@ def _remarks_of_clocks(shift: Shift, overlap_s: float) -> list[str]:
                 "best at {later} s ({match})",
                 most=f"{shift.most_s:g}",
                 later=f"{shift.upright[0]:+.2f}",
-                match=f"{shift.upright[1]:.3f}",
+                match=written(shift.upright[1], 3),
             )
         )
     if shift.rivals:
-        others = ", ".join(f"{later_s:+.2f} s ({match:.3f})" for later_s, match in shift.rivals)
+        others = ", ".join(f"{later_s:+.2f} s ({written(match, 3)})" for later_s, match in shift.rivals)
         words = phrase(
             "the shift is not sure: taken is {taken} s ({match}); as well or nearly match {others}",
             taken=f"{shift.reference_later_s:+.2f}",
-            match=f"{shift.match:.3f}",
+            match=written(shift.match, 3),
             others=others,
         )
         out.append(f"{words} …" if shift.more_rivals else words)
@@ -287,7 +290,7 @@ def _remarks_of_clocks(shift: Shift, overlap_s: float) -> list[str]:
             "figures hold that error (lag {lag} s with drift {drift} %)",
             percent=f"{percent:+.2f}",
             seconds=f"{found_s:+.2f}",
-            length=f"{overlap_s:.0f}",
+            length=written(overlap_s),
             lag=f"{shift.lag_without_drift_s:+.3f}",
             drift=f"{percent + 100.0 * shift.drift:+.2f}",
         )

@@ -20,6 +20,7 @@ from carpus.core.formats.take import number
 from carpus.core.provenance import sha256_of_file
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.rounding import written
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 
@@ -163,14 +164,14 @@ def lines(compared: Compared) -> list[str]:
         found = "as given" if shift.was_given else "found by the curves"
         drifts = f", drift {100.0 * shift.drift:+.2f} % taken out" if shift.drift else ""
         out.append(
-            f"Time shift   {1e3 * abs(shift.reference_later_s):.0f} ms, {later} later, {found}{drifts}; "
-            f"curves match {shift.match:.3f}"
+            f"Time shift   {written(1e3 * abs(shift.reference_later_s))} ms, {later} later, {found}{drifts}; "
+            f"curves match {written(shift.match, 3)}"
         )
     if compared.alignment is not None:
         turn = math.degrees(compared.alignment.turn_rad)
         off = 1e3 * compared.alignment.residual_m
         names = " ".join(compared.alignment.markers)
-        out.append(f"Alignment    {turn:.1f}° as one rigid body, {off:.1f} mm apart ({names})")
+        out.append(f"Alignment    {written(turn, 1)}° as one rigid body, {written(off, 1)} mm apart ({names})")
         out.append(f"Zero         {compared.alignment.zero}")
     what = "readings" if compared.shift is None else "pictures"
     why = "predicted, doubtful, lost or not still"
@@ -195,7 +196,7 @@ def _pair_lines(pairs: Sequence[Pairs]) -> list[str]:
     for one in pairs:
         columns = one.time_s, np.degrees(one.measured_rad), np.degrees(one.reference_rad)
         for time_s, mine, other in zip(*columns, strict=True):
-            at = f"{time_s:.2f} s" if math.isfinite(time_s) else "range"
+            at = f"{written(time_s, 2)} s" if math.isfinite(time_s) else "range"
             out.append(f"{one.name:{width}}  {at:>9}  {mine:8.2f}  {other:8.2f}  {mine - other:10.2f}")
     return out
 
@@ -206,8 +207,8 @@ def figure_lines(figures: Sequence[tuple[str, Agreement]]) -> list[str]:
     heads = ("bias", "limits of agreement", "RMSE", "r", "ICC(2,1)", "ICC(3,1)", "CMC")
     out = ["{:{}}  {:>6}  {:24}  {:19}  {:>5}  {:>6}  {:25}  {:25}  {}".format("", width, "pairs", *heads)]
     for name, f in figures:
-        bias = f"{f.bias:6.2f} ({f.bias_interval[0]:.2f} to {f.bias_interval[1]:.2f})"
-        limits = f"{f.limits[0]:7.2f} to {f.limits[1]:.2f}"
+        bias = f"{f.bias:6.2f} ({written(f.bias_interval[0], 2)} to {written(f.bias_interval[1], 2)})"
+        limits = f"{f.limits[0]:7.2f} to {written(f.limits[1], 2)}"
         iccs = (_with_interval(f.icc, f.icc_interval), _with_interval(f.icc_3_1, f.icc_3_1_interval))
         few = "  too few to judge" if f.count < FEWEST_TO_JUDGE else ""
         out.append(
@@ -219,11 +220,16 @@ def figure_lines(figures: Sequence[tuple[str, Agreement]]) -> list[str]:
 
 def limit_lines(all_pairs: Sequence[Pairs], limit_deg: float) -> list[str]:
     """Say of each angle whether both limits of agreement lie within a limit that was set before."""
-    said = {"agree": "agrees within {limit:g}°", "apart": "up to {apart:.1f}° apart", "few": "too few pairs to say"}
+    said = {
+        "agree": "agrees within {limit:g}°",
+        "apart": "up to {apart}° apart",
+        "few": "too few pairs to say",
+    }
     return [
-        f"Limit        {pairs.name} {said[verdict].format(limit=limit_deg, apart=furthest(pairs.figures_deg))}"
+        f"Limit        {pairs.name} {said[verdict].format(limit=limit_deg, apart=apart)}"
         for pairs in all_pairs
         if (verdict := judged(pairs.figures_deg, limit_deg)) in said
+        and (apart := written(furthest(pairs.figures_deg), 1))
     ]
 
 
@@ -232,7 +238,7 @@ def _with_interval(value: float, interval: tuple[float, float]) -> str:
 
 
 def _short(value: float) -> str:
-    return f"{value:.3f}" if math.isfinite(value) else "–"
+    return written(value, 3) if math.isfinite(value) else "–"
 
 
 def cell(value: Any) -> str:

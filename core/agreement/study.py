@@ -24,6 +24,7 @@ from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, new_json, ne
 from carpus.core.phrase import phrase
 from carpus.core.provenance import sha256_of_file
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.rounding import written
 from carpus.core.words import one_sentence
 
 NEEDED = ("person", "session", "reference")
@@ -265,7 +266,8 @@ def study_lines(study: AgreementStudy) -> list[str]:
         ]  # fmt: skip
     out += figure_lines(rows)
     out += ["", *(
-        f"{one.pairs.name}: sd between people {one.between.sd_between:.2f}, within one {one.between.sd_within:.2f}"
+        f"{one.pairs.name}: sd between people {written(one.between.sd_between, 2)}, "
+        f"within one {written(one.between.sd_within, 2)}"
         for one in study.angles if math.isfinite(one.between.sd_within)
     )]  # fmt: skip
     out += [f"{one.pairs.name}: {words}." for one in study.angles for words in _few(one)]

@@ -37,6 +37,7 @@ from carpus.core.errors import (
 from carpus.core.installing import Finding, how_to_install, is_packed
 from carpus.core.kernels.choice import NUMPY, VARIABLE, damaged, in_c
 from carpus.core.phrase import phrase
+from carpus.core.rounding import written
 from carpus.core.types import Frame
 from carpus.core.words import words_of
 
@@ -222,8 +223,8 @@ def disk_finding(folder: Path, free_bytes: int) -> Finding:
     minutes = free_bytes / (1e6 * MB_PER_MINUTE)
     text = phrase(
         "{free} GB free, about {minutes} minutes with pictures",
-        free=f"{free_bytes / 1000000000.0:.1f}",
-        minutes=f"{minutes:.0f}",
+        free=written(free_bytes / 1000000000.0, 1),
+        minutes=written(minutes),
     )
     if free_bytes < LOW_DISK_BYTES:
         return Finding(
@@ -350,7 +351,7 @@ def frames_finding(frames: list[Frame]) -> Finding:
         "{width}x{height}, {fps} fps, {missing} missing, depth in {with_depth} of {count}",
         width=width,
         height=height,
-        fps=f"{fps:.1f}",
+        fps=written(fps, 1),
         missing=missing,
         with_depth=with_depth,
         count=len(frames),
@@ -389,7 +390,7 @@ def standing_findings(info: SourceInfo, frames: list[Frame], arrived_s: list[flo
 
 def clock_finding(own_s: float, here_s: float, whose: str) -> Finding:
     """The camera's times against the computer's over the same pictures. Pictures wait on their way, hence the room."""
-    text = phrase("{own_s} s while {here_s} s passed here", own_s=f"{own_s:.2f}", here_s=f"{here_s:.2f}")
+    text = phrase("{own_s} s while {here_s} s passed here", own_s=written(own_s, 2), here_s=written(here_s, 2))
     if whose == "computer":
         remedy = phrase(
             "This camera does not tell when it took a picture; its times are those of arrival: speeds are rough."

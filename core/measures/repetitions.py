@@ -166,9 +166,9 @@ def _between(angle: Signal, start: int, end: int, cut_at: int | None = None) -> 
     return replace(one, cut=by, cut_s=float(time[cut_at]))
 
 
-Uncounted = Literal["too_short", "nothing_seen", "small_range", "no_return", "too_quick"]
-"""Why there is none: hardly a recording, hardly a frame seen, less than 10 degrees, never there and back, or each in
-less than 0.4 s."""
+Uncounted = Literal["too_short", "nothing_seen", "small_range", "cut_by_gap", "no_return", "too_quick"]
+"""Why there is none: hardly a recording, hardly a frame seen, less than 10 degrees, each with a piece out of sight,
+never there and back, or each in less than 0.4 s."""
 
 
 def what_was_not_counted(angle: Signal, found: FoundRepetitions) -> Uncounted | None:
@@ -182,6 +182,8 @@ def what_was_not_counted(angle: Signal, found: FoundRepetitions) -> Uncounted | 
         return "too_short"
     if float(np.ptp(known)) < LEAST_RANGE_RAD:
         return "small_range"
+    if any(one.cut == "cut_by_gap" for one in found.cut):
+        return "cut_by_gap"
     return "too_quick" if len(found.strokes) > 2 else "no_return"
 
 

@@ -42,6 +42,7 @@ from carpus.core.pipeline.track import (
 from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.recordings import SessionDraft
 from carpus.core.records.set_up import MARKERS_SUFFIX, SetUp
+from carpus.core.rounding import written
 from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.new_file import ROWS_AT_ONCE
@@ -433,6 +434,6 @@ def _check_room(folder: Path) -> None:
     """Raise :class:`DiskFull` where no recording should begin."""
     free = shutil.disk_usage(folder).free
     if free < LEAST_FREE_BYTES:
-        free_mb, least_mb = f"{free / 1e6:.0f}", f"{LEAST_FREE_BYTES / 1e6:.0f}"
+        free_mb, least_mb = written(free / 1e6), written(LEAST_FREE_BYTES / 1e6)
         why = phrase("{free} MB free, {least_free_bytes} MB are needed", free=free_mb, least_free_bytes=least_mb)
         raise DiskFull(folder, why)

@@ -27,6 +27,7 @@ from carpus.core.measures.change import (
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.ranges import RangeRow, RowKey, is_total
+from carpus.core.rounding import rounded
 from carpus.core.types import Side
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
@@ -77,7 +78,7 @@ class Comparison:
         """Difference of the rounded means, so that the figures on a page agree with each other."""
         if not math.isfinite(self.difference_deg):
             return math.nan
-        return float(math.floor(self.after_deg + 0.5) - math.floor(self.before_deg + 0.5))
+        return float(rounded(self.after_deg) - rounded(self.before_deg))
 
 
 @dataclass(frozen=True, slots=True)

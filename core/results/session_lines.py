@@ -22,6 +22,7 @@ from carpus.core.results.camera_said import camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.ranges import is_total
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.rounding import written
 from carpus.core.session.reader import has_raw
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
@@ -87,7 +88,7 @@ def source_summary(path: Path, info: SourceInfo) -> list[str]:
     count = "not known before it is played" if info.frame_count is None else str(info.frame_count)
     return [
         _line("Recording", str(path)),
-        _line("Frames", f"{count}, {info.nominal_fps:.1f} a second"),
+        _line("Frames", f"{count}, {written(info.nominal_fps, 1)} a second"),
         _line("Depth", "yes" if info.has_depth else "no"),
         _line("Camera", camera_text(info.camera)),
         _line("Sensor", sensor_text(info.sensor)),
@@ -114,7 +115,8 @@ def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
         "factory": "from the maker's calibration",
     }
     source = sources.get(camera.origin, f"usual values, {without_file}")
-    numbers = f"fx {camera.fx_px:.2f}, fy {camera.fy_px:.2f}, cx {camera.cx_px:.2f}, cy {camera.cy_px:.2f}"
+    named = {"fx": camera.fx_px, "fy": camera.fy_px, "cx": camera.cx_px, "cy": camera.cy_px}
+    numbers = ", ".join(f"{name} {written(value, 2)}" for name, value in named.items())
     distortion = ", distorted" if camera.is_distorted else ""
     return f"{camera.width_px} x {camera.height_px} pixels, {numbers}{distortion} ({source})"
 
@@ -123,7 +125,8 @@ def sensor_text(sensor: DepthSensor) -> str:
     """Which depth sensor, and how sure one of its readings is."""
     sd_mm = 1e3 * float(sensor.reading_sd_m(np.array(_USUAL_M)))
     assumed = ", assumed: nobody said which" if sensor.origin == ASSUMED else ""
-    return f"{sensor.name}, {sensor.kind}, a reading at {_USUAL_M * 100:.0f} cm within {sd_mm:.1f} mm{assumed}"
+    within = f"a reading at {written(_USUAL_M * 100)} cm within {written(sd_mm, 1)} mm"
+    return f"{sensor.name}, {sensor.kind}, {within}{assumed}"
 
 
 def _line(title: str, text: str) -> str:
@@ -138,7 +141,7 @@ def _calibrated(parameters: str) -> str:
     """
     camera = camera_said(parameters)
     known = camera.calibrated and math.isfinite(camera.age_days)
-    return f"; calibrated {camera.calibrated[:10]}, {camera.age_days:.0f} days before" if known else ""
+    return f"; calibrated {camera.calibrated[:10]}, {written(camera.age_days)} days before" if known else ""
 
 
 def _completeness(session: Session) -> str:
@@ -157,7 +160,7 @@ def _frames(timestamp_s: FloatArray, dropped: np.ndarray) -> list[str]:
     if count < 2:
         return [_line("Frames", str(count))]
     duration_s = float(timestamp_s[-1] - timestamp_s[0])
-    rate = f"{1.0 / float(np.median(np.diff(timestamp_s))):.1f} a second"
+    rate = f"{written(1.0 / float(np.median(np.diff(timestamp_s))), 1)} a second"
     missing, places = int(dropped.sum()), int(np.count_nonzero(dropped))
     gaps = f"{_counted(missing, 'frame')} missing in {_counted(places, 'place')}" if missing else "none"
     return [_line("Frames", f"{count} in {duration_text(duration_s)}, {rate}"), _line("Gaps", gaps)]
@@ -172,7 +175,9 @@ def _shares(session: Session) -> str:
     frames = {status: np.count_nonzero(session.status == status) for status in TrackStatus}
     if not frames[TrackStatus.DOUBTFUL]:
         del frames[TrackStatus.DOUBTFUL]
-    return ", ".join(f"{status.name.lower()} {100.0 * number / count:.1f} %" for status, number in frames.items())
+    return ", ".join(
+        f"{status.name.lower()} {written(100.0 * number / count, 1)} %" for status, number in frames.items()
+    )
 
 
 def range_lines(session: Session, figures: SessionFigures) -> list[str]:
@@ -193,7 +198,7 @@ def range_lines(session: Session, figures: SessionFigures) -> list[str]:
         low = -rows[negative].mean_deg if negative in rows else None
         high = rows[positive].mean_deg if positive in rows else arc + (low or 0.0)
         low = high - arc if low is None else low
-        text = f"from {_side(angle, low)} to {_side(angle, high)}, arc {arc:.1f}°"
+        text = f"from {_side(angle, low)} to {_side(angle, high)}, arc {written(arc, 1)}°"
         if of.counted:
             text += ", of 1 repetition" if of.counted == 1 else f", mean of {of.counted} repetitions"
         lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].limited else ""))
@@ -207,16 +212,16 @@ def repetition_lines(figures: SessionFigures) -> list[str]:
         if (row := one.row) is None:
             continue
         least = "at least " if row.at_least else ""
-        start, end = (f"{time_s:.2f}" if math.isfinite(time_s) else "?" for time_s in (row.start_s, row.end_s))
+        start, end = (written(time_s, 2) if math.isfinite(time_s) else "?" for time_s in (row.start_s, row.end_s))
         parts = [f"{start} to {end} s"]
         if math.isfinite(row.arc_rad):
-            parts.append(f"arc {least}{math.degrees(row.arc_rad):.1f} deg")
+            parts.append(f"arc {least}{written(math.degrees(row.arc_rad), 1)} deg")
         if math.isfinite(row.peak_speed_rad_s):
-            parts.append(f"peak {math.degrees(row.peak_speed_rad_s):.0f} deg/s")
+            parts.append(f"peak {written(math.degrees(row.peak_speed_rad_s))} deg/s")
         if math.isfinite(row.sparc):
-            parts.append(f"SPARC {row.sparc:.2f}")
+            parts.append(f"SPARC {written(row.sparc, 2)}")
         if row.pauses > 0:
-            parts.append(f"{row.pauses:.0f} stops of {row.pause_s:.1f} s in all")
+            parts.append(f"{written(row.pauses)} stops of {written(row.pause_s, 1)} s in all")
         parts += [] if row.counted else [f"not counted: {row.reason.replace('_', ' ')}"]
         lines.append(_line("Repetition" if number == 1 else "", f"{number}: {', '.join(parts)}"))
     return lines
@@ -236,11 +241,11 @@ def _joint_ranges(session: Session, figures: SessionFigures) -> list[str]:
             lines.append(f"  {row.joint:<18} never seen")
             continue
         low, high = ends[row.joint, "extension"], ends[row.joint, "flexion"]
-        text = f"arc {row.mean_deg:.1f}°, seen {100.0 * row.seen_share:.0f} %"
+        text = f"arc {written(row.mean_deg, 1)}°, seen {written(100.0 * row.seen_share)} %"
         if is_total(row.joint):
-            text = f"{row.mean_deg:.1f}°: bending {high:.1f}° less {low:.1f}° to straight"
+            text = f"{written(row.mean_deg, 1)}°: bending {written(high, 1)}° less {written(low, 1)}° to straight"
         else:
-            text = f"from {low:.1f}° to {high:.1f}°, {text}"
+            text = f"from {written(low, 1)}° to {written(high, 1)}°, {text}"
         text += ", end joint not measured" if row.inferred else ""
         lines.append(f"  {row.joint:<18} {text}" + (LIMITED if row.limited else ""))
     return lines
@@ -248,20 +253,20 @@ def _joint_ranges(session: Session, figures: SessionFigures) -> list[str]:
 
 def _side(angle: int, angle_deg: float) -> str:
     positive, negative = SIDES[angle]
-    return f"{abs(angle_deg):.1f}° {positive if angle_deg >= 0.0 else negative}"
+    return f"{written(abs(angle_deg), 1)}° {positive if angle_deg >= 0.0 else negative}"
 
 
 def _calibration(session: Session) -> list[str]:
     calibration = session.calibration
     verdict = calibration.verdict
     facts = [
-        (verdict.hand_length_mm, f"hand {verdict.hand_length_mm:.0f} mm"),
-        (verdict.distance_m, f"{verdict.distance_m:.2f} m from the camera"),
-        (verdict.tilt_deg, f"tilted {verdict.tilt_deg:.0f}°"),
+        (verdict.hand_length_mm, f"hand {written(verdict.hand_length_mm)} mm"),
+        (verdict.distance_m, f"{written(verdict.distance_m, 2)} m from the camera"),
+        (verdict.tilt_deg, f"tilted {written(verdict.tilt_deg)}°"),
     ]
     residual_mm = verdict.residual_mm[np.isfinite(verdict.residual_mm)]
     if residual_mm.size:
-        facts.append((0.0, f"markers within {residual_mm.max():.1f} mm"))
+        facts.append((0.0, f"markers within {written(residual_mm.max(), 1)} mm"))
     known = [text for value, text in facts if np.isfinite(value)]
     if verdict.frames_used:
         known.append(f"from {verdict.frames_used} still pictures")
@@ -278,7 +283,7 @@ def _provenance(session: Session) -> list[str]:
     """By which revision, of which recording, with which settings; what an older session does not say is left out."""
     said, source = (said_in(session.header.parameters, part) for part in ("provenance", "source"))
     camera = camera_said(session.header.parameters)
-    calibrated = camera.calibrated and f"{camera.calibrated}, {camera.age_days:.0f} days before"
+    calibrated = camera.calibrated and f"{camera.calibrated}, {written(camera.age_days)} days before"
     facts = (
         ("Calibrated", calibrated or (camera.serial and "not with a board")),
         ("Revision", said.get("revision")),

@@ -17,6 +17,7 @@ from pathlib import Path
 from carpus.core.durable import FULL, sync_folder, write_fault
 from carpus.core.errors import DiskFull, OutputExists
 from carpus.core.phrase import phrase
+from carpus.core.rounding import written
 
 if sys.platform != "win32":
     import fcntl
@@ -61,11 +62,11 @@ def reserve(descriptor: int, path: Path, begin: int, length: int) -> None:
     except OSError as cause:
         if cause.errno in FULL:
             raise DiskFull(
-                path, phrase("no room for another {length} MB", length=f"{length / 1000000.0:.1f}")
+                path, phrase("no room for another {length} MB", length=written(length / 1000000.0, 1))
             ) from cause
         # this file system cannot reserve: ask how much is free instead
     if shutil.disk_usage(path.parent).free < length:
-        raise DiskFull(path, phrase("no room for another {length} MB", length=f"{length / 1000000.0:.1f}"))
+        raise DiskFull(path, phrase("no room for another {length} MB", length=written(length / 1000000.0, 1)))
 
 
 def is_being_written(path: Path) -> bool:

@@ -6651,6 +6651,10 @@
         <source>no answer</source>
         <translation>keine Antwort</translation>
     </message>
+    <message>
+        <source>the hand went out of sight in each</source>
+        <translation>die Hand war in jeder zeitweise nicht zu sehen</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

@@ -6651,6 +6651,10 @@
         <source>no answer</source>
         <translation>nessuna risposta</translation>
     </message>
+    <message>
+        <source>the hand went out of sight in each</source>
+        <translation>la mano è uscita di vista in ciascuna</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

@@ -88,6 +88,16 @@ def test_esc_closes_the_patients_view_and_a_slow_source_is_said_of_the_simulated
         for fps, state in ((slow_hz + 2.0, "good"), (slow_hz, "warn")):
             journey.bar.show_counters(replace(FakeFeed().counters(), fps=fps))
             assert desktop.shell.bar.camera.state == state
+    before, during = (
+        replace(FakeFeed().counters(), missing=383, recording=False),
+        replace(FakeFeed().counters(), recording=True),
+    )
+    for counters, lost in ((before, ""), (replace(during, missing=383), ""), (replace(during, missing=385), "2 lost")):
+        journey.bar.show_counters(counters)
+        assert ("lost" in desktop.shell.bar.camera.text(), lost in desktop.shell.bar.camera.text()) == (
+            bool(lost),
+            True,
+        )
 
 
 def test_a_start_makes_no_screen_but_the_first_and_loads_the_others_in_the_windows_thread(

@@ -62,6 +62,9 @@ def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ByHandScre
     assert "48°" in extension.beside.text()
     typed(screen, "GRIP", "18", "19", "20,5")
     assert screen.form.rows["GRIP"].beside.text() == "mean 19.2 kg"
+    typed(screen, "GRIP", "18", "19", "260")
+    assert screen.form.rows["GRIP"].beside.text() == "mean 18.5 kg", "a try that is marked wrong counts nowhere"
+    typed(screen, "GRIP", "18", "19", "20,5")
     typed(screen, "FLEXION", "47", "")
     with qtbot.waitSignal(screen.save) as caught:
         QTest.keyClick(screen, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)

@@ -137,7 +137,7 @@ class MeasureRow(QObject):
 
     def _say_beside(self) -> None:
         """The mean of the tries; Carpus's own value, but only once the hand's is there: nobody shall be led."""
-        values = [field.value() for _, field in self.fields if math.isfinite(field.value())]
+        values = [field.value() for _, field in self.fields if not (field.is_empty or field.problem)]
         if self.measure.tries > 1:
             mean = sum(values) / len(values) if values else math.nan
             words = value_words(self.measure, mean) if values else ""
@@ -145,7 +145,7 @@ class MeasureRow(QObject):
         elif self.measure.kind == "angle":
             row, active = self._of_carpus, self.fields[0][1]
             words = numbers.UNKNOWN
-            if row is not None and row.count and math.isfinite(active.value()):
+            if row is not None and row.count and not (active.is_empty or active.problem):
                 words = numbers.with_spread(row.mean_deg, row.sd_deg)
                 words = words if row.joint else terms.end_words(row.mean_deg, row.movement, row.sd_deg)
             self.beside.setText(words)

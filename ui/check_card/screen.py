@@ -9,6 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.calibration.card.card import CHECK_S, DISCS
+from carpus.core.rounding import rounded
 from carpus.core.types import ByteImage
 from carpus.ui.camera_name_sheet import CameraNameSheet
 from carpus.ui.controls.button import ENTER, Button
@@ -125,7 +126,7 @@ class CardScreen(Fitted):
         """What the newest picture showed; None while nothing has been looked at."""
         self.progress = now
         seconds = 0.0 if now is None else now.seconds
-        self.left_s.setText(self.tr("{seconds} s").format(seconds=max(round(CHECK_S - seconds), 0)))
+        self.left_s.setText(self.tr("{seconds} s").format(seconds=max(rounded(CHECK_S - seconds), 0)))
         self.bar.show_progress(round(10 * min(seconds, CHECK_S)), round(10 * CHECK_S))
         self.words.setText(card_hint(now))
         self.picture.update()

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.seen import JointCurves, joint_curves, session_curves
+from carpus.core.rounding import written
 from carpus.core.session.marker_doubts import NameDoubt
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray, TrackStatus
@@ -366,7 +367,7 @@ class CorrectScreen(Fitted):
         words = self.tr("“{marker}” cannot be there").format(marker=marker_name(doubt.alone))
         self.title.setText(words)
         far = self.tr("It lies {size} mm from where the other discs let it be. It may be another disc, or no disc.")
-        self.hint.setText(far.format(size=f"{1000.0 * doubt.off_m:.0f}"))
+        self.hint.setText(far.format(size=written(1000.0 * doubt.off_m)))
         here = row == self.row
         self.primary.set_face(self.tr("Take the last step back") if here else self.tr("Show that picture"))
 
@@ -405,7 +406,7 @@ class MarkerRow(QPushButton):
         if not seen:
             now = self.tr("hidden")
         if changed and math.isfinite(was_mm):
-            now = self.tr("{now}, was {size} mm").format(now=now, size=f"{was_mm:.0f}")
+            now = self.tr("{now}, was {size} mm").format(now=now, size=written(was_mm))
         far = seen and math.isfinite(off_mm) and off_mm > far_mm
         self._sign.show_sign("warn" if far else "predicted" if changed else "partly" if not seen else "good")
         self._value.setText(now)

@@ -9,6 +9,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPageLayout, QPageSize, 
 
 from carpus.core.formats.new_output import new_bytes
 from carpus.core.hand.protocols import PALM_MARKERS, SITES
+from carpus.core.rounding import written
 from carpus.core.types import Side
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.hand_drawing import PLACES, SIZE, outline, placement
@@ -84,7 +85,7 @@ def _rulers(painter: QPainter, at: QPointF) -> None:
         painter.save()
         painter.setPen(QColor(LIGHT.text))
         painter.setFont(font(13 * PX, SEMIBOLD))
-        painter.drawText(center + QPointF(10 * MM, 1.5 * MM), tr("{size} mm").format(size=f"{size_mm:.0f}"))
+        painter.drawText(center + QPointF(10 * MM, 1.5 * MM), tr("{size} mm").format(size=written(size_mm)))
         painter.restore()
     painter.setPen(QPen(QColor(LIGHT.text), 1.2 * PX))
     left = at + QPointF(0, 46 * MM)

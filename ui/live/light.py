@@ -11,6 +11,7 @@ import numpy as np
 
 from carpus.core.hand.protocols import PALM_MARKERS
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
+from carpus.core.rounding import written
 from carpus.core.types import Frame, TrackedFrame, TrackStatus
 from carpus.ui.marker_words import finger_name, hidden_remedy, marker_name
 from carpus.ui.plot.history import Seen
@@ -175,7 +176,7 @@ class Behind:
         self.late_s = 0.0
         """0 while the figures are of now."""
         self.left_out = 0
-        """Pictures of this recording for which there was no room any more."""
+        """Pictures of this recording that never came, or for which there was no room any more."""
         self._left_out_before: int | None = None
         self._most_waiting = 0
 
@@ -189,9 +190,10 @@ class Behind:
         return self.late_s > 0.0
 
     def count(self, counters: LiveCounters) -> None:
+        lost = counters.dropped + counters.missing
         if self._left_out_before is None:
-            self._left_out_before = counters.dropped
-        self.left_out = counters.dropped - self._left_out_before
+            self._left_out_before = lost
+        self.left_out = lost - self._left_out_before
 
     def catching_up(self, counters: LiveCounters) -> tuple[int, int] | None:
         """After a stop: pictures done and in all; None when there is next to nothing left to do."""
@@ -208,7 +210,7 @@ def behind_lamp(behind: Behind, *, recording: bool) -> Lamp:
         words = tr("{count} pictures are missing: close other programs")
         return Lamp("warn", tr("The computer is too busy"), words.format(count=behind.left_out))
     kept = tr("The computer is busy; every picture is kept")
-    words = tr("The figures are {seconds} s late").format(seconds=f"{behind.late_s:.0f}")
+    words = tr("The figures are {seconds} s late").format(seconds=written(behind.late_s))
     return Lamp("idle", words, kept if recording else tr("The computer is busy"))
 
 

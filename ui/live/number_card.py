@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.hand.exercises import PRONOSUPINATION, Exercise, exercise_named
 from carpus.core.hand.forearm_rotation import axis_deg, is_from_thumb_up
+from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import paint_card
 from carpus.ui.figures import FIGURES, FINGERS, Figure, side_word
@@ -149,7 +150,7 @@ class NumberCard(QWidget):
             return *figure.range_deg, *figure.end_names
         top_deg, _ = axis_deg(self.reading.angle, self.exercise)
         upper, lower = terms.direction_names(self.reading.angle, self.exercise)
-        return -top_deg, top_deg, f"{lower} {top_deg:.0f}°", f"{upper} {top_deg:.0f}°"
+        return -top_deg, top_deg, f"{lower} {written(top_deg)}°", f"{upper} {written(top_deg)}°"
 
     def _number_px(self) -> float:
         """As large as the widest figure of the gauge has room, and never larger than designed."""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from carpus.core.calibration.result import Verdict
 from carpus.core.records.values import unless_away
+from carpus.core.rounding import written
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.flow import Flow, ScreenContext
@@ -78,7 +79,7 @@ class MarkersFlow(Flow):
         self.context.messages.ask(
             Words(
                 self.tr("The depth of {name} lies {px} pixels beside its colours.").format(
-                    name=name, px=f"{off.value:.0f}"
+                    name=name, px=written(off.value)
                 ),
                 self.tr("The recording itself is not changed. It does not say that its depth was laid on its colours."),
                 self.tr("Open it again with the depth moved onto the colours, then click the markers anew."),

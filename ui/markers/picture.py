@@ -11,6 +11,7 @@ import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen, QWheelEvent
 
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.marker_words import finger_name, marker_name
@@ -346,11 +347,11 @@ class MarkerPicture(PictureView):
             haloed(painter, ON_PICTURE_PROPOSED, 2.0, lambda: painter.drawEllipse(middle, radius, radius), dash=True)
         haloed(painter, ON_PICTURE_LINE, 1.5, lambda: self._cross(painter, middle, 12.0))
         painter.setClipping(False)
-        paint_label(painter, self._theme, f"×{LOUPE_TIMES:.0f}", inner.left() + 8, inner.top() + 8)
+        paint_label(painter, self._theme, f"×{written(LOUPE_TIMES)}", inner.left() + 8, inner.top() + 8)
         words = self.no_marker_words
         if self.found is not None and not words:
             pattern = self.tr("Marker found · {width} px wide") if box.width() >= 200 else self.tr("Found · {width} px")
-            words = pattern.format(width=f"{self.found.width_px:.0f}")
+            words = pattern.format(width=written(self.found.width_px))
         if words:
             self._paint_loupe_words(painter, words, inner)
         painter.restore()

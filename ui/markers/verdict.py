@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.calibration.result import CalibrationFinding, Verdict
+from carpus.core.rounding import written
 from carpus.ui import numbers
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.layouts import in_grid, in_line
@@ -184,16 +185,16 @@ def _tilt(limits: VerdictLimits) -> str:
 
 def _length(limits: VerdictLimits) -> str:
     low, high = limits.hand_length_mm
-    return tr("usual {low}–{high} mm").format(low=f"{low:.0f}", high=f"{high:.0f}")
+    return tr("usual {low}–{high} mm").format(low=written(low), high=written(high))
 
 
 def _cm(value_m: float) -> str:
-    return f"{100 * value_m:.0f}{NARROW_GAP}cm" if math.isfinite(value_m) else UNKNOWN
+    return f"{written(100 * value_m)}{NARROW_GAP}cm" if math.isfinite(value_m) else UNKNOWN
 
 
 def _mm(value_mm: float) -> str:
-    return f"{value_mm:.0f}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
+    return f"{written(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
 
 
 def _degrees(value_deg: float) -> str:
-    return f"{value_deg:.0f}°" if math.isfinite(value_deg) else UNKNOWN
+    return f"{written(value_deg)}°" if math.isfinite(value_deg) else UNKNOWN

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from carpus.core.errors import CameraLost
 from carpus.core.records.new_sessions import Recovered
 from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.rounding import rounded
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
@@ -169,7 +170,7 @@ class Messages(QObject):
         )  # fmt: skip
 
     def _count_wait(self) -> None:
-        seconds = round(time.monotonic() - self._lost_since_s)
+        seconds = rounded(time.monotonic() - self._lost_since_s)
         if self._shown is not None and self._shown.icon == "unplug":
             self.card.set_waiting(self.tr("Waiting for the camera … {seconds} s").format(seconds=seconds))
 

@@ -14,6 +14,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter
 
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.plot.axes import Panel, Scale, hatch, time_labels
@@ -94,7 +95,7 @@ class AgreementPlot:
         ticks = tuple(np.arange(low, high + step / 2, step).tolist())
         pad = 0.04 * (high - low)
         more, less = ends(self.pairs.name)
-        labels = [(tick, f"{abs(tick):.0f}°") for tick in ticks]
+        labels = [(tick, f"{written(abs(tick))}°") for tick in ticks]
         for place, word in ((0, less), (-1, more)):
             if labels[place][0] * (1 if place else -1) > 0.0:
                 labels[place] = (labels[place][0], f"{word} {labels[place][1]}")
@@ -188,9 +189,9 @@ class AgreementPlot:
         step = _step(end - start) if self.view == "differences" else max(1.0, _step(end - start) // 5)
         ticks = step * np.arange(math.ceil(start / step), math.floor(end / step) + 1)
         if self.view == "curves":
-            return [(float(tick), f"{tick:.0f}") for tick in ticks]
+            return [(float(tick), written(tick)) for tick in ticks]
         more, less = ends(self.pairs.name)
-        labels = [(float(tick), f"{abs(tick):.0f}°") for tick in ticks]
+        labels = [(float(tick), f"{written(abs(tick))}°") for tick in ticks]
         for place, word in ((0, less), (-1, more)):
             if labels and labels[place][0] * (1 if place else -1) > 0.0:
                 labels[place] = (labels[place][0], f"{word} {labels[place][1]}")

@@ -9,6 +9,7 @@ import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QPainter, QPen
 
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.plot.style import PlotStyle
@@ -29,15 +30,17 @@ def angle_scale(tick_deg: float, limit_deg: float, upper: str, lower: str, *, ti
     """An angle in degrees between two named directions; ``tight`` leaves out the ticks half-way."""
     half = tick_deg / 2
     inner = () if tight else (half, -half)
-    labels = [(tick_deg, f"{upper} {tick_deg:.0f}°"), (0.0, "0°"), (-tick_deg, f"{lower} {tick_deg:.0f}°")]
-    labels += [(value, f"{abs(value):.0f}°") for value in inner]
+    labels = [(tick_deg, f"{upper} {written(tick_deg)}°"), (0.0, "0°"), (-tick_deg, f"{lower} {written(tick_deg)}°")]
+    labels += [(value, f"{written(abs(value))}°") for value in inner]
     return Scale(-limit_deg, limit_deg, (tick_deg, *inner[:1], 0.0, *inner[1:], -tick_deg), tuple(labels))
 
 
 def rising_scale(top: float, step: float, unit: str, name: str) -> Scale:
     """A quantity that starts at zero, with its name at the upper end."""
     ticks = tuple(np.arange(0.0, top + step / 2, step).tolist())
-    labels = tuple((value, f"{name} {value:.0f}{unit}" if value == ticks[-1] else f"{value:.0f}") for value in ticks)
+    labels = tuple(
+        (value, f"{name} {written(value)}{unit}" if value == ticks[-1] else written(value)) for value in ticks
+    )
     return Scale(-0.04 * top, 1.08 * top, ticks, labels)
 
 

@@ -15,6 +15,7 @@ from carpus.core.measures.by_hand import HandValue, measure_named
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import Progress, row_aimed_at
 from carpus.core.results.ranges import RangeRow, RowKey, is_total
+from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
@@ -155,7 +156,7 @@ def still(progress: Progress, key: RowKey) -> list[Mark]:
         norm = wrist_norm(movement, angle, exercise)
     if norm is not None:
         low, high = norm.low_deg, norm.high_deg
-        span = f"{low:.0f}°" if low == high else f"{low:.0f}–{high:.0f}°"
+        span = f"{written(low)}°" if low == high else f"{written(low)}–{written(high)}°"
         out.append(Across(low, high, "norm"))
         labels.append((0.5 * (low + high), tr("Usual, adults {span}").format(span=span), "text2"))
     first = progress.first.row(movement, angle, joint) if progress.first else None

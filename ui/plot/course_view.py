@@ -12,6 +12,7 @@ from PySide6.QtGui import QPainter
 
 from carpus.core.results.progress import Progress
 from carpus.core.results.ranges import RowKey
+from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.plot import axes, course
 from carpus.ui.plot.axes import Panel
@@ -134,7 +135,7 @@ class ProgressChart(ZoomCard):
         ]
         quality = figures.quality
         if math.isfinite(quality.distance_m):
-            lines.append(self.tr("Camera {distance} cm away").format(distance=f"{100 * quality.distance_m:.0f}"))
+            lines.append(self.tr("Camera {distance} cm away").format(distance=written(100 * quality.distance_m)))
         if not point.fair:
             lines.append(unfair_words(point, self._progress))
         elif said := doubt_words(point, self._progress):
@@ -192,9 +193,11 @@ class ProgressChart(ZoomCard):
                 row = course.row_of(self._progress, number, key)
                 if row is None or not start <= point.figures.when.timestamp() <= end:
                     continue
-                sd = f"{row.sd_deg:.1f}" if math.isfinite(row.sd_deg) else ""
+                sd = written(row.sd_deg, 1) if math.isfinite(row.sd_deg) else ""
                 what = row.joint or f"{key[1]}"
                 when = point.figures.when.isoformat(timespec="seconds")
                 compared = "yes" if point.fair else "no"
-                rows.append([point.figures.session_id, when, what, f"{row.mean_deg:.1f}", sd, str(row.count), compared])
+                rows.append(
+                    [point.figures.session_id, when, what, written(row.mean_deg, 1), sd, str(row.count), compared]
+                )
         return head, rows

@@ -11,6 +11,7 @@ from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise, exercise_named
 from carpus.core.hand.forearm_rotation import axis_deg
+from carpus.core.rounding import rounded
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot import axes
@@ -214,4 +215,4 @@ class LiveCurves(PlotCard):
 
 
 def _mm_s(value: float) -> str:
-    return f"{round(value)}{numbers.NARROW_GAP}mm/s" if math.isfinite(value) else numbers.UNKNOWN
+    return f"{rounded(value)}{numbers.NARROW_GAP}mm/s" if math.isfinite(value) else numbers.UNKNOWN

@@ -11,6 +11,7 @@ import numpy as np
 from PySide6.QtCore import QRectF
 
 from carpus.core.results.motion_curves import MotionCurves
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.plot.axes import Panel, Scale
@@ -129,7 +130,7 @@ class MotionPlot(SessionPlot):
             return f"{name} {numbers.UNKNOWN}"
         if self.kind == "zyz":
             return f"{name} {numbers.signed_degrees(value)} {numbers.spread(sd)}"
-        shown = f"{value:.0f}".replace("-0", "0") if abs(value) < 0.5 else f"{value:.0f}"
+        shown = written(value)
         return f"{name} {shown.replace('-', MINUS)}"
 
 
@@ -137,7 +138,7 @@ MINUS = "\N{MINUS SIGN}"
 
 
 def _plain(value: float) -> str:
-    return f"{value:.0f}"
+    return written(value)
 
 
 def _gap(unit: str) -> str:
@@ -155,7 +156,7 @@ def zyz_words(plots: Sequence[MotionCurves]) -> str:
     """How much of the time ZYZ is known, and what is known all the time."""
     known = [np.isfinite(curves.zyz_deg[:, 0]) for curves in plots]
     every = np.concatenate(known) if known else np.zeros(0, dtype=bool)
-    share = f"{100.0 * float(every.mean()):.0f}{numbers.NARROW_GAP}%" if len(every) else numbers.UNKNOWN
+    share = f"{written(100.0 * float(every.mean()))}{numbers.NARROW_GAP}%" if len(every) else numbers.UNKNOWN
     return tr(
         "α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and "
         "α + γ are known."

@@ -11,6 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from carpus.core.hand.exercises import STILL_RADIUS_MM
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray, Side
 from carpus.ui import numbers
 from carpus.ui.controls.text import paint_status
@@ -191,7 +192,7 @@ class PathView(PlotCard):
         panels = self.panels()
         for plane, panel in enumerate(panels):
             self._paint_plane(painter, panel, plane)
-        words = self.tr("{span} × {span} mm, fixed").format(span=f"{self._span_mm():.0f}")
+        words = self.tr("{span} × {span} mm, fixed").format(span=written(self._span_mm()))
         if self._pure:
             words += self.tr(" · cross: where the wrist turns; it must stay in the ring")
         at = QPointF(20, panels[0].box.bottom() + 38 * scale)

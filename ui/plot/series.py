@@ -12,6 +12,7 @@ import shiboken6
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPaintEngine, QPainter, QPen, QPolygonF
 
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui.plot.axes import Panel, hatch, x_px, y_px
 from carpus.ui.plot.polygon import polygon, runs
@@ -245,7 +246,7 @@ def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, curve: Curv
             painter.setPen(color)
             metrics = QFontMetricsF(style.end_label)
             baseline = edge + inward + (metrics.ascent() if up else -metrics.descent())
-            text = f"{abs(series.value[extreme]):.0f}°"
+            text = f"{written(abs(series.value[extreme]))}°"
             left = x + 6 * style.unit
             if left + metrics.horizontalAdvance(text) > panel.box.right():
                 left = x - 6 * style.unit - metrics.horizontalAdvance(text)

@@ -16,6 +16,7 @@ from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.results.seen import JointCurves, ReportCurves
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray, TrackStatus
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, spread_labels
@@ -267,7 +268,7 @@ def _joint_series(joints: JointCurves, figure: Figure) -> Series | None:
 def _bend_scale(roomy: bool) -> Scale:
     inner = (45.0,) if roomy else ()
     ticks = (90.0, *inner, 0.0)
-    labels = tuple((value, f"{value:.0f}°") for value in ticks)
+    labels = tuple((value, f"{written(value)}°") for value in ticks)
     return Scale(_BEND_LOW_DEG, _BEND_HIGH_DEG, ticks, labels, strong_ends=False)
 
 
@@ -341,7 +342,7 @@ def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str]
         for _, (_, series) in placed:
             value = float(series.value[row])
             sd = math.nan if series.sd is None else float(series.sd[row])
-            out += [f"{v:.1f}" if math.isfinite(v) else "" for v in (value, sd)]
+            out += [written(v, 1) if math.isfinite(v) else "" for v in (value, sd)]
             out.append("" if not math.isfinite(value) else "no" if series.predicted[row] else "yes")
         return out
 

@@ -11,6 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from carpus.core.results.motion_curves import MotionCurves
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray, Side
 from carpus.ui import numbers
 from carpus.ui.figures import FINGERS
@@ -294,7 +295,7 @@ def _paint_bar(painter: QPainter, style: PlotStyle, plot: WayPlot, box: QRectF) 
     left, y = box.left() + 8 * style.unit, box.bottom() - 8 * style.unit
     painter.setPen(QPen(style.color("border"), 1.5 * style.unit))
     painter.drawLine(QPointF(left, y), QPointF(left + length * plot.per_mm(box), y))
-    words = f"{length:.0f}{numbers.NARROW_GAP}mm"
+    words = f"{written(length)}{numbers.NARROW_GAP}mm"
     write(painter, QPointF(left, y - 4 * style.unit), words, style.label, style.color("text2"))
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from carpus.core.measures.by_hand import COLUMNS, rows_of
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Progress
+from carpus.core.rounding import written
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.report.gather import progress_report
@@ -56,6 +57,7 @@ class ProgressFlow(Flow):
             what=followed if isinstance(followed, str) else None,
             software_version=self.context.version,
             by_hand=self.screen.progress.by_hand,
+            other_hand=self.screen.progress.other_hand,
         )
         self.context.way.show("report", report, [one.session_id for one in sessions])
 
@@ -98,7 +100,7 @@ def _rows(progress: Progress) -> Iterator[Sequence[object]]:
         who = (figures.session_id, figures.when.isoformat(), figures.side, figures.exercise.id)
         for row in (*figures.rows, *figures.joint_rows):
             values = [
-                f"{value:.1f}" if math.isfinite(value) else "" for value in (row.mean_deg, row.sd_deg, row.best_deg)
+                written(value, 1) if math.isfinite(value) else "" for value in (row.mean_deg, row.sd_deg, row.best_deg)
             ]
             reasons, limited = " ".join(point.reasons), "yes" if row.limited else ""
             yield *who, row.movement, *values, row.count, reasons, row.joint, limited

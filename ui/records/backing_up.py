@@ -25,6 +25,7 @@ from carpus.core.records.backup import (
 from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
 from carpus.core.records.restoring import Past, RestorePlan, plan_restore, read_past, restore
 from carpus.core.records.values import BackupSettings, unless_away
+from carpus.core.rounding import written
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background
@@ -271,7 +272,7 @@ def backup_facts(
         place_words = tr("not there now")
         if there:
             free = shutil.disk_usage(place).free / 1e9
-            place_words = tr("{free} GB free").format(free=f"{free:.0f}")
+            place_words = tr("{free} GB free").format(free=written(free))
             if on_same_disk(Path(place), data_folder):
                 place_state, place_words = "warn", tr("on the same disk as the data")
     if last is None:
@@ -289,7 +290,7 @@ def backup_facts(
         facts = tr("{when} · {n} session files, {size} GB · read back and compared: all equal")
         if last.sessions == 1:
             facts = tr("{when} · 1 session file, {size} GB · read back and compared: all equal")
-        size = numbers.fixed(last.size_bytes / 1e9, 2) if last.size_bytes < 1e10 else f"{last.size_bytes / 1e9:.0f}"
+        size = numbers.fixed(last.size_bytes / 1e9, 2) if last.size_bytes < 1e10 else written(last.size_bytes / 1e9)
         detail = facts.format(when=numbers.report_date(last.made.astimezone()), n=last.sessions, size=size)
         more = tr("Reminder after {days} days.").format(days=settings.remind_days)
         if beside:

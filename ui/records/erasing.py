@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.keeping import Records, kept_until
+from carpus.core.rounding import written
 from carpus.core.words import Words
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
@@ -308,7 +309,7 @@ class EraseSheet(Sheet):
 
     def _goes(self, facts: ErasureFacts) -> str:
         files = self.tr("1 file") if facts.files == 1 else self.tr("{count} files").format(count=facts.files)
-        size = f"{facts.size_mb:.0f}" if facts.size_mb >= 10 else numbers.fixed(facts.size_mb, 1)
+        size = written(facts.size_mb) if facts.size_mb >= 10 else numbers.fixed(facts.size_mb, 1)
         if facts.when is None:
             what = self.tr(
                 "The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes "

@@ -13,6 +13,7 @@ from carpus.core.disks import disk_encryption_finding, disk_state
 from carpus.core.errors import CarpusFault, PinUncheckable
 from carpus.core.installing import Finding
 from carpus.core.records.pin import Pin
+from carpus.core.rounding import rounded
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line, Surface
@@ -129,7 +130,7 @@ class Locking(QObject):
             return
         if not tried.opened:
             self._library.notes.program("pin_refused", left=tried.left)
-            self.sheet.refuse(tried.left, round(tried.pause_s))
+            self.sheet.refuse(tried.left, rounded(tried.pause_s))
             return
         self._library.notes.program("unlocked")
         self.hides.emit(False)
@@ -145,7 +146,9 @@ class Locking(QObject):
                 if not tried.opened:
                     self._library.notes.program("pin_refused", left=tried.left)
                     words = self.tr("The current PIN is not right.")
-                    wait = self.tr("Too many tries. The next one in {seconds} s.").format(seconds=round(tried.pause_s))
+                    wait = self.tr("Too many tries. The next one in {seconds} s.").format(
+                        seconds=rounded(tried.pause_s)
+                    )
                     self.pin_sheet.said.say(wait if tried.pause_s else words)
                     return
             if new:

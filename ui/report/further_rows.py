@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from carpus.core.measures.together import TREMOR_LEAST_FPS
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.further_measures import FurtherMeasure
+from carpus.core.rounding import written
 from carpus.ui import numbers
 from carpus.ui.translate import say, tr
 
@@ -140,9 +141,9 @@ def _value(item: FurtherMeasure, value: float) -> str:
         side = tr("extension") if value >= 0 else tr("flexion")
         return f"{numbers.degrees(value)} {side}"
     if item.unit == "share":
-        return f"{100.0 * value:.0f}{gap}%"
+        return f"{written(100.0 * value)}{gap}%"
     if item.name == "touches":
-        return f"{value:.0f}"
+        return written(value)
     if item.name == "tremor 3-12 Hz":
         return f"{numbers.fixed(value, 1)}°"
     number = numbers.fixed(value, decimals).replace("-", "\N{MINUS SIGN}")

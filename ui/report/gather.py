@@ -53,7 +53,7 @@ def session_report(
         motion=motion_curves(session),
         markers=len(session.header.protocol.markers),
         pseudonym=pseudonym or session.header.subject_id or "–",
-        session_number=len(earlier) + 1 if history else 0,
+        session_number=sum(one.side == figures.side for one in newest_results(earlier)) + 1 if history else 0,
         dominance=dominance,
         therapist=therapist,
         previous=previous_of(history, figures),
@@ -96,8 +96,10 @@ def progress_report(
     by_hand: Sequence[HandValue] = (),
     form: ReportForm | None = None,
     language: str = "",
+    other_hand: SessionFigures | None = None,
 ) -> ProgressReport:
-    """The course of the newest session's exercise and hand; the other hand's last session beside it.
+    """The course of the newest session's exercise and hand; the other hand's last session beside it, which is
+    ``other_hand`` where that is none of the ``sessions``.
 
     ``what`` of the whole hand is followed, as of :func:`followed_kinds`; the first of them by itself.
     ``software_version`` is of the program that makes it, the newest session's where it is not given; ``by_hand`` what
@@ -107,7 +109,7 @@ def progress_report(
     alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
     kinds = followed_kinds(newest)
     followed = followed_keys(what if what is not None else kinds[0][0]) if kinds else ()
-    course = progress(alike, other_hand_of(sessions, newest), followed)
+    course = progress(alike, other_hand or other_hand_of(sessions, newest), followed)
     made_by = with_revision(software_version) if software_version else newest.software_version
     course = replace(course, by_hand=tuple(by_hand))
     name = pseudonym or newest.subject_id or "–"

@@ -10,6 +10,7 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.norms import Grade, GradedTotal, graded_totals, total_norm
 from carpus.core.results.progress import compare_rows
 from carpus.core.results.ranges import RangeRow, RowKey, finger_keys, spread_keys, thumb_keys
+from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name
@@ -77,7 +78,7 @@ def grade_words(grade: Grade | None) -> str:
 def _share_cell(graded: GradedTotal | None, row: RangeRow | None) -> FingerCell:
     if graded is None or row is None:
         return FingerCell("")
-    share = f"{100.0 * graded.share:.0f}{numbers.NARROW_GAP}%"
+    share = f"{written(100.0 * graded.share)}{numbers.NARROW_GAP}%"
     return FingerCell(f"{AT_LEAST}{numbers.NARROW_GAP}{share}" if row.limited else share, grade_words(graded.grade))
 
 

@@ -19,6 +19,7 @@ from carpus.core.results.norms import wrist_norm
 from carpus.core.results.progress import compare_rows
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.core.results.seen import JointCurves, ReportCurves
+from carpus.core.rounding import written
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
@@ -320,7 +321,7 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
     for k in range(-4, 5):
         value = k * step
         page.line((x(value), area_top), (x(value), area_top + height), "border" if k == 0 else "line")
-        label = f"{abs(value):.0f}°"
+        label = f"{written(abs(value))}°"
         page.text(label, x(value) - page.width_of(label, 8.5) / 2, area_top + height + 11, 8.5, REGULAR, "text2")
     for place, (name, shown, angle, thick, token) in enumerate(bars):
         middle = area_top + 10.5 + 15.0 * place

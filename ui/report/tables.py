@@ -10,6 +10,7 @@ from carpus.core.results.norms import wrist_norm
 from carpus.core.results.progress import Comparison, compare
 from carpus.core.results.ranges import RangeRow
 from carpus.core.results.repetition_rows import PASSIVE
+from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.plot.style import CURVE_TOKENS
 from carpus.ui.translate import say, tr
@@ -111,6 +112,7 @@ def _why_none(figures: SessionFigures) -> str:
         "too_short": tr("it is too short"),
         "nothing_seen": tr("what is trained was not seen"),
         "small_range": tr("less than 10° of movement"),
+        "cut_by_gap": tr("the hand went out of sight in each"),
         "no_return": tr("it never went there and back"),
         "too_quick": tr("each was quicker than 0.4 s"),
         None: "",
@@ -121,7 +123,7 @@ def _why_none(figures: SessionFigures) -> str:
 def _with_unseen(parts: list[str], figures: SessionFigures) -> str:
     """Nothing is counted where nothing was seen for long: that much of the recording is not in the number."""
     if figures.exercise.counts and figures.unseen_s >= 1.0:
-        seconds = f"{figures.unseen_s:.0f}"
+        seconds = written(figures.unseen_s)
         parts = [*parts, tr("{seconds} s not seen and not counted").format(seconds=seconds)]
     return "; ".join(parts)
 
@@ -207,10 +209,10 @@ def _trick_row(angle: int, figures: SessionFigures, previous: SessionFigures | N
 
 def _speed_row(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> TableRow:
     speed = figures.speed.peak_speed
-    spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
+    spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{written(speed.sd)}" if math.isfinite(speed.sd) else ""
     return TableRow(
         movement=tr("Peak speed"),
-        today=tr("too slow to judge") if too_slow(figures) else f"{speed.mean:.0f}{spread}°/s",
+        today=tr("too slow to judge") if too_slow(figures) else f"{written(speed.mean)}{spread}°/s",
         best="" if too_slow(figures) else numbers.speed(speed.best),
         other_hand=numbers.speed(other.speed.peak_speed.mean) if other else "",
         usual=numbers.UNKNOWN,
@@ -221,4 +223,4 @@ def _speed_row(figures: SessionFigures, previous: SessionFigures | None, other: 
 
 
 def _range(low: float, high: float) -> str:
-    return f"{low:.0f}°" if low == high else f"{low:.0f}–{high:.0f}°"
+    return f"{written(low)}°" if low == high else f"{written(low)}–{written(high)}°"

@@ -9,6 +9,7 @@ from datetime import datetime
 from carpus.core.hand.exercises import SIDES, STILL_RADIUS_MM
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, compare
+from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
 from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
@@ -79,7 +80,7 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
     """How it was measured, in three lines; ``compared``: the page speaks of measurement error, which is explained."""
     quality = figures.quality
     distance = (
-        f"{100 * quality.distance_m:.0f}{numbers.NARROW_GAP}cm"
+        f"{written(100 * quality.distance_m)}{numbers.NARROW_GAP}cm"
         if math.isfinite(quality.distance_m)
         else numbers.UNKNOWN
     )
@@ -228,8 +229,8 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
     speed, smooth = figures.speed.peak_speed, figures.speed.smoothness
     lines = []
     if speed.count:
-        spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
-        lines.append((tr("Peak speed, mean ± sd"), f"{speed.mean:.0f}{spread}°/s"))
+        spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{written(speed.sd)}" if math.isfinite(speed.sd) else ""
+        lines.append((tr("Peak speed, mean ± sd"), f"{written(speed.mean)}{spread}°/s"))
     elif too_slow(figures):
         lines.append((tr("Peak speed, mean ± sd"), tr("too slow to judge")))
     if figures.speed.too_slow_to_be_smooth and not smooth.count:

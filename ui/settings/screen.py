@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from carpus.core.about import is_newer
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.rounding import written
 from carpus.ui import terms
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.card import Card
@@ -47,7 +48,7 @@ class SettingsScreen(QWidget):
             preferences.theme,
         )  # fmt: skip
         self.text_scale = Choices(
-            theme, [(scale, f"{100 * scale:.0f} %") for scale in TEXT_SCALES], preferences.text_scale
+            theme, [(scale, f"{written(100 * scale)} %") for scale in TEXT_SCALES], preferences.text_scale
         )
         self.language = Choices(
             theme, [*LANGUAGES.items(), ("system", self.tr("As the computer"))], preferences.language

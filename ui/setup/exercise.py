@@ -14,6 +14,7 @@ from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
 from carpus.core.records.set_up import PRACTICE_PATIENT, ExerciseSet, SetUp, begun
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import GoalProposal, Goals, proposals
+from carpus.core.rounding import written
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import ENTER, Button, is_enter, press
@@ -145,7 +146,7 @@ class ExerciseScreen(QWidget):
         if math.isfinite(mb_per_minute):
             pattern = self.tr("Needed to see and correct markers later: {size} MB a minute, room for {time}.")
             self.pictures_cost.setText(
-                pattern.format(size=f"{mb_per_minute:.0f}", time=numbers.room_left(room_minutes))
+                pattern.format(size=written(mb_per_minute), time=numbers.room_left(room_minutes))
             )
         self._row, self._goals, self._history = row, goals or {}, ()
         if last is not None:

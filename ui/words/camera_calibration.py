@@ -10,6 +10,7 @@ from carpus.core.calibration.camera.board import BOARDS, Board, Pattern
 from carpus.core.calibration.camera.calibrate import FAIR_PX, GOOD_PX, MOST_APART_PX, CameraCalibration, DepthCheck
 from carpus.core.calibration.camera.sheet import RULER_MM, Paper
 from carpus.core.calibration.camera.views import FEWEST_FIELDS, FEWEST_SIDES, FIELDS, SIDES, Judgement, Lack, side_name
+from carpus.core.rounding import written
 from carpus.ui import numbers
 from carpus.ui.icons import State
 from carpus.ui.translate import say, tr
@@ -37,7 +38,7 @@ def there_rows(judged: Judgement) -> list[tuple[State, str]]:
     tilts = tr("Tilts: {side} missing").format(side=say(side_name(missing[0]))) if missing else tr("Tilts: all sides")
     away = tr("Distance: near and far missing")
     if judged.is_near_and_far:
-        near, far = (f"{100 * one:.0f}" for one in (judged.nearest_m, judged.farthest_m))
+        near, far = (written(100 * one) for one in (judged.nearest_m, judged.farthest_m))
         away = tr("Distance: {near}–{far} cm").format(near=near, far=far)
     reached = (judged.fields >= FEWEST_FIELDS, len(judged.sides) >= FEWEST_SIDES, judged.is_near_and_far)
     return [("good" if one else "partly", words) for one, words in zip(reached, (places, tilts, away), strict=True)]
@@ -105,7 +106,7 @@ def result_rows(made: CameraCalibration) -> list[tuple[State, str, str, str]]:
     if depth is None:
         return [*rows, ("warn", tr("Depth"), numbers.UNKNOWN, tr("too few pictures with depth on the board"))]
     scale = f"{numbers.signed(100 * (depth.scale - 1.0), 2)} ± {numbers.fixed(100 * depth.scale_sd, 2)} %"
-    registered = tr("good: below {most} px").format(most=f"{MOST_APART_PX:.0f}")
+    registered = tr("good: below {most} px").format(most=written(MOST_APART_PX))
     return [
         *rows,
         ("good", tr("Depth scale"), scale, tr("put right") if made.is_usable else ""),

@@ -9,6 +9,7 @@ from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, Progress, ProgressPoint
 from carpus.core.results.ranges import is_total
+from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
 from carpus.ui.figures import figure_of
@@ -142,7 +143,7 @@ def unfair_words(point: ProgressPoint, progress: Progress) -> str:
         step_cm = 100 * (point.figures.quality.distance_m - first.quality.distance_m) if first else math.nan
         pattern = tr("camera {step} cm further away") if step_cm > 0 else tr("camera {step} cm nearer")
         words = {
-            "distance": pattern.format(step=f"{abs(step_cm):.0f}"),
+            "distance": pattern.format(step=written(abs(step_cm))),
             "forearm_moved": tr("the forearm moved {distance}").format(
                 distance=numbers.millimetres(point.figures.quality.forearm_mm)
             ),

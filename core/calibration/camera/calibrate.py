@@ -20,6 +20,7 @@ from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
 from carpus.core.phrase import phrase
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 
 MOST_APART_PX = 2.0
@@ -65,9 +66,9 @@ class DepthCheck:
         share = 100.0 * (self.scale - 1.0)
         if abs(share) < 0.05 and abs(self.offset_m) < 0.5e-3:
             return "Depth reads right."
-        shift = f" and {abs(self.offset_m) * 1e3:.1f} mm too {'long' if self.offset_m > 0 else 'short'}"
+        shift = f" and {written(abs(self.offset_m) * 1e3, 1)} mm too {'long' if self.offset_m > 0 else 'short'}"
         shift = shift if math.isfinite(self.offset_sd_m) else ""
-        return f"Depth reads {abs(share):.1f} % too {'long' if share > 0 else 'short'}{shift}."
+        return f"Depth reads {written(abs(share), 1)} % too {'long' if share > 0 else 'short'}{shift}."
 
 
 def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
@@ -211,13 +212,13 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
             subject,
             phrase(
                 "corners lie {error_px} px off, at most {most_px} are fair",
-                error_px=f"{fit.error_px:.1f}",
+                error_px=written(fit.error_px, 1),
                 most_px=f"{MOST_PX:g}",
             ),
         )
     if fit.focal_sd_px > MOST_FOCAL_SD * fit.camera.fx_px:
         share = 100.0 * fit.focal_sd_px / fit.camera.fx_px
-        raise BoardViewsAlike(subject, phrase("the focal length is known to {share} % only", share=f"{share:.1f}"))
+        raise BoardViewsAlike(subject, phrase("the focal length is known to {share} % only", share=written(share, 1)))
     return fit
 
 
@@ -276,20 +277,24 @@ def calibrate_camera(views: Sequence[BoardView], before: Camera, subject: str) -
 def calibration_lines(made: CameraCalibration) -> list[str]:
     """The result for people, one line each."""
     found, before, depth = made.intrinsics, made.before, made.depth
-    camera, focal = found.camera, f"{found.camera.fx_px:.1f} x {found.camera.fy_px:.1f}"
-    middle = f"{camera.cx_px:.1f}, {camera.cy_px:.1f}"
-    near, far = (f"{distance_m * 100:.0f}" for distance_m in (made.judgement.nearest_m, made.judgement.farthest_m))
+    camera, focal = found.camera, f"{written(found.camera.fx_px, 1)} x {written(found.camera.fy_px, 1)}"
+    middle = f"{written(camera.cx_px, 1)}, {written(camera.cy_px, 1)}"
+    was_focal = f"{written(before.fx_px, 1)} x {written(before.fy_px, 1)}"
+    was_middle = f"{written(before.cx_px, 1)}, {written(before.cy_px, 1)}"
+    near, far = (written(distance_m * 100) for distance_m in (made.judgement.nearest_m, made.judgement.farthest_m))
     out = [
         f"Board: {made.board}, {len(found.used)} pictures, {near} to {far} cm away",
-        f"Lines land within {found.error_px:.2f} px ({found.error_in_words})",
-        f"Focal length: {focal} ± {found.focal_sd_px:.1f} px (was {before.fx_px:.1f} x {before.fy_px:.1f})",
-        f"Middle of the picture: {middle} ± {found.middle_sd_px:.1f} px (was {before.cx_px:.1f}, {before.cy_px:.1f})",
+        f"Lines land within {written(found.error_px, 2)} px ({found.error_in_words})",
+        f"Focal length: {focal} ± {written(found.focal_sd_px, 1)} px (was {was_focal})",
+        f"Middle of the picture: {middle} ± {written(found.middle_sd_px, 1)} px (was {was_middle})",
     ]
     if depth is None:
         return [*out, "Depth: not checked, too few pictures with depth on the board"]
-    shift = f"shift {depth.offset_m * 1e3:+.1f} ± {depth.offset_sd_m * 1e3:.1f} mm"
+    shift = f"shift {depth.offset_m * 1e3:+.1f} ± {written(depth.offset_sd_m * 1e3, 1)} mm"
     shift = shift if math.isfinite(depth.offset_sd_m) else "no sure shift"
-    out.append(f"{depth.in_words()} Scale {100.0 * (depth.scale - 1.0):+.2f} ± {100.0 * depth.scale_sd:.2f} %, {shift}")
+    out.append(
+        f"{depth.in_words()} Scale {100.0 * (depth.scale - 1.0):+.2f} ± {written(100.0 * depth.scale_sd, 2)} %, {shift}"
+    )
     apart = float((depth.apart_px**2).sum() ** 0.5)
     judged = f"good: below {MOST_APART_PX:g} px" if depth.is_registered else "depth does not lie on colour"
-    return [*out, f"Colour and depth: {apart:.1f} ± {depth.apart_sd_px:.1f} px apart ({judged})"]
+    return [*out, f"Colour and depth: {written(apart, 1)} ± {written(depth.apart_sd_px, 1)} px apart ({judged})"]

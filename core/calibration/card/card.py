@@ -13,6 +13,7 @@ import numpy as np
 
 from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Mark, Paper, PrintedSheet, SheetLine, SheetText, ruler
 from carpus.core.phrase import Phrase, phrase
+from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 
 BLUE = "#2648A5"
@@ -206,8 +207,8 @@ class CardReading:
 
 def verdict_sentence(reading: CardReading) -> Phrase:
     """What a check says, for people."""
-    angle, length = f"{reading.angle_error_deg:.1f}", f"{reading.length_error_mm:.1f}"
-    limits = {"most_angle": f"{reading.most_angle_deg:.1f}", "most_length": f"{reading.most_length_mm:.1f}"}
+    angle, length = written(reading.angle_error_deg, 1), written(reading.length_error_mm, 1)
+    limits = {"most_angle": written(reading.most_angle_deg, 1), "most_length": written(reading.most_length_mm, 1)}
     if reading.holds:
         return phrase(
             "The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and "
@@ -218,7 +219,7 @@ def verdict_sentence(reading: CardReading) -> Phrase:
         )
     angles = phrase("angles are {angle}° off", angle=angle)
     share = 100.0 * (reading.scale - 1.0)
-    off = {"share": f"{abs(share):.1f}", "length": length}
+    off = {"share": written(abs(share), 1), "length": length}
     lengths = phrase("all lengths are {share} % too short, the worst by {length} mm", **off)
     if share > 0:
         lengths = phrase("all lengths are {share} % too long, the worst by {length} mm", **off)
@@ -228,6 +229,6 @@ def verdict_sentence(reading: CardReading) -> Phrase:
     return phrase(
         "The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).",
         what=what,
-        most_share=f"{100.0 * MOST_SCALE:.1f}",
+        most_share=written(100.0 * MOST_SCALE, 1),
         **limits,
     )

@@ -39,6 +39,7 @@ from carpus.core.errors import (
     OtherCamera,
     PicturesEnlarged,
 )
+from carpus.core.rounding import written
 from carpus.core.types import Frame
 
 SIZE_PX = (640, 480)
@@ -133,7 +134,7 @@ class ProcessCamera:
             away_s = self._wait_for_return(lost)
             if away_s is None:
                 return
-            self._notice(CameraReturned(self._info.name, f"{away_s:.0f} s"))
+            self._notice(CameraReturned(self._info.name, f"{written(away_s)} s"))
 
     def close(self) -> None:
         """Give the camera back; may be called twice, and while another thread waits for a frame."""

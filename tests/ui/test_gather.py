@@ -1,0 +1,33 @@
+"""What the reports are gathered from: the hand's own sessions, and the other hand beside them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from carpus.ui.live.light import Behind, behind_lamp
+from carpus.ui.report.gather import progress_report, session_report
+from tests.ui.fakes import FakeFeed, FakeSessions
+
+
+def test_the_number_of_a_session_counts_the_sessions_of_its_hand() -> None:
+    store = FakeSessions()
+    report = session_report(store.session("session-7"), history=store.history("linden"))
+    assert {one.side for one in store.history("linden")} == {"left", "right"}
+    assert report.session_number == 7
+
+
+def test_the_report_of_progress_shows_the_other_hand_that_the_screen_shows() -> None:
+    history = FakeSessions().history("linden")
+    right, (left,) = [one for one in history if one.side == "right"], [one for one in history if one.side == "left"]
+    assert progress_report(right).progress.other_hand is None
+    assert progress_report(right, other_hand=left).progress.other_hand is left
+    assert progress_report(history).progress.other_hand is left
+
+
+def test_pictures_that_never_came_are_not_told_as_kept() -> None:
+    counters, behind = FakeFeed().counters(), Behind()
+    behind.late_s = 4.0
+    behind.count(replace(counters, missing=380))
+    assert "every picture is kept" in behind_lamp(behind, recording=True).remedy
+    behind.count(replace(counters, missing=383))
+    assert behind_lamp(behind, recording=True).remedy == "3 pictures are missing: close other programs"
