@@ -62,7 +62,7 @@ def test_a_session_is_told_in_plain_lines(tmp_path: Path) -> None:
     assert "--json" in told["Settings"]
     assert not any(line.startswith("{") or " {" in line for line in lines)
     assert told["Origin"] == "tracked again from earlier.h5"
-    assert "hand 183 mm, 0.70 m from the camera, tilted 12°" in told["Calibration"]
+    assert "hand 183 mm, 0.70 m from the camera, tilted 13°" in told["Calibration"]
     assert "fx 570.25" in told["Camera"]
     assert sum(line.endswith("not measured") for line in lines) == 3, "three frames are no range"
     text = "\n".join(lines)
