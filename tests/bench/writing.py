@@ -10,7 +10,8 @@ import numpy as np
 
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.session.writer import SessionWriter
+from carpus.core.records.recordings import write_session
+from carpus.core.session.journal import RecordingJournal
 from carpus.core.simulation.recording import cached_recording
 from tests.bench.timing import HEAD, Times, line
 from tests.bench.tracking import ORDINARY, frames_of
@@ -25,24 +26,23 @@ def report() -> Iterator[str]:
         folder = Path(name)
         appended, closed = Times(), Times()
         rows = [make_frame(row) for row in range(ROWS)]
-        clock = iter(np.arange(0.0, 1e6, 1.0 / 30.0))  # the clock of a camera: a flush every 0.8 s of it
-        writer = SessionWriter.create(
-            folder / "rows.h5", make_header(), CAMERA, make_calibration(), clock=lambda: float(next(clock))
-        )
+        journal = RecordingJournal(folder / "rows.journal", make_header(), CAMERA, make_calibration())
         for row in rows:
             with appended.measured():
-                writer.append(row)
+                journal.append(row)
+        journal.close()
         with closed.measured():
-            writer.close()
-        size = (folder / "rows.h5").stat().st_size
-        yield f"Storing one minute of wrist rows: {size / 1e6:.1f} MB"
+            session = write_session(journal.path)
+        assert session is not None
+        sizes = f"{session.stat().st_size / 1e6:.1f} MB from a journal of {journal.path.stat().st_size / 1e6:.1f} MB"
+        yield f"Storing one minute of wrist rows: {sizes}"
         yield HEAD
         mean = float(np.mean(appended.cpu_ms))
         slowest = max(appended.wall_ms)
         yield line(
             "row of a session", appended.cpu_ms, note=f"mean {mean:.3f}; longest wait for the disk {slowest:.0f} ms"
         )
-        yield line("closing the session", closed.cpu_ms)
+        yield line("the session of a journal, at once", closed.cpu_ms)
         recording = cached_recording(ORDINARY, workers=2)
         pictures = Times()
         raw = RawWriter(folder / "raw.carpusraw", TumFolder(recording).info)

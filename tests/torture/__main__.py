@@ -19,7 +19,7 @@ for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-from tests.torture import backup_kills, kills, mutations, store_kills, two_programs  # noqa: E402
+from tests.torture import backup_kills, kills, mutations, store_kills, two_programs, write_kills  # noqa: E402
 from tests.torture.readers import Outcome, Reader  # noqa: E402
 
 MOST_S, MOST_BYTES = 2.0, 1_000_000_000
@@ -131,15 +131,17 @@ def live_lines(minutes: float, folder: Path) -> Iterator[str]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.torture", description=__doc__)
-    parser.add_argument("parts", nargs="*", help="kills, backups, records, two, mutations, start; or live")
+    parser.add_argument("parts", nargs="*", help="kills, writes, backups, records, two, mutations, start; or live")
     parser.add_argument("--kills", type=int, default=17, help="of each of six kinds")
+    parser.add_argument("--every", type=int, default=1, help="of the steps at which the writing is killed")
+    parser.add_argument("--random", type=int, default=1000, help="kills of the writing by the clock")
     parser.add_argument("--backup-kills", type=int, default=100, help="of each of three kinds")
     parser.add_argument("--record-kills", type=int, default=100, help="of each of four kinds")
     parser.add_argument("--files", type=int, default=2000, help="damaged files of each of eight kinds")
     parser.add_argument("--minutes", type=float, default=30.0, help="of two programs; of the live part twice that")
     parser.add_argument("--changes", type=int, default=10_000, help="of the two programs")
     told = parser.parse_args()
-    parts = told.parts or ["kills", "backups", "records", "two", "mutations", "start"]
+    parts = told.parts or ["kills", "writes", "backups", "records", "two", "mutations", "start"]
     print(f"{platform.platform()}, Python {platform.python_version()}, {os.cpu_count()} processors", flush=True)
     print(f"load at the start {os.getloadavg()[0]:.1f}", flush=True)
     wrong: list[Outcome] = []
@@ -147,6 +149,9 @@ def main() -> int:
         folder = Path(name)
         if "kills" in parts:
             for line in kill_lines(told.kills, folder):
+                print(line, flush=True)
+        if "writes" in parts:
+            for line in write_kills.lines(told.every, told.random, folder / "writes"):
                 print(line, flush=True)
         if "backups" in parts:
             for kind in backup_kills.KINDS:
