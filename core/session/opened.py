@@ -187,6 +187,13 @@ def _version(file: h5py.File) -> int:
     return int(file.attrs.get("format_version", 0))
 
 
+def _sensor(path: Path, said: str | None) -> DepthSensor:
+    try:
+        return ASSUMED_SENSOR if said is None else sensor_of(json.loads(said))
+    except ValueError as cause:
+        raise SessionUnreadable(path, phrase("damaged: depth sensor, {cause}", cause=cause)) from cause
+
+
 class _Source:
     """One open session: its header, and its datasets checked against the schema."""
 
@@ -410,15 +417,9 @@ class _Source:
             height_px=int(said["height"]),
             distortion=lens,
             origin=str(said.get("origin", "file")),
-            sensor=self._sensor(said.get("depth_sensor")),
+            sensor=_sensor(self._path, said.get("depth_sensor")),
             distortion_model=known,
         )
-
-    def _sensor(self, said: str | None) -> DepthSensor:
-        try:
-            return ASSUMED_SENSOR if said is None else sensor_of(json.loads(said))
-        except ValueError as cause:
-            raise SessionUnreadable(self._path, phrase("damaged: depth sensor, {cause}", cause=cause)) from cause
 
     def _calibration(self) -> Calibration:
         arrays = {field.attribute: self.array(field) for field in schema.CALIBRATION_FIELDS}
