@@ -79,13 +79,17 @@ class SessionDraft:
     def __init__(self, journal: Path) -> None:
         self._journal = JournalReader(journal)
         self._target = journal.with_suffix(".h5")
+        self._is_written = _is_session(self._target, self._journal.session_id)
+        """Whether a program was killed after the session had its name, and before the journal went."""
         self._writer: SessionWriter | None = None
 
     def read(self) -> None:
         """Take what the journal has by now."""
         image = self._journal.image
+        if image is None or self._is_written:
+            return
         for kind, content in self._journal.read():
-            if image is None or kind not in (b"ROWS", b"SMOO"):
+            if kind not in (b"ROWS", b"SMOO"):
                 continue
             try:
                 blocks = unpack_arrays(content)
@@ -102,12 +106,12 @@ class SessionDraft:
 
     def finish(self, recovered: str = "") -> Path | None:
         """Write all of it; the file's path, None where there is no frame."""
+        if self._is_written:
+            return self._target
         self.read()
         writer = self._writer
         if writer is None or not len(writer):
             return None
-        if _is_session(self._target, writer.session_id):  # ended after it had its name
-            return self._target
         if writer.smoothed_rows != len(writer):  # half of a smoother's result is none
             writer.drop_smoothed()
         try:
@@ -174,7 +178,8 @@ def _recover_journal(path: Path, when: str) -> Path | None:
     if own is None:
         return path
     with own:
-        remove_leftovers(path.with_suffix(".h5"), after_s=0.0)
+        for name in (path.with_suffix(".h5"), free_name(path.with_suffix(".h5"))):
+            remove_leftovers(name, after_s=0.0)
         target = write_session(path, when)
     path.unlink(missing_ok=True)
     sync_folder(path.parent)

@@ -12,6 +12,7 @@ u32 number, u32 length, u32 CRC-32 of the content, u32 CRC-32 of these 16 bytes,
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import struct
@@ -24,6 +25,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO, Self
 
+import h5py
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
@@ -200,6 +202,14 @@ class JournalReader:
             self._count += 1
             if zlib.crc32(content) == content_sum:
                 yield kind, content
+
+    @property
+    def session_id(self) -> str:
+        """Of the session; empty where the recording ended before that was stored."""
+        if self.image is None:
+            return ""
+        with h5py.File(io.BytesIO(self.image), "r") as file:
+            return str(file.attrs["session_id"])
 
     def close(self) -> None:
         """May be called twice."""

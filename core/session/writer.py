@@ -77,10 +77,6 @@ class SessionWriter(Writing):
         """Begin a session that is to become ``path``. With ``raw_depth_unit_m`` every frame brings its pictures."""
         return cls(path, empty_session(header, camera, calibration, raw_depth_unit_m))
 
-    @property
-    def session_id(self) -> str:
-        return str(self._file.attrs["session_id"])
-
     def __len__(self) -> int:
         """Frames taken so far."""
         return self._rows.get(_TIMES, 0) + len(self._frames)

@@ -228,7 +228,8 @@ def run_killed_after(
         owner = os.getpid()
         if os.fork() == 0:
             time.sleep(after_s)
-            os.kill(owner, signal.SIGKILL)
+            if os.getppid() == owner:  # it has not ended by itself
+                os.kill(owner, signal.SIGKILL)
             os._exit(0)
         return lambda: 1
 
