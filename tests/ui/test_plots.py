@@ -30,7 +30,7 @@ from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.series import Curve, Series, longest_step_s, paint_curves
+from carpus.ui.plot.series import Curve, Drawing, Series, longest_step_s
 from carpus.ui.plot.session import SessionPlot, paint_session, thinned
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.plot.style import RIGHT_MIDDLE, screen_style, write
@@ -251,7 +251,7 @@ def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, rat
     image.fill(QColor("white"))
     painter = QPainter(image)
     panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), start_s, end_s)
-    paint_curves(painter, screen_style(theme), panel, [Curve(series, "curve_a")])
+    Drawing(screen_style(theme), [(panel, [Curve(series, "curve_a")])]).paint(painter, screen_style(theme), 0)
     painter.end()
     return pixels(image)[..., :3].astype(np.float64)
 
@@ -400,9 +400,9 @@ def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_
     sure, picture = np.zeros(len(time_s), dtype=bool), QImage(600, 120, QImage.Format.Format_RGB32)
     with QPainter(picture) as painter:
         curves = [Curve(Series(time_s, value + off, None, sure), "curve_a") for off in (0.0, 3.0, 1.0)]
-        numbered = paint_curves(painter, screen_style(theme), panel, curves)
+        numbered = Drawing(screen_style(theme), [(panel, curves)]).paint(painter, screen_style(theme), 0)
         hidden = Curve(Series(time_s, value, None, value > 80.0), "curve_a")
-        assert paint_curves(painter, screen_style(theme), panel, [hidden]) == []
+        assert Drawing(screen_style(theme), [(panel, [hidden])]).paint(painter, screen_style(theme), 0) == []
     assert len(numbered) > 2
     for i, one in enumerate(numbered):
         assert one.right() <= 600.0

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QWidget
 
-from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.layouts import empty, in_grid
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, caption
@@ -18,21 +16,17 @@ LEAST_LETTERS, MOST_LETTERS = 6, 28
 
 
 class WordsTable(QWidget):
-    """The first column names the row; where a row has a key its name is a button, and ``opened`` carries that key."""
-
-    opened = Signal(str)
+    """The first column names the row."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
         self.rows: tuple[tuple[str, ...], ...] = ()
-        self.buttons: tuple[Button, ...] = ()
         self._grid = in_grid(10, 4, margins=(0, 0, 0, 0), within=self)
 
-    def show_rows(self, heads: Sequence[str], rows: Sequence[tuple[str, ...]], keys: Sequence[str] = ()) -> None:
+    def show_rows(self, heads: Sequence[str], rows: Sequence[tuple[str, ...]]) -> None:
         empty(self._grid)
         self.rows = tuple(rows)
-        self.buttons = tuple(self._button(row[0], key) for row, key in zip(rows, keys, strict=False))
         for column, head in enumerate(heads):
             self._grid.addWidget(caption(self._theme, head, wrap=True), 0, column)
             words = max((line for cells in (heads, *rows) for line in cells[column].split("\n")), key=len, default="")
@@ -40,14 +34,7 @@ class WordsTable(QWidget):
         for number, row in enumerate(rows):
             self._grid.addWidget(Line(self._theme), 2 * number + 1, 0, 1, len(heads))
             for column, cell in enumerate(row):
-                shown: QWidget = Text(self._theme, cell, 14, REGULAR if column else MEDIUM, wrap=True)
-                shown = self.buttons[number] if not column and self.buttons else shown
-                left = Qt.AlignmentFlag.AlignLeft if isinstance(shown, Button) else Qt.AlignmentFlag(0)
-                self._grid.addWidget(shown, 2 * number + 2, column, left)
+                shown = Text(self._theme, cell, 14, REGULAR if column else MEDIUM, wrap=True)
+                self._grid.addWidget(shown, 2 * number + 2, column)
         spoken = ("; ".join(f"{head} {cell}" for head, cell in zip(heads, row, strict=True) if cell) for row in rows)
         self.setAccessibleName(". ".join(spoken))
-
-    def _button(self, name: str, key: str) -> Button:
-        button = Button(self._theme, name, "quiet", height_px=36)
-        button.clicked.connect(lambda: self.opened.emit(key))
-        return button

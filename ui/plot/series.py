@@ -80,11 +80,6 @@ class Curve:
     """Of the usual width of a line."""
 
 
-def paint_curves(painter: QPainter, style: PlotStyle, panel: Panel, curves: Sequence[Curve]) -> list[QRectF]:
-    """All curves of a panel. Returns where the numbers of what is beyond its scale stand."""
-    return Drawing(style, [(panel, curves)]).paint(painter, style, 0)
-
-
 class Drawing:
     """The curves of some panels in painter units, one after the other: what they cost in Python is paid once for all.
 

@@ -35,7 +35,7 @@ def ensure_application() -> QGuiApplication:
 
 
 def write_sheets(output_path: Path, sheets: Sequence[PrintedSheet], title: str) -> Path:
-    """Write sheets to print, each in its own size, in millimetres as drawn; faults as above."""
+    """Write sheets to print, each in its own size, in millimetres as drawn; faults as of :func:`write_report`."""
     pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _painting(sheet)) for sheet in sheets]
     return _write_pages(output_path, pages, title)
 

@@ -48,10 +48,6 @@ class Option(QPushButton):
         self.setAccessibleDescription(" ".join(part for part in (sentence, words) if part))
         self.updateGeometry()
 
-    @property
-    def state_words(self) -> str:
-        return self._state.text()
-
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Qt's group moves the choice with the arrows."""
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
