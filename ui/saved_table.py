@@ -9,7 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QLocale
 
-from carpus.core.formats.new_output import TableForm, new_bytes, write_rows
+from carpus.core.formats.new_output import TableForm, look_for_folder, new_bytes, write_rows
 from carpus.ui import language
 
 OFFERED = ("en_GB", "en_US", "de_DE", "de_AT", "de_CH", "it_IT", "it_CH")
@@ -45,6 +45,7 @@ def table_bytes(head: Sequence[str], rows: Iterable[Iterable[object]]) -> bytes:
 def save_private(path: Path, content: bytes) -> None:
     """Write a file that nobody else may read, in place of what is there. Raises :class:`DiskFull` or
     :class:`OutputNotWritable`; then what was there stays."""
+    look_for_folder(path)
     with new_bytes(path, replaces=True) as file:
         file.write(content)
 
