@@ -17,9 +17,8 @@ from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.devices.capture_child import Alive, Arrived, Opened, why_unlisted
 from carpus.core.capture.devices.capture_process import CaptureProcess
 from carpus.core.capture.devices.openni2 import CallFailed, Picture
-from carpus.core.capture.devices.openni2_camera import agreed_size
+from carpus.core.capture.devices.openni2_camera import MODELS, agreed_size
 from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
-from carpus.core.capture.devices.xtion import MODELS
 from carpus.core.capture.frame_assembly import (
     TOLERANCE_US,
     Assembler,

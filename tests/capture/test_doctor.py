@@ -11,7 +11,7 @@ import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture import doctor
-from carpus.core.capture.devices import openni2_camera, realsense, xtion
+from carpus.core.capture.devices import openni2_camera, realsense
 from carpus.core.capture.devices.cameras import CameraKind, camera_kind
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import examine
@@ -98,9 +98,9 @@ def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_rules_of_the_system(tmp_path: Path) -> None:
-    assert doctor.rules_finding(xtion.KIND, (tmp_path / "none", tmp_path)).state == "warning"
+    assert doctor.rules_finding(openni2_camera.KIND, (tmp_path / "none", tmp_path)).state == "warning"
     (tmp_path / "60-camera.rules").write_text('SUBSYSTEM=="usb", ATTR{idVendor}=="1D27", MODE="0666"\n')
-    assert doctor.rules_finding(xtion.KIND, (tmp_path,)).state == "good"
+    assert doctor.rules_finding(openni2_camera.KIND, (tmp_path,)).state == "good"
     assert doctor.rules_finding(camera_kind("orbbec"), (tmp_path,)).state == "warning"
     (tmp_path / "70-graphics.rules").write_text('SUBSYSTEM=="drm", ATTRS{vendor}=="0x8086"\n')
     assert doctor.rules_finding(camera_kind("realsense"), (tmp_path,)).state == "warning"
@@ -112,7 +112,7 @@ def test_rules_of_the_system(tmp_path: Path) -> None:
 )
 def test_the_camera_on_the_bus(speed: int, may_open: bool, claimed: bool, state: str) -> None:
     camera = UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), speed, may_open, claimed)
-    finding = doctor.camera_finding(xtion.KIND, camera)
+    finding = doctor.camera_finding(openni2_camera.KIND, camera)
     assert finding.state == state
     assert "1d27:0601" in finding.found
 
@@ -172,7 +172,7 @@ def test_a_camera_of_one_kind_excuses_what_another_lacks(monkeypatch: pytest.Mon
         return Finding("Driver", "bad", "not found", "Install it.")
 
     there = UsbCamera("Intel RealSense D435", "8086", "0b07", Path("/dev/bus/usb/002/003"), 480, True, False)
-    without = replace(xtion.KIND, driver=lacking)
+    without = replace(openni2_camera.KIND, driver=lacking)
     monkeypatch.setattr(CameraKind, "seen", lambda kind: [there] if kind is realsense.KIND else [])
     monkeypatch.setattr(doctor, "_kinds", lambda: [without, realsense.KIND])
     assert [each.state for each in doctor.drivers_findings(asks_version=False)] == ["warning", "good"]

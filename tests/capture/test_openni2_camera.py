@@ -16,7 +16,6 @@ from carpus.core.camera import Camera
 from carpus.core.capture.devices.capture_child import CameraPlan
 from carpus.core.capture.devices.openni2_camera import open_openni2
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.capture.devices.xtion import MODELS
 from carpus.core.errors import (
     CameraFileUnreadable,
     CameraLost,
@@ -35,7 +34,7 @@ PERIOD_S = 0.033
 
 @pytest.fixture
 def camera(told: list[CarpusFault]) -> Iterator[ProcessCamera]:
-    source = open_openni2(models=MODELS, uri="Dummy", notice=told.append)
+    source = open_openni2(uri="Dummy", notice=told.append)
     yield source
     source.close()
 
@@ -89,7 +88,7 @@ def test_facts_about_a_camera(camera: ProcessCamera) -> None:
 
 def test_stop_and_start_again() -> None:
     for _ in range(2):
-        source = open_openni2(models=MODELS, uri="Dummy")
+        source = open_openni2(uri="Dummy")
         assert_rising(list(islice(source.frames(), 3)))
         source.close()
         source.close()
@@ -193,17 +192,17 @@ def test_closing_ends_the_wait_for_a_lost_camera(camera: ProcessCamera) -> None:
 
 def test_no_camera_is_a_fault() -> None:
     with pytest.raises(CameraMissing):
-        open_openni2(models=MODELS, uri="1d27/0601@9/9")
+        open_openni2(uri="1d27/0601@9/9")
     with pytest.raises(CameraMissing):
-        open_openni2(models=MODELS)
+        open_openni2()
 
 
 def test_measured_intrinsics_are_used(told: list[CarpusFault]) -> None:
     measured = Camera(530.0, 531.0, 318.0, 241.0, distortion=(0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
-    source = open_openni2(models=MODELS, uri="Dummy", camera=measured)
+    source = open_openni2(uri="Dummy", camera=measured)
     found = source.info.camera
     source.close()
     assert (found.fx_px, found.cx_px, found.cy_px) == (265.0, (318.5 / 2) - 0.5, (241.5 / 2) - 0.5)
     assert (found.distortion, found.origin) == (measured.distortion, "file")
     with pytest.raises(CameraFileUnreadable):
-        open_openni2(models=MODELS, uri="Dummy", camera=Camera(500.0, 500.0, 320.0, 256.0, 640, 512))
+        open_openni2(uri="Dummy", camera=Camera(500.0, 500.0, 320.0, 256.0, 640, 512))

@@ -24,7 +24,7 @@ from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.capture.camera_info import sidecar_path
-from carpus.core.capture.devices import xtion
+from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.pipeline import measuring
@@ -311,7 +311,7 @@ def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_tha
     def missing(**_: object) -> None:
         raise CameraMissing("", "no device")
 
-    monkeypatch.setattr(xtion, "KIND", replace(xtion.KIND, open=missing))
+    monkeypatch.setattr(openni2_camera, "KIND", replace(openni2_camera.KIND, open=missing))
     journey.camera.context.camera.stop()  # its next look would find none
     journey.camera.screen.set_camera_ready(True)
     click(qtbot, journey.camera.screen.sources.option("camera"))

@@ -130,7 +130,7 @@ class CameraKind:
 
 
 CAMERAS = {
-    "xtion": "xtion",
+    "xtion": "openni2_camera",
     "realsense": "realsense",
     "orbbec": "orbbec",
 }

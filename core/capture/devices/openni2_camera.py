@@ -1,5 +1,5 @@
-"""A live camera that speaks OpenNI2: the library on this computer, how the camera is opened inside the capture process
-and why it could not be, and what is handed on of what it sends."""
+"""The ASUS Xtion and its PrimeSense relatives, by OpenNI2: the library on this computer, how the camera is opened
+inside the capture process and why it could not be, and what is handed on of what it sends."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ import ctypes
 import math
 import sys
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from carpus.core.camera import Camera
+from carpus.core.capture.devices.cameras import CameraKind
 from carpus.core.capture.devices.capture_child import (
     WAIT_MS,
     CameraPlan,
@@ -39,6 +40,13 @@ from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed, DriverMissing
 from carpus.core.installing import Finding
 from carpus.core.phrase import phrase
+
+MODELS = {
+    ("1d27", "0500"): "PrimeSense Carmine",
+    ("1d27", "0600"): "Asus Xtion Pro Live",
+    ("1d27", "0601"): "Asus Xtion Pro Live",
+    ("1d27", "0609"): "PrimeSense Carmine 1.09",
+}
 
 
 def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
@@ -220,14 +228,13 @@ def agreed_size(picture: Picture, mode: VideoMode) -> int | None:
 
 def open_openni2(
     *,
-    models: Mapping[tuple[str, str], str],
     uri: str | None = None,
     camera: Camera | None = None,
     patience_s: float = math.inf,
     notice: Notice = ignore,
 ) -> ProcessCamera:
-    """The first camera among ``models`` (names by USB vendor and product), or the one at OpenNI2's ``uri``."""
-    plan = CameraPlan(size_px=SIZE_PX, models=models, uri=uri or "")
+    """The first camera of :data:`MODELS`, or the one at OpenNI2's ``uri``."""
+    plan = CameraPlan(size_px=SIZE_PX, models=MODELS, uri=uri or "")
     name = uri or "camera"
     return ProcessCamera(serve, plan, name, lambda _: PRIMESENSE, camera=camera, patience_s=patience_s, notice=notice)
 
@@ -260,3 +267,13 @@ def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
             phrase("Install it again."),
         )
     return Finding(phrase("Driver"), "good", phrase("OpenNI2 {value}", value=version))
+
+
+KIND = CameraKind(
+    title="Asus Xtion",
+    models=MODELS,
+    open=open_openni2,
+    driver=driver_finding,
+    needed_mbit=480,
+    port=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
+)
