@@ -19,7 +19,7 @@ from typing import Any
 from sqlalchemy import Select, insert, select, update
 
 from carpus.core.durable import make_private, sync_folder, write_fault
-from carpus.core.errors import BackupUnequal, CarpusFault, OutputExists
+from carpus.core.errors import BackupUnequal, OutputExists, RegisterUnreadable
 from carpus.core.records.backup import (
     BLOCK,
     SESSIONS_PREFIX,
@@ -33,7 +33,7 @@ from carpus.core.records.backup import (
     walk_files,
     write_hashed,
 )
-from carpus.core.records.changes import fingerprint
+from carpus.core.records.changes import ERASED, fingerprint
 from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.erasure import finish_erasing
 from carpus.core.records.log import Log
@@ -62,16 +62,17 @@ class RestorePlan:
 
 def read_past(place: Path, present: Store | None) -> Past:
     """Read what was done until now: in the store that is there, and as the newest backup of the place has it."""
-    stores = [*([present] if present else [])]
-    deeds, erased = dict[str, Mapping[str, Any]](), set[str]()
-    with suppress(CarpusFault), _newest_store(place) as newest:
-        stores += [newest] if newest else []
-        for store in stores:
-            rows = {str(row.id): dict(row._mapping) for row in store.rows(select(DEED))}
-            deeds |= rows
-            begun = {row["subject"] for row in rows.values() if row["did"] in ("erase_begun", "erased")}
-            erased |= begun - _prints(store)
-    return Past(tuple(deeds.values()), frozenset(erased - (_prints(present) if present else set()) - {""}))
+    known = _prints(present) if present is not None else set[str]()
+    past = [_past_of(present)] if present is not None else []
+    with suppress(BackupUnequal, RegisterUnreadable), _store_of(next(iter(backups(place)), None), place) as newest:
+        past += [_past_of(newest)] if newest is not None else []
+    deeds = {deed["id"]: deed for one in reversed(past) for deed in one.deeds}
+    return Past(tuple(deeds.values()), frozenset().union(*(one.erased for one in past)) - known)
+
+
+def _past_of(store: Store) -> Past:
+    deeds = tuple(dict(row._mapping) for row in store.rows(select(DEED)))
+    return Past(deeds, frozenset(str(row[0]) for row in store.rows(ERASED)) - _prints(store))
 
 
 def plan_restore(backup: Backup, place: Path, data_folder: Path, past: Past) -> RestorePlan:
@@ -230,21 +231,14 @@ def _prints(store: Store) -> set[str]:
 
 
 @contextmanager
-def _store_of(backup: Backup, place: Path) -> Iterator[Store | None]:
-    """The store that a backup holds, in memory."""
-    found = next((one for one in backup.files if one.path == STORE_FILE), None)
+def _store_of(backup: Backup | None, place: Path) -> Iterator[Store | None]:
+    """The store that a backup holds, in memory. Raises :class:`BackupUnequal`, :class:`RegisterUnreadable`."""
+    found = next((one for one in (backup.files if backup else ()) if one.path == STORE_FILE), None)
     if found is None:
         yield None
         return
-    with Store(place, copy=copied(find_object(place, found.sha256))) as store:
-        yield store
-
-
-@contextmanager
-def _newest_store(place: Path) -> Iterator[Store | None]:
-    there = backups(place)
-    if not there:
-        yield None
-        return
-    with _store_of(there[0], place) as store:
+    path = find_object(place, found.sha256)
+    if hash_of(path) != found.sha256:
+        raise BackupUnequal(found.sha256[:12], path.suffix)
+    with Store(place, copy=copied(path)) as store:
         yield store

@@ -314,9 +314,12 @@ def test_back_up_now_reminder_and_restore(
     assert "Session files added: 0, changed: 0, taken away: 0" in asked
     assert "erased since then stay erased: 1" in asked
     button = next(one for one in journey.messages.card.findChildren(QPushButton) if "Restore it" in one.text())
-    button.click()
-    qtbot.waitUntil(lambda: backing.restored)
-    desktop.close()
+    with monkeypatch.context() as patched:
+        patched.setattr(journey.way, "is_recording", lambda: True)
+        button.click()
+        qtbot.waitUntil(lambda: backing.restored)
+        assert desktop.shell.isVisible(), "a recording goes on"
+    qtbot.waitUntil(lambda: desktop.closed)
     old = put_in_place(data, datetime(2026, 11, 20, 18, 0))
     assert old is not None, "what was there is kept"
     assert old.is_dir()

@@ -42,6 +42,7 @@ from carpus.core.records.backup import (
     read_backup,
     thin_out,
 )
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import Patients
@@ -603,6 +604,17 @@ def test_the_newest_back_up_knows_what_was_erased_where_the_data_folder_is_lost(
     assert restore(old, place, data, read_past(place, None)) == 1
     put_in_place(data, NOW)
     assert traces(data, linden, *NAMES) == []
+
+
+def test_a_newest_back_up_that_is_damaged_hides_nothing_that_the_data_folder_knows(data: Path, place: Path) -> None:
+    with opened(data) as house:
+        linden = house.patients.called(LINDEN.pseudonym)
+        erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
+        newest = backed_up(data, place, NOW + timedelta(days=1))
+        kept = next(one for one in newest.files if one.path == STORE_FILE)
+        (place / OBJECTS / kept.sha256[:2] / kept.sha256).write_bytes(b"damaged")
+        assert fingerprint(linden) in read_past(place, house.store).erased
+    assert fingerprint(linden) not in read_past(place, None).erased
 
 
 def test_a_patient_whose_erasing_was_refused_comes_back(data: Path, place: Path, tmp_path: Path) -> None:

@@ -23,7 +23,7 @@ from carpus.core.records.backup import (
     thin_out,
 )
 from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
-from carpus.core.records.restoring import Past, RestorePlan, plan_restore, read_past, restore
+from carpus.core.records.restoring import RestorePlan, plan_restore, read_past, restore
 from carpus.core.records.values import BackupSettings, unless_away
 from carpus.core.rounding import written
 from carpus.core.words import Words
@@ -213,13 +213,12 @@ class BackingUp(QObject):
         (place, there), library = self._there, self._library
         backup = there[name]
 
-        def read() -> tuple[Past, RestorePlan]:
-            past = read_past(place, library.store)
-            return past, plan_restore(backup, place, library.folder, past)
+        def read() -> RestorePlan:
+            return plan_restore(backup, place, library.folder, read_past(place, library.store))
 
-        self._background.run(read, lambda known: self._ask(place, backup, *known), self._failed, self)
+        self._background.run(read, lambda plan: self._ask(place, backup, plan), self._failed, self)
 
-    def _ask(self, place: Path, backup: Backup, past: Past, plan: RestorePlan) -> None:
+    def _ask(self, place: Path, backup: Backup, plan: RestorePlan) -> None:
         what = self.tr(
             "Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}."
         )
@@ -235,25 +234,33 @@ class BackingUp(QObject):
                 self.tr("Carpus closes when it is done. Start it again then."),
             ),
             (
-                Answer(self.tr("Restore it"), lambda: self._restore(place, backup, past), "R", risky=True),
+                Answer(self.tr("Restore it"), lambda: self._restore(place, backup), "R", risky=True),
                 Answer(self.tr("Leave it as it is"), lambda: None),
             ),
             icon="rotate-ccw",
         )
 
-    def _restore(self, place: Path, backup: Backup, past: Past) -> None:
+    def _restore(self, place: Path, backup: Backup) -> None:
         if self._running:
             return
+        folder, store = self._library.folder, self._library.store
 
         def work() -> int:
-            return restore(backup, place, self._library.folder, past, progress=self._step, replaces=True)
+            return restore(backup, place, folder, read_past(place, store), progress=self._step, replaces=True)
 
         def done(_: int) -> None:
             self._running = False
             self.restored = True
-            self._context.shell.close_surely()
+            self._close_when_idle()
 
         self._begin(work, done)
+
+    def _close_when_idle(self) -> None:
+        """No recording is ended for it."""
+        if self._context.way.is_recording():
+            QTimer.singleShot(LOOK_MS // 60, self, self._close_when_idle)
+        else:
+            self._context.shell.close_surely()
 
 
 def _now() -> datetime:
