@@ -162,6 +162,7 @@ def _hidden_main() -> Iterator[None]:
 # --- in the child -------------------------------------------------------------------------------------------------
 def _begin(link: Connection, work: str, arguments: bytes, is_forked: bool) -> None:
     if is_forked:
+        _STARTING.release()  # the copy was made while the owner held it
         _close_copied_files(link)
     for number in signal.valid_signals():
         if callable(signal.getsignal(number)):

@@ -1,5 +1,4 @@
-"""Two recordings of one movement in one time: the shift between their clocks, what would do as well, and drift; long
-work that tells how far it is and can be stopped."""
+"""Two recordings of one movement in one time: the shift between their clocks, what would do as well, and drift."""
 
 from __future__ import annotations
 
