@@ -29,16 +29,16 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.pipeline import measuring
 from carpus.core.pipeline.looking_back import LookingBack
+from carpus.core.records.recordings import recordings_folder
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
-from carpus.core.session.writer import SessionWriter
 from carpus.ui.messages.messages import NoticeStrip, StopCard
 from carpus.ui.now_open import SourceChoice
 from tests.capture.oni_writer import in_millimetres, write_oni
 from tests.journeys.conftest import Open
 from tests.journeys.takes import RANGE_DEG, SPEC, SPEED, clicks_of
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+from tests.session.samples import journal_of, make_calibration, make_header
 from tests.ui.printed import words_of
 from tests.ui.test_markers import walk
 
@@ -464,21 +464,18 @@ def test_neither_a_full_disk_nor_a_stop_at_once_leaves_a_file_and_both_are_told(
     at(qtbot, journey, "patients")
 
 
-def cut_short(folder: Path) -> Path:
+def cut_short(data_folder: Path) -> None:
     """What is left of a session when the program is killed, or the disk was too full to finish it."""
-    folder.mkdir()
-    writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())
-    for row in range(60):
-        writer.append(make_frame(row))
-    writer.abandon()
-    return writer.path
+    folder = recordings_folder(data_folder) / "someone"
+    folder.mkdir(parents=True)
+    journal_of(folder / "cut.journal", 60).abandon()
 
 
 def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
     journey = (desktop := open_desktop()).journey
     linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
     journey.patients.show()
-    cut_short(desktop.library.store.sessions_folder / "Linden-42")
+    cut_short(desktop.library.folder)
     journey.patients.show(linden)
     row = journey.patients.screen.list.rows.row(0)
     assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
@@ -510,13 +507,13 @@ def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
 
 def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
     first = open_desktop()
-    folder = first.library.store.sessions_folder / "Heron"
     first.close()
-    path = cut_short(folder)
+    cut_short(first.library.folder)
     second = open_desktop()
     (strip,) = second.journey.patients.screen.findChildren(NoticeStrip)
     assert make_header().subject_id in strip.words.happened
     assert "safe" in strip.words.safe
     click(qtbot, strip.button)
-    assert reviewed(qtbot, second) == path
+    path = reviewed(qtbot, second)
+    assert (path.name, path.parent.parent) == ("cut.h5", first.library.store.sessions_folder)
     assert second.journey.now.patient.pseudonym == make_header().subject_id
