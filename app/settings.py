@@ -53,6 +53,15 @@ GONE = {
             "registration", "back",
         )
     ),
+    *(
+        f"detection.{name}"
+        for name in (
+            "small_radius_m", "paper_share", "darkest", "least_similarity", "region_sd", "depth_valid_share",
+            "depth_iqr_m", "slope_share", "edge_step_m", "edge_sd_m", "fewest_readings", "paper_low", "paper_high",
+            "fewest_rim", "fewest_core", "click_reach", "paper_reach", "learning_rounds", "fallback_radius_px",
+            "coarse", "skin_level", "paper_level", "usual_depth_m", "most_unsure_px", "stencil", "touching", "sampling",
+        )
+    ),
 }  # fmt: skip
 """Settings of earlier versions: accepted and ignored."""
 

@@ -7,7 +7,10 @@ import ast
 from dataclasses import fields
 from pathlib import Path
 
+import pytest
+
 from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.detection.settings import DetectionSettings
 from tests.sources import ROOT, SOURCES, parsed
 
 SHAPING = ("hand", "detection", "calibration", "tracking")
@@ -102,8 +105,9 @@ def test_what_shapes_a_number_lies_in_settings() -> None:
     assert told - found == set(), "gone: take it off the list"
 
 
-def test_each_setting_of_a_calibration_stands_in_the_shipped_file_with_a_sentence() -> None:
+@pytest.mark.parametrize(("name", "kind"), [("calibration", CalibrationSettings), ("detection", DetectionSettings)])
+def test_each_setting_of_tracking_stands_in_the_shipped_file_with_a_sentence(name: str, kind: type) -> None:
     text = (ROOT / "resources" / "defaults.toml").read_text(encoding="utf-8")
-    section = text.partition("[calibration]\n")[2].partition("\n\n")[0].splitlines()
+    section = text.partition(f"[{name}]\n")[2].partition("\n\n")[0].splitlines()
     said = {line.partition(" = ")[0] for line in section if "  # " in line}
-    assert said == {field.name for field in fields(CalibrationSettings)}
+    assert said == {field.name for field in fields(kind)}

@@ -28,7 +28,13 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.calibration.still_depth import COMPARED_WIDTH_PX, SURELY_OFF_PX, depth_offset_px, surface_of
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.detection.appearance import MarkerAppearance, expected_radius_px, learn_appearance, to_hsv
+from carpus.core.detection.appearance import (
+    CLICK_REACH_RADII,
+    MarkerAppearance,
+    expected_radius_px,
+    learn_appearance,
+    to_hsv,
+)
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
@@ -112,7 +118,7 @@ def calibrate(
     first = frames[0]
     radius_px = np.array([expected_radius_px(first, click, camera, detection) for click in clicks.pixel])
     region = _around(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
-    found = _discs_clicked(clicks, first, region, detection.click_reach * radius_px, camera, detection)
+    found = _discs_clicked(clicks, first, region, CLICK_REACH_RADII * radius_px, camera, detection)
     appearance, blobs, taken, findings = found.appearance, found.blobs, found.taken, found.findings
     detector = Detector(appearance, camera, detection)
     found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)

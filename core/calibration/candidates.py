@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.detection import appearance
-from carpus.core.detection.appearance import expected_radius_px, learn_appearance
+from carpus.core.detection.appearance import CLICK_REACH_RADII, expected_radius_px, learn_appearance
 from carpus.core.detection.components import components
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
@@ -113,9 +113,7 @@ def _own_colour(
 
 def _disc_sized(mask: Any, least_area: float, frame: Frame, camera: Camera, settings: DetectionSettings) -> FloatArray:
     """Middles (B, 2) of the mask's components that are as large as a disc there, or ``least_area`` of it."""
-    found = components(
-        (mask > 0).astype(np.uint8), lambda at: _radii_px(frame, at, camera, settings), settings.touching
-    )
+    found = components((mask > 0).astype(np.uint8), lambda at: _radii_px(frame, at, camera, settings))
     full = np.pi * found.radius_px**2
     return found.centre_px[(found.area_px > least_area * full) & (found.area_px < 2.0 * full)]
 
@@ -155,7 +153,7 @@ def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: Detection
 def snapped(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
     """The blob within a click's reach of a pixel (2,), the nearest one: one blob, or none."""
     distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
-    if not distance.size or float(distance.min()) > settings.click_reach * radius_px:
+    if not distance.size or float(distance.min()) > CLICK_REACH_RADII * radius_px:
         return Detections.none()
     return blobs.only(np.arange(distance.size) == distance.argmin())
 

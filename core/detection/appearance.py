@@ -19,6 +19,23 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import packed, stencil_for, unpacked, window_pixels
 from carpus.core.types import ByteImage, FloatArray, Frame
 
+SMALL_RADIUS_M = 0.004
+"""Radius of the small paper discs (reference 2)."""
+PAPER_SHARE = 0.5
+"""A pixel belongs to a marker when its colour is so much likelier on paper than on the skin around."""
+DARKEST_SHARE = 0.25
+"""Brightness below this share of the clicked markers' is no marker."""
+LEAST_SIMILARITY = 0.5
+"""That a blob needs, as long as the clicked discs do not show that it is less."""
+CLICK_REACH_RADII = 2.2
+"""A disc is found so far from its click: about 10 px at 0.7 m."""
+PAPER_REACH_RADII = 0.8
+"""Up to here a disc's pixels are paper; those at its edge more paper than skin."""
+LEARNING_ROUNDS = 3
+"""At most; the colours have settled before."""
+FALLBACK_RADIUS_PX = 5.0
+"""Of a disc where there is no depth."""
+
 BINS = 32
 """Bins of hue (of 180) and of saturation (of 256)."""
 _HUE_WIDTH = 180 / BINS
@@ -88,12 +105,12 @@ def disc_mask(shape: tuple[int, ...], centre_px: FloatArray, radius_px: float) -
 def expected_radius_px(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> float:
     """Radius of a disc facing the camera at the depth found about ``pixel``; a guess where there is none."""
     if frame.depth_raw is None:
-        return settings.fallback_radius_px
+        return FALLBACK_RADIUS_PX
     near = disc_mask(frame.depth_raw.shape, pixel, 12.0)
     depth_raw = frame.depth_raw[near]
     depth_raw = depth_raw[depth_raw > 0]
     if depth_raw.size == 0:
-        return settings.fallback_radius_px
+        return FALLBACK_RADIUS_PX
     return float(camera.fx_px * settings.marker_radius_m / (float(np.median(depth_raw)) * frame.depth_unit_m))
 
 
@@ -117,9 +134,9 @@ def learn_appearance(
     centre = np.full(click_px.shape, np.nan)
     looks = _appearance(hsv, on_paper, ring, settings)
     middle_radius, size = float(np.median(radius_px)), 1.0
-    for _ in range(settings.learning_rounds):
+    for _ in range(LEARNING_ROUNDS):
         blobs = _paper_blobs(hsv, looks, settings, middle_radius * size)
-        found = _blobs_under(click_px, settings.click_reach * radius_px, blobs)
+        found = _blobs_under(click_px, CLICK_REACH_RADII * radius_px, blobs)
         if not np.any(found >= 0):
             break
         centre = np.full(click_px.shape, np.nan)
@@ -128,7 +145,7 @@ def learn_appearance(
         size = _size(radius / radius_px[there], settings)
         on_paper, around = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
         for point, reach in zip(centre[there], radius, strict=True):
-            on_paper |= disc_mask(shape, point, settings.paper_reach * reach)
+            on_paper |= disc_mask(shape, point, PAPER_REACH_RADII * reach)
             around |= disc_mask(shape, point, 2.2 * reach) & ~disc_mask(shape, point, 1.45 * reach)
         looks = _appearance(hsv, on_paper, around & ~_grown(blobs.labels > 0), settings)
     looks = replace(looks, radius_m=size * settings.marker_radius_m)
@@ -136,12 +153,12 @@ def learn_appearance(
 
 
 def _paper_blobs(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings, radius_px: float) -> Components:
-    return components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), radius_px), settings.touching)
+    return components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), radius_px))
 
 
 def _size(ratio: FloatArray, settings: DetectionSettings) -> float:
     """Radius of most discs over that of the large ones, from the measured ratios (B,), which blur changes."""
-    small = settings.small_radius_m / settings.marker_radius_m
+    small = SMALL_RADIUS_M / settings.marker_radius_m
     return small if float(np.median(ratio)) < np.sqrt(small) else 1.0
 
 
@@ -152,7 +169,7 @@ def _measured(
 
     While the paper's colours are only partly known a blob is smaller than its disc.
     """
-    stencil = stencil_for(radius_px, settings.stencil)
+    stencil = stencil_for(radius_px)
     pixels, inside, middle = window_pixels(stencil, blobs.centre_px[found], blobs.labels.shape)
     outline = outlines(blobs.labels.reshape(-1).take(pixels), blobs.label[found], inside, stencil)
     offset, area = refined_centres(unpacked(packed(color_rgb).take(pixels)), outline, stencil, settings)
@@ -165,7 +182,7 @@ def _measured_by_discs(
     """The appearance with what the found discs reach by it: share of area, likeness to the reference."""
     there = np.isfinite(centre[:, 0])
     blobs = _paper_blobs(hsv, looks, settings, float(np.median(radius_px)))
-    found = _blobs_under(centre[there], settings.click_reach * radius_px[there], blobs)
+    found = _blobs_under(centre[there], CLICK_REACH_RADII * radius_px[there], blobs)
     found = found[found >= 0]
     if found.size == 0:
         return looks
@@ -175,7 +192,7 @@ def _measured_by_discs(
         for label in blobs.label[found]
     ]
     # Half of what the least alike of the clicked discs reaches: a blob in other light still counts.
-    least = min(settings.least_similarity, 0.5 * min(reached))
+    least = min(LEAST_SIMILARITY, 0.5 * min(reached))
     return replace(looks, least_share=float(ratio.min()), most_share=float(ratio.max()), least_similarity=least)
 
 
@@ -189,7 +206,7 @@ def paper_mask(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSetti
 def is_blue(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
     """255 where hue and saturation are the paper's, else 0."""
     likely = back_project(hsv, looks.paper_lookup)
-    return np.asarray(cv2.threshold(likely, 255.0 * settings.paper_share, 255.0, cv2.THRESH_BINARY)[1], dtype=np.uint8)
+    return np.asarray(cv2.threshold(likely, 255.0 * PAPER_SHARE, 255.0, cv2.THRESH_BINARY)[1], dtype=np.uint8)
 
 
 _CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
@@ -208,7 +225,7 @@ def _appearance(
     paper_share = paper / (paper + skin + floor)
     skin_share = skin / (paper + skin + floor)
     value = hsv[..., 2][on_paper]
-    darkest = settings.darkest * float(np.median(value)) if value.size else 0.0
+    darkest = DARKEST_SHARE * float(np.median(value)) if value.size else 0.0
     return MarkerAppearance(
         paper,
         (255.0 * paper_share).astype(np.float32),
@@ -217,7 +234,7 @@ def _appearance(
         settings.marker_radius_m,
         1.0,
         1.0,
-        settings.least_similarity,
+        LEAST_SIMILARITY,
     )
 
 

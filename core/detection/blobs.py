@@ -18,6 +18,27 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import WEDGES, Stencil
 from carpus.core.types import FloatArray
 
+DEPTH_VALID_SHARE = 0.3
+"""With fewer of its pixels read a blob's depth is not trusted (reference 7.2)."""
+DEPTH_IQR_M = 0.008
+"""Nor is one whose readings spread by more (reference 7.2)."""
+SLOPE_SHARE = 0.35
+"""On a steep surface half a pixel between the two pictures is a depth error of this share of the spread."""
+EDGE_STEP_M = 0.015
+"""A reading this far from the blob's is of another surface."""
+EDGE_SD_M = 0.008
+"""The depth's sd if all around were of another."""
+MIN_READINGS = 3
+"""So many make a depth."""
+PAPER_LOW = 0.2
+"""Shares of paper in a pixel below count as none; with :data:`PAPER_HIGH` symmetric, so an edge's centre stays."""
+PAPER_HIGH = 0.8
+"""Shares of paper in a pixel above count as all."""
+MIN_RIM = 3.0
+"""With fewer pixels in a direction of the rim all of the rim is taken."""
+MIN_CORE = 4.0
+"""With fewer pixels in the core all of the blob is taken."""
+
 _QUARTERS = np.arange(1, 4)[:, None]
 _BEYOND_M = 1e3
 """Stands for no reading among readings in order."""
@@ -56,8 +77,8 @@ def refined_centres(
     the pixel's own direction: at the edge of the hand one side of a disc lies on skin and the other before the table.
     """
     total = _totals(color, outline, stencil)
-    low, high = settings.paper_low, settings.paper_high
-    few = total[:, 3] < _fewest(settings.fewest_rim, settings.fewest_core)
+    low, high = PAPER_LOW, PAPER_HIGH
+    few = total[:, 3] < _fewest(MIN_RIM, MIN_CORE)
     if few.any():
         _fill_in(total, few, color, outline, stencil)
     mean = total[:, :3] / np.maximum(total[:, 3:], 1.0)
@@ -129,15 +150,15 @@ def blob_depths(
     ordered.sort(axis=0)
     rank = _QUARTERS * (count - 1) >> 2  # without any, the last
     low, middle, high = ordered[rank, np.arange(count.size)]
-    near = valid & (np.abs(inner - middle) <= settings.depth_iqr_m)
+    near = valid & (np.abs(inner - middle) <= DEPTH_IQR_M)
     depth = (inner * near).sum(axis=0) / np.maximum(near.sum(axis=0), 1)
     iqr = high - low
-    enough = np.maximum(settings.depth_valid_share * own.sum(axis=0), settings.fewest_readings)
-    trusted = (count >= enough) & (iqr <= settings.depth_iqr_m)
+    enough = np.maximum(DEPTH_VALID_SHARE * own.sum(axis=0), MIN_READINGS)
+    trusted = (count >= enough) & (iqr <= DEPTH_IQR_M)
     # The sensor matches small windows: near an edge of the surface they hold two, and the depth is of neither.
-    other = np.abs(metres - depth[:, None]) > settings.edge_step_m
-    edge = (settings.edge_sd_m / metres.shape[1]) * other.sum(axis=1)
-    slope = settings.slope_share / 1.35 * iqr
+    other = np.abs(metres - depth[:, None]) > EDGE_STEP_M
+    edge = (EDGE_SD_M / metres.shape[1]) * other.sum(axis=1)
+    slope = SLOPE_SHARE / 1.35 * iqr
     sd = np.sqrt(sensor.mean_sd_m(depth, near.sum(axis=0)) ** 2 + slope**2 + edge**2)
     if trusted.all():
         return depth, sd

@@ -12,23 +12,20 @@ from numpy.typing import NDArray
 
 from carpus.core.types import ByteImage, FloatArray
 
-
-@dataclass(frozen=True, slots=True)
-class TouchingSettings:
-    """A blob's box longer than ``long_side`` radii is more than one disc facing any way; so is one whose pixels scatter
-    along their main axis by more than ``long_axis`` radii (a disc: one half). ``edge_px``: by so much a blurred edge
-    widens every disc, large or small. It is taken apart in ``rounds``, into ``most_parts`` at most (a row of knuckles);
-    what is longer than one more would be is none of discs."""
-
-    long_side: float = 2.8
-    long_axis: float = 0.72
-    edge_px: float = 0.5
-    rounds: int = 6
-    most_parts: int = 4
+LONG_SIDE_RADII = 2.8
+"""A blob whose box is longer is more than one disc, facing any way."""
+LONG_AXIS_RADII = 0.72
+"""So is one whose pixels scatter more along their main axis; of a disc it is one half."""
+BLURRED_EDGE_PX = 0.5
+"""By so much a blurred edge widens every disc, large or small."""
+SPLIT_ROUNDS = 6
+"""A long blob is taken apart in so many rounds."""
+MAX_PARTS = 4
+"""At most, as a row of knuckles; what is longer than one more would be is none of discs."""
 
 
 def split_touching(
-    labels: NDArray[np.uint16], stats: NDArray[np.int32], radius_px: FloatArray, settings: TouchingSettings
+    labels: NDArray[np.uint16], stats: NDArray[np.int32], radius_px: FloatArray
 ) -> list[tuple[int, NDArray[np.int64], FloatArray]]:
     """Take apart the blobs that are longer than a disc; ``labels`` (H, W) is changed in place.
 
@@ -38,13 +35,13 @@ def split_touching(
     """
     out: list[tuple[int, NDArray[np.int64], FloatArray]] = []
     following = len(stats)
-    is_long = np.maximum(stats[:, 2], stats[:, 3]) > settings.long_side * (radius_px + settings.edge_px)
+    is_long = np.maximum(stats[:, 2], stats[:, 3]) > LONG_SIDE_RADII * (radius_px + BLURRED_EDGE_PX)
     is_long[0] = False  # the background
     for label in np.flatnonzero(is_long).tolist():
         left, top, width, height, _ = stats[label].tolist()
         box = labels[top : top + height, left : left + width]
         row, column = np.nonzero(box == label)
-        parts = _parts(column, row, float(radius_px[label]), settings)
+        parts = _parts(column, row, float(radius_px[label]))
         if parts is None:
             continue
         area = np.bincount(parts)
@@ -59,9 +56,7 @@ def split_touching(
     return out
 
 
-def _parts(
-    u: NDArray[np.int64], v: NDArray[np.int64], radius_px: float, settings: TouchingSettings
-) -> NDArray[np.int64] | None:
+def _parts(u: NDArray[np.int64], v: NDArray[np.int64], radius_px: float) -> NDArray[np.int64] | None:
     """Part of every pixel (P,), or None for a blob that is one disc or much more than a few of them.
 
     Sums are of whole numbers, and all else is in the order of the kernel: a pixel just between two parts goes to the
@@ -72,26 +67,26 @@ def _parts(
     xx, xy = int((u * u).sum()) / count - mean_u * mean_u, int((u * v).sum()) / count - mean_u * mean_v
     yy = int((v * v).sum()) / count - mean_v * mean_v
     half_gap = math.hypot(0.5 * (xx - yy), xy)
-    if math.sqrt(0.5 * (xx + yy) + half_gap) <= settings.long_axis * (radius_px + settings.edge_px):
+    if math.sqrt(0.5 * (xx + yy) + half_gap) <= LONG_AXIS_RADII * (radius_px + BLURRED_EDGE_PX):
         return None
     tilt = 0.5 * math.atan2(2.0 * xy, xx - yy)
     across, down = math.cos(tilt), math.sin(tilt)
     along = u * across + v * down
     low, high = float(along.min()), float(along.max())
     longest = max(2, round((high - low - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
-    if longest > settings.most_parts + 1:
+    if longest > MAX_PARTS + 1:
         return None
     best: NDArray[np.int64] | None = None
     least = math.inf
     # Blurred edges make small discs larger than they are, so a row of them may hold one less than its length says.
-    for parts in range(max(2, longest - 1), min(longest, settings.most_parts) + 1):
+    for parts in range(max(2, longest - 1), min(longest, MAX_PARTS) + 1):
         if parts == 2:
             # Two discs: the line between them crosses the main axis in the middle of the blob.
             part: NDArray[np.int64] | None = np.asarray(along > 0.5 * (high + low), dtype=np.int64)
         else:
             gap = (high - low - 2.0 * radius_px) / (parts - 1)
             place = low + radius_px - (mean_u * across + mean_v * down) + gap * np.arange(parts)
-            part = _about(u, v, np.array((mean_u + place * across, mean_v + place * down)), settings.rounds)
+            part = _about(u, v, np.array((mean_u + place * across, mean_v + place * down)), SPLIT_ROUNDS)
         if part is not None and (elongation := _elongation(u, v, part)) < least:
             best, least = part, elongation
     return best
@@ -140,9 +135,7 @@ class Components:
     radius_px: FloatArray
 
 
-def components(
-    mask: ByteImage, radius_at: Callable[[FloatArray], FloatArray], touching: TouchingSettings
-) -> Components:
+def components(mask: ByteImage, radius_at: Callable[[FloatArray], FloatArray]) -> Components:
     """Blobs of a mask; ``radius_at`` gives the radius (B,) of a disc facing the camera at pixels (B, 2)."""
     # 16-bit labels are three times quicker than the default.
     count, found, table, middle = cv2.connectedComponentsWithStats(mask, connectivity=8, ltype=cv2.CV_16U)
@@ -153,7 +146,7 @@ def components(
     radius = radius_at(centre)
     label = np.arange(count, dtype=np.uint16)
     area = stats[:, cv2.CC_STAT_AREA].astype(np.float64)
-    split = split_touching(labels, stats, radius, touching)
+    split = split_touching(labels, stats, radius)
     for whole, _, facts in split:
         centre[whole], area[whole] = facts[0, :2], facts[0, 2]
     if split:

@@ -18,17 +18,16 @@ from carpus.core.types import ByteImage, FloatArray
 WEDGES = 8
 
 
-@dataclass(frozen=True, slots=True)
-class StencilSettings:
-    """Radii, in disc radii: up to ``core`` the paper's own colour, up to ``reach`` what may belong to the disc, from
-    ``rim_from`` to ``rim_to`` what surrounds it. ``edge_px``: how far about an edge a sensor's readings are of neither
-    side, where none is asked."""
-
-    core: float = 0.62
-    reach: float = 1.35
-    rim_from: float = 1.35
-    rim_to: float = 1.9
-    edge_px: int = 6
+CORE_RADII = 0.62
+"""Up to so many disc radii a window has the paper's own colour."""
+REACH_RADII = 1.35
+"""Up to here pixels may belong to the disc."""
+RIM_FROM_RADII = 1.35
+"""From here on is what surrounds it."""
+RIM_TO_RADII = 1.9
+"""Up to here."""
+EDGE_PX = 6
+"""How far about an edge a sensor's readings are of neither side, where none is asked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,23 +53,23 @@ class Stencil:
     moments: NDArray[np.float32]
 
 
-def stencil_for(radius_px: float, settings: StencilSettings, edge_px: int | None = None) -> Stencil:
+def stencil_for(radius_px: float, edge_px: int | None = None) -> Stencil:
     """The stencil of discs of about this radius (to a quarter of a pixel), for a sensor with edges so wide."""
-    return _stencil(max(4, round(4.0 * radius_px)), settings, settings.edge_px if edge_px is None else edge_px)
+    return _stencil(max(4, round(4.0 * radius_px)), EDGE_PX if edge_px is None else edge_px)
 
 
 @lru_cache(maxsize=64)
-def _stencil(quarters: int, settings: StencilSettings, edge_px: int) -> Stencil:
+def _stencil(quarters: int, edge_px: int) -> Stencil:
     radius = quarters / 4.0
-    half = max(int(np.ceil(settings.rim_to * radius)), edge_px)
+    half = max(int(np.ceil(RIM_TO_RADII * radius)), edge_px)
     offset = np.arange(-half, half + 1)
     row, column = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
     distance = np.hypot(row, column)
     core, reach, rim_from, rim_to = (
-        settings.core * radius + 0.25,
-        settings.reach * radius + 0.5,
-        settings.rim_from * radius,
-        settings.rim_to * radius,
+        CORE_RADII * radius + 0.25,
+        REACH_RADII * radius + 0.5,
+        RIM_FROM_RADII * radius,
+        RIM_TO_RADII * radius,
     )
     used = distance <= max(reach, rim_to, edge_px)
     row, column, distance = row[used], column[used], distance[used]

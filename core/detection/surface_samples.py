@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,26 +17,26 @@ from carpus.core.types import (
     SurfaceSamples,
 )
 
+STEP_PX = 3
+"""Between two readings."""
+WIDER = 1.2
+"""Readings are taken within so many times the outline of the discs that span the back."""
+MARGIN_PX = 4.0
+"""And so much about it."""
+MAX_READINGS = SURFACE_READINGS // 2
+"""On the back of the hand; more only cost time, since neighbours share their errors."""
+FINGER_MARGIN_PX = 12.0
+"""So far about the discs of fingers readings are taken."""
+MAX_FINGER_READINGS = FINGER_READINGS
+"""About the fingers."""
 
-@dataclass(frozen=True, slots=True)
-class SamplingSettings:
-    """``step_px`` between two readings; ``wider`` than the outline of the discs that span it is the region, and by
-    ``margin_px``; never more than ``most`` readings are taken. About fingers: ``finger_margin_px``, ``most_finger``."""
 
-    step_px: int = 3
-    wider: float = 1.2
-    margin_px: float = 4.0
-    most: int = SURFACE_READINGS // 2
-    finger_margin_px: float = 12.0
-    most_finger: int = FINGER_READINGS
-
-
-def part_read(region: Region, corner_px: FloatArray, disc_px: FloatArray, settings: SamplingSettings) -> Region | None:
+def part_read(region: Region, corner_px: FloatArray, disc_px: FloatArray) -> Region | None:
     """What of a picture holds ``region`` and all that the two functions below read; None where places are not known."""
     part = region
     for pixel, wider, margin_px in (
-        (corner_px, settings.wider - 1.0, settings.margin_px),
-        (disc_px, 0.0, settings.finger_margin_px + FINGER_STEP_PX),
+        (corner_px, WIDER - 1.0, MARGIN_PX),
+        (disc_px, 0.0, FINGER_MARGIN_PX + FINGER_STEP_PX),
     ):
         if not np.isfinite(pixel).all():
             return None
@@ -52,7 +51,7 @@ def part_read(region: Region, corner_px: FloatArray, disc_px: FloatArray, settin
     return part
 
 
-def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSettings) -> SurfaceSamples | None:
+def surface_samples(frame: Frame, corner_px: FloatArray) -> SurfaceSamples | None:
     """The readings within discs expected at ``corner_px`` (C, 2); None where there is no depth picture.
 
     Depths are rounded to single precision, as they are stored: tracked again from there they are the same.
@@ -61,20 +60,20 @@ def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSetti
         return None
     height, width = frame.depth_raw.shape
     if (kernels := in_c()) is not None:
-        pixel, depth, found = np.empty((settings.most, 2)), np.empty(settings.most), np.empty(1, dtype=np.int32)
+        pixel, depth, found = np.empty((MAX_READINGS, 2)), np.empty(MAX_READINGS), np.empty(1, dtype=np.int32)
         kernels.readings_within(
             height, width, frame.depth_raw, frame.depth_unit_m, len(corner_px), corner_px,
-            settings.wider, settings.margin_px, settings.step_px, settings.most, pixel, depth, found,
+            WIDER, MARGIN_PX, STEP_PX, MAX_READINGS, pixel, depth, found,
         )  # fmt: skip
         count = found.item()
         return None if count < 0 else SurfaceSamples(pixel[:count], depth[:count])
     middle = corner_px.mean(axis=0)
-    outline = middle + settings.wider * (corner_px - middle)
+    outline = middle + WIDER * (corner_px - middle)
     outline = outline[np.argsort(np.arctan2(outline[:, 1] - middle[1], outline[:, 0] - middle[0]))]
-    left, top = np.maximum(outline.min(axis=0) - settings.margin_px, 0.0).tolist()
-    right, bottom = (outline.max(axis=0) + settings.margin_px).tolist()
+    left, top = np.maximum(outline.min(axis=0) - MARGIN_PX, 0.0).tolist()
+    right, bottom = (outline.max(axis=0) + MARGIN_PX).tolist()
     # The lattice stays where it is from picture to picture: the same errors then come again, and are not news.
-    step = settings.step_px
+    step = STEP_PX
     first_u, first_v = step * math.ceil(left / step), step * math.ceil(top / step)
     last_u, last_v = min(math.floor(right), width - 1), min(math.floor(bottom), height - 1)
     if last_u < first_u or last_v < first_v:
@@ -82,7 +81,7 @@ def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSetti
     raw = frame.depth_raw[first_v : last_v + 1 : step, first_u : last_u + 1 : step]
     # Twice the area of the triangle of an edge and a pixel, in parts that go with its row and its column.
     along = outline[np.arange(1, len(outline) + 1) % len(outline)] - outline
-    least = settings.margin_px * (np.hypot(along[:, 0], along[:, 1]) + 1e-9)
+    least = MARGIN_PX * (np.hypot(along[:, 0], along[:, 1]) + 1e-9)
     u, v = np.arange(first_u, last_u + 1.0, step), np.arange(first_v, last_v + 1.0, step)
     by_row = along[:, :1] * (v - outline[:, 1:]) + least[:, None]
     by_column = along[:, 1:] * (u - outline[:, :1])
@@ -90,8 +89,8 @@ def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSetti
     for of_row, of_column in zip(by_row, by_column, strict=True):
         inside &= of_row[:, None] >= of_column
     row, column = inside.nonzero()
-    if row.size > settings.most:
-        thinned = (np.arange(settings.most) * ((row.size - 1) / (settings.most - 1))).astype(np.int64)
+    if row.size > MAX_READINGS:
+        thinned = (np.arange(MAX_READINGS) * ((row.size - 1) / (MAX_READINGS - 1))).astype(np.int64)
         thinned[-1] = row.size - 1
         row, column = row[thinned], column[thinned]
     depth = (raw[row, column] * frame.depth_unit_m).astype(np.float32).astype(np.float64)
@@ -100,7 +99,7 @@ def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSetti
     return SurfaceSamples(pixel, depth)
 
 
-def finger_samples(frame: Frame, disc_px: FloatArray, settings: SamplingSettings) -> SurfaceSamples | None:
+def finger_samples(frame: Frame, disc_px: FloatArray) -> SurfaceSamples | None:
     """Readings on a wider lattice about the fingers' discs expected at ``disc_px`` (C, 2); None where there is no
     depth picture."""
     if frame.depth_raw is None or not np.isfinite(disc_px).all() or not len(disc_px):
@@ -108,27 +107,27 @@ def finger_samples(frame: Frame, disc_px: FloatArray, settings: SamplingSettings
     height, width = frame.depth_raw.shape
     step = FINGER_STEP_PX
     if (kernels := in_c()) is not None:
-        most = settings.most_finger
+        most = MAX_FINGER_READINGS
         pixel, taken, found = np.empty((most, 2)), np.empty(most), np.empty(1, dtype=np.int32)
         kernels.readings_about(
-            height, width, frame.depth_raw, frame.depth_unit_m, len(disc_px), disc_px, settings.finger_margin_px, step,
+            height, width, frame.depth_raw, frame.depth_unit_m, len(disc_px), disc_px, FINGER_MARGIN_PX, step,
             most, pixel, taken, found,
         )  # fmt: skip
         count = found.item()
         return None if count < 0 else SurfaceSamples(pixel[:count], taken[:count])
-    low = np.maximum(np.floor((disc_px.min(axis=0) - settings.finger_margin_px) / step), 0).astype(int)
-    high = np.minimum(np.ceil((disc_px.max(axis=0) + settings.finger_margin_px) / step) * step, (width - 1, height - 1))
+    low = np.maximum(np.floor((disc_px.min(axis=0) - FINGER_MARGIN_PX) / step), 0).astype(int)
+    high = np.minimum(np.ceil((disc_px.max(axis=0) + FINGER_MARGIN_PX) / step) * step, (width - 1, height - 1))
     u, v = np.arange(step * low[0], int(high[0]) + 1, step), np.arange(step * low[1], int(high[1]) + 1, step)
     if not u.size or not v.size:
         return None
     raw = frame.depth_raw[v[0] : v[-1] + 1 : step, u[0] : u[-1] + 1 : step]
     row, column = np.nonzero(raw)
-    if row.size > settings.most_finger:
+    if row.size > MAX_FINGER_READINGS:
         # Too many: those nearest to a disc tell most. How near goes with the column and with the row.
         along, down = np.abs(u - disc_px[:, :1]), np.abs(v - disc_px[:, 1:])
         apart = (down[:, :, None] + along[:, None, :]).min(axis=0)[row, column]
-        near = apart <= np.partition(apart, settings.most_finger - 1)[settings.most_finger - 1]
-        row, column = row[near][: settings.most_finger], column[near][: settings.most_finger]
+        near = apart <= np.partition(apart, MAX_FINGER_READINGS - 1)[MAX_FINGER_READINGS - 1]
+        row, column = row[near][:MAX_FINGER_READINGS], column[near][:MAX_FINGER_READINGS]
     if not row.size:
         return None
     depth = (raw[row, column] * frame.depth_unit_m).astype(np.float32).astype(np.float64)

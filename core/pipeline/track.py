@@ -25,7 +25,7 @@ from carpus.core.capture.source import FrameSource, Recorded, SourceInfo, record
 from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, part_read, surface_samples
+from carpus.core.detection.surface_samples import finger_samples, part_read, surface_samples
 from carpus.core.errors import OutputExists, PictureDamaged, RecordingEmpty
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import Listener
@@ -78,10 +78,9 @@ AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
 class FramePipeline(Generic[AnyTracker]):
     """Detector and tracker of one calibrated hand; call it with each frame in order."""
 
-    def __init__(self, detector: Detector, tracker: AnyTracker, sampling: SamplingSettings) -> None:
+    def __init__(self, detector: Detector, tracker: AnyTracker) -> None:
         self.detector = detector
         self.tracker = tracker
-        self.sampling = sampling
 
     def __call__(self, given: Seen) -> TrackedFrame:
         """Track one frame. Without a prediction the whole picture is searched."""
@@ -90,7 +89,7 @@ class FramePipeline(Generic[AnyTracker]):
         if expected is not None:
             region = self.detector.region_about(expected.pixel, expected.covariance_px2, expected.depth_m)
             if not isinstance(given, Frame):  # a live picture is whole already
-                part = part_read(region, expected.back_px, expected.finger_px, self.sampling)
+                part = part_read(region, expected.back_px, expected.finger_px)
         frame = given.seen(part)
         blobs = self.detector.detect(frame, region)
         if region is not None and self.tracker.would_miss(blobs):
@@ -98,8 +97,8 @@ class FramePipeline(Generic[AnyTracker]):
             blobs = self.detector.detect(frame, None)
         if expected is not None:
             blobs = blobs.with_readings(
-                surface_samples(frame, expected.back_px, self.sampling),
-                finger_samples(frame, expected.finger_px, self.sampling),
+                surface_samples(frame, expected.back_px),
+                finger_samples(frame, expected.finger_px),
             )
         return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)
 
@@ -288,7 +287,7 @@ def build_pipeline(
     calibration = require_calibration(outcome)
     detector = Detector(outcome.appearance, camera, settings.detection)
     tracker = Tracker(calibration, camera, learnt.applied(settings.tracker), keep_history=keep_history)
-    return FramePipeline(detector, tracker, settings.detection.sampling)
+    return FramePipeline(detector, tracker)
 
 
 _SOON_S = 0.25
@@ -349,7 +348,7 @@ def begin_tracking(
     learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
     tracker, look_back = settings.follow(calibration, camera, learnt)
     detector = Detector(outcome.appearance, camera, settings.detection)
-    pipeline = FramePipeline(detector, tracker, settings.detection.sampling)
+    pipeline = FramePipeline(detector, tracker)
     ordered = from_neutral(chain(opening, frames), tracker, ends_s, lambda frame: frame.timestamp_s)
     return Begun(opening[0], ordered, pipeline, look_back, calibration, learnt)
 

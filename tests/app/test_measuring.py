@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.errors import RecordingEmpty
 from carpus.core.pipeline import looking_back
 from carpus.core.pipeline.correction import correct, task_of
@@ -75,7 +74,7 @@ def frames() -> Iterator[Frame]:
 
 def live_pipeline() -> LivePipeline:
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
-    return LivePipeline(FramePipeline(Blobs(), tracker, SamplingSettings()), neutral_ends_s=10.0)  # type: ignore[arg-type]
+    return LivePipeline(FramePipeline(Blobs(), tracker), neutral_ends_s=10.0)  # type: ignore[arg-type]
 
 
 def open_session(path: Path, looker: LookingBack | None) -> RecordedSession:
@@ -173,7 +172,7 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
     wrong_m[MCP3] += [0.0, 0.014, 0.0]
     wrong = replace(right, marker_position_w0_m=wrong_m)
     tracker = Tracker(wrong, CAMERA, learnt.applied(settings.tracker))
-    pipeline = LivePipeline(FramePipeline(Blobs(), tracker, SamplingSettings()), -np.inf)  # type: ignore[arg-type]
+    pipeline = LivePipeline(FramePipeline(Blobs(), tracker), -np.inf)  # type: ignore[arg-type]
     header = new_header(
         hand="right", protocol=right.clicks.protocol, software_version="0.1", subject_id="Linden 42",
         exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), dip_free=False,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.track import FramePipeline
 from carpus.core.tracking import hand_filter
 from carpus.core.tracking.settings import TrackerSettings
@@ -41,7 +40,7 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
         def region_about(self, *_: object) -> Region:
             return Region(0, 0, 1, 1)
 
-    pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
+    pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
     true = hand_filter.associate_and_update
     with spied(pipeline) as spy:
         for index in range(5):

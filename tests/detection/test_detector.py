@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.detection.appearance import MarkerAppearance, learn_appearance
-from carpus.core.detection.components import TouchingSettings, split_touching
+from carpus.core.detection.components import split_touching
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.types import Detections, FloatArray, Frame, Region
@@ -190,14 +190,15 @@ def test_predicted_region_holds_every_disc_and_little_more() -> None:
     assert wider.bottom > region.bottom
 
 
-def test_an_unsure_hand_is_looked_for_only_so_far_away() -> None:
-    settings = DetectionSettings(most_unsure_px=60.0)
+def test_an_unsure_hand_is_looked_for_only_so_far_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("carpus.core.detection.detector.MAX_UNSURE_PX", 60.0)
+    settings = DetectionSettings()
     detector = Detector(learnt(BLUE, np.random.default_rng(13))[0], CAMERA, settings)
     middle = np.array([[0.5 * CAMERA.width_px, 0.5 * CAMERA.height_px]])
     found = [detector.region_about(middle, sd_px**2 * np.eye(2)[None], np.array([DISTANCE_M])) for sd_px in (5.0, 1e4)]
     assert found[0].right - found[0].left < found[1].right - found[1].left, "at 5 pixels it is not the limit"
     disc_px = CAMERA.fx_px * settings.marker_radius_m / DISTANCE_M
-    reach_px = settings.most_unsure_px + 2.2 * disc_px + 3.0
+    reach_px = 60.0 + 2.2 * disc_px + 3.0
     assert found[1].right - found[1].left == pytest.approx(2.0 * reach_px, abs=2.5)
     assert found[1].bottom - found[1].top == pytest.approx(2.0 * reach_px, abs=2.5)
 
@@ -205,7 +206,7 @@ def test_an_unsure_hand_is_looked_for_only_so_far_away() -> None:
 def taken_apart(is_blob: NDArray[np.bool_], radius_px: float) -> list[FloatArray]:
     """What is found of each blob that is more than one disc."""
     _, labels, stats, _ = cv2.connectedComponentsWithStats(is_blob.astype(np.uint8), ltype=cv2.CV_16U)
-    return [facts for _, _, facts in split_touching(labels, stats, np.full(2, radius_px), TouchingSettings())]
+    return [facts for _, _, facts in split_touching(labels, stats, np.full(2, radius_px))]
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE, DepthSensor
+from carpus.core.detection import surface_samples as samples
 from carpus.core.detection.detector import Detector
-from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
+from carpus.core.detection.surface_samples import finger_samples, surface_samples
 from carpus.core.kernels import choice
 from carpus.core.types import Detections, Frame, Region
 from tests.detection.pictures import CAMERA, DISTANCE_M, PALM_PX, Extra, Look, depth_picture, frame, picture
@@ -134,7 +135,7 @@ def test_nothing_in_the_picture() -> None:
     assert len(alike(Detector(looks, CAMERA, SETTINGS), dark, Region(10, 10, 200, 200))) == 0
 
 
-def test_readings_on_the_back_of_the_hand() -> None:
+def test_readings_on_the_back_of_the_hand(monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(7)
     raw = (3500 * (rng.uniform(size=(240, 320)) < 0.8)).astype(np.uint16)
     raw += (raw > 0).astype(np.uint16) * rng.integers(0, 50, raw.shape, dtype=np.uint16)
@@ -142,28 +143,29 @@ def test_readings_on_the_back_of_the_hand() -> None:
     corners = np.array([[160.3, 190.2], [128.6, 172.8], [124.1, 100.7], [146.8, 92.4]])
     for shift_px in (0.0, -135.5, 140.0, 1e4, -1e4):
         for most in (3, 40, 5000):
-            own = replace(SamplingSettings(), most=most)
-            found = both(lambda shift_px=shift_px, own=own: surface_samples(seen, corners + shift_px, own), 1e-15)
+            monkeypatch.setattr(samples, "MAX_READINGS", most)
+            found = both(lambda shift_px=shift_px: surface_samples(seen, corners + shift_px), 1e-15)
             assert (found is None) == (abs(shift_px) > 1e3)
-    assert both(lambda: surface_samples(seen, np.full((4, 2), np.nan), SamplingSettings())) is None
+    assert both(lambda: surface_samples(seen, np.full((4, 2), np.nan))) is None
     empty = replace(seen, depth_raw=np.zeros((240, 320), dtype=np.uint16))
-    assert not len(both(lambda: surface_samples(empty, corners, SamplingSettings())).depth_m)
+    assert not len(both(lambda: surface_samples(empty, corners)).depth_m)
 
 
-def test_readings_about_the_fingers() -> None:
+def test_readings_about_the_fingers(monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(8)
     raw = rng.integers(600, 700, (240, 320)) * (rng.uniform(size=(240, 320)) < 0.9)
     seen = Frame(0, 0.0, np.zeros((240, 320, 3), np.uint8), raw.astype(np.uint16), 1e-3)
     discs = np.column_stack((rng.uniform(120.0, 220.0, 15), rng.uniform(80.0, 190.0, 15)))
     for shift_px in (0.0, -90.25, 130.0, 1e12, -1e4):
         for most in (1, 40, 5000):
-            own = replace(SamplingSettings(), most_finger=most)
-            found = both(lambda shift_px=shift_px, own=own: finger_samples(seen, discs + shift_px, own), 1e-15)
+            monkeypatch.setattr(samples, "MAX_FINGER_READINGS", most)
+            found = both(lambda shift_px=shift_px: finger_samples(seen, discs + shift_px), 1e-15)
             assert (found is None) == (abs(shift_px) > 1e3)
     alike = np.full((4, 2), 160.0)  # as far from a disc as others
-    both(lambda: finger_samples(seen, alike, replace(SamplingSettings(), most_finger=10)), 1e-15)
+    monkeypatch.setattr(samples, "MAX_FINGER_READINGS", 10)
+    both(lambda: finger_samples(seen, alike), 1e-15)
     empty = replace(seen, depth_raw=np.zeros((240, 320), dtype=np.uint16))
-    assert both(lambda: finger_samples(empty, discs, SamplingSettings())) is None
+    assert both(lambda: finger_samples(empty, discs)) is None
 
 
 def test_where_expected_discs_may_lie() -> None:

@@ -23,7 +23,6 @@ import numpy as np
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.source import FrameSource, SourceInfo
-from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
 from carpus.core.pipeline.measuring import LivePipeline, RecordedSession
@@ -96,7 +95,7 @@ def main() -> None:
     looker = None if told.played else LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()))
     pipeline: Callable[[Frame], TrackedFrame] = tracked
     if looker is not None:
-        pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
+        pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
         live_pipeline = LivePipeline(pipeline, 10.0)
         live_pipeline.keep = looker.take
         pipeline = live_pipeline
