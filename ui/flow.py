@@ -279,7 +279,8 @@ class Navigator(QObject):
         self.go(place)
 
     def back(self) -> None:
-        """One step back; what covers the screen goes first, and nothing leaves a message or a running recording."""
+        """One step back; what covers the screen goes first, and nothing leaves a message. Of a running recording the
+        screen asks whether it shall stop."""
         if self._is_asked():
             return
         sheets = [sheet for sheet in self._shell.findChildren(Sheet) if sheet.isVisible()]
@@ -287,5 +288,5 @@ class Navigator(QObject):
             sheets[-1].leave()
         elif self._place in ASIDE:
             self.go(self._before_aside)
-        elif not (self._place == "live" and self.is_recording()):
+        else:
             self.flows[self._place].up()

@@ -156,9 +156,8 @@ class TopBar(Surface):
         self._under.set_colors("band_bad" if recording else "surface")
 
     def lock_aside(self, locked: bool) -> None:
-        """Nothing leads away from a running recording, nor takes its keys."""
+        """Nothing leads aside from a running recording, nor takes its keys; back asks whether it shall stop."""
         for button, words in (
-            (self.back_button, self.tr("Back (Esc)")),
             (self.help_button, self.tr("Help (F1)")),
             (self.settings_button, self.tr("Settings (Ctrl+,)")),
         ):

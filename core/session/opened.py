@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import logging
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -47,6 +48,8 @@ from carpus.core.session.values import (
     Verified,
 )
 from carpus.core.types import Detections
+
+log = logging.getLogger(__name__)
 
 
 def read_session(path: Path) -> Session:
@@ -157,14 +160,13 @@ def open_session(path: Path) -> Iterator[h5py.File]:
         raise SessionUnreadable(path, phrase("still being recorded")) from cause
     except CarpusFault:
         raise
-    except KeyError as cause:
-        raise SessionUnreadable(path, phrase("damaged: {value}", value=cause.args[0] if cause.args else "")) from cause
     except MemoryError as cause:
         raise SessionUnreadable(path, phrase("damaged: it asks for more memory than a session needs")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
-        known = h5py.is_hdf5(path)
+        # What the library says of it helps who looks into the file, and nobody who wants to see a session.
+        log.info("reading %s: %s", path, cause)
         raise SessionUnreadable(
-            path, phrase("damaged: {cause}", cause=cause) if known else phrase("not a session file")
+            path, phrase("damaged") if h5py.is_hdf5(path) else phrase("not a session file")
         ) from cause
 
 

@@ -7,6 +7,7 @@ after the other and opens nothing but the file it is asked about.
 
 from __future__ import annotations
 
+import logging
 import os
 import pickle
 import signal
@@ -17,7 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.errors import CarpusFault
+from carpus.core.phrase import phrase
 from carpus.core.session import opened, rewriting
+
+log = logging.getLogger(__name__)
 
 CPU_S, BYTES_PER_CPU_S = 1.2, 5e6
 """A question may take so much of a processor's time, and a second more for so many bytes of the file."""
@@ -76,7 +80,8 @@ def _answered(question: Callable[..., Any], path: Path, arguments: tuple[Any, ..
     except MemoryError:
         return "SessionUnreadable", (str(path), "damaged: it asks for more memory than a session needs")
     except Exception as cause:  # the one catch of this process: told, not printed
-        return "SessionUnreadable", (str(path), f"damaged: {type(cause).__name__}: {cause}"[:300])
+        log.info("reading %s: %s: %s", path, type(cause).__name__, cause)
+        return "SessionUnreadable", (str(path), phrase("damaged"))
 
 
 def _send(link: Connection, answer: Answer) -> None:

@@ -4780,10 +4780,6 @@
         <translation>beschädigt: das Gelesene ergibt keinen Sinn</translation>
     </message>
     <message>
-        <source>damaged: {cause}</source>
-        <translation>beschädigt: {cause}</translation>
-    </message>
-    <message>
         <source>damaged: {path} does not fit {path2}</source>
         <translation>beschädigt: {path} passt nicht zu {path2}</translation>
     </message>
@@ -8550,6 +8546,14 @@ Umschalt+F8 von der Seite</translation>
         <translation>Weiter messen oder schon beenden?</translation>
     </message>
     <message>
+        <source>Stop recording?</source>
+        <translation>Aufnahme beenden?</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or stop: the session is saved and opens in the review.</source>
+        <translation>Weiter messen oder beenden: die Sitzung wird gespeichert und öffnet sich in der Auswertung.</translation>
+    </message>
+    <message>
         <source>Stop, save and close</source>
         <translation>Beenden, speichern, schließen</translation>
     </message>
@@ -11180,21 +11184,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>_Nobody</name>
-    <message>
-        <source>No patient “{name}”.</source>
-        <translation>Kein Patient „{name}“.</translation>
-    </message>
-    <message>
-        <source>Create “{name}”</source>
-        <translation>„{name}“ anlegen</translation>
-    </message>
-    <message>
-        <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
-        <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
-    </message>
-</context>
-<context>
     <name>_Away</name>
     <message>
         <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
@@ -11207,6 +11196,21 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Measure without the list</source>
         <translation>Ohne die Liste messen</translation>
+    </message>
+</context>
+<context>
+    <name>_Nobody</name>
+    <message>
+        <source>No patient “{name}”.</source>
+        <translation>Kein Patient „{name}“.</translation>
+    </message>
+    <message>
+        <source>Create “{name}”</source>
+        <translation>„{name}“ anlegen</translation>
+    </message>
+    <message>
+        <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
+        <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
     </message>
 </context>
 </TS>

@@ -4768,10 +4768,6 @@
         <translation>danneggiato: ciò che se ne legge non ha senso</translation>
     </message>
     <message>
-        <source>damaged: {cause}</source>
-        <translation>danneggiato: {cause}</translation>
-    </message>
-    <message>
         <source>damaged: {path} does not fit {path2}</source>
         <translation>danneggiato: {path} non corrisponde a {path2}</translation>
     </message>
@@ -8550,6 +8546,14 @@ Maiusc+F8 di lato</translation>
         <translation>Continuare a misurare, o fermare già?</translation>
     </message>
     <message>
+        <source>Stop recording?</source>
+        <translation>Fermare la registrazione?</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or stop: the session is saved and opens in the review.</source>
+        <translation>Continuare a misurare o fermare: la seduta viene salvata e si apre nella revisione.</translation>
+    </message>
+    <message>
         <source>Stop, save and close</source>
         <translation>Ferma, salva e chiudi</translation>
     </message>
@@ -11180,21 +11184,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>_Nobody</name>
-    <message>
-        <source>No patient “{name}”.</source>
-        <translation>Nessun paziente “{name}”.</translation>
-    </message>
-    <message>
-        <source>Create “{name}”</source>
-        <translation>Crea “{name}”</translation>
-    </message>
-    <message>
-        <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
-        <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
-    </message>
-</context>
-<context>
     <name>_Away</name>
     <message>
         <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
@@ -11207,6 +11196,21 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Measure without the list</source>
         <translation>Misurare senza l’elenco</translation>
+    </message>
+</context>
+<context>
+    <name>_Nobody</name>
+    <message>
+        <source>No patient “{name}”.</source>
+        <translation>Nessun paziente “{name}”.</translation>
+    </message>
+    <message>
+        <source>Create “{name}”</source>
+        <translation>Crea “{name}”</translation>
+    </message>
+    <message>
+        <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
+        <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
     </message>
 </context>
 </TS>

@@ -83,6 +83,10 @@ def test_esc_closes_the_patients_view_and_a_slow_source_is_said_of_the_simulated
     assert journey.place == "help", "over the window, and goes nowhere"
     journey._take_key("back")
     assert journey.place == "patients"
+    journey.patients.screen.search.setText("Fern")
+    for _ in range(2):  # what lies over the screen goes first
+        journey._take_key("back")
+    assert journey.patients.screen.search.text() == ""
     for kind, slow_hz in (("practice", 11.0), ("camera", 24.0)):
         journey.now.choice = SourceChoice(kind)  # type: ignore[arg-type]
         for fps, state in ((slow_hz + 2.0, "good"), (slow_hz, "warn")):

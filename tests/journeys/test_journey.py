@@ -221,8 +221,12 @@ def test_the_whole_journey_by_keyboard(
     press(Qt.Key.Key_F5)
     qtbot.keyClicks(shell.focusWidget(), "strap loose")
     press(Qt.Key.Key_Return)
-    press(Qt.Key.Key_Escape)  # nothing leaves a running recording
-    assert journey.place == "live"
+    assert shell.bar.back_button.isEnabled()
+    press(Qt.Key.Key_Escape)  # asks whether the recording shall stop
+    assert journey.messages.busy
+    press(Qt.Key.Key_Escape)  # the answer that loses nothing
+    assert (journey.messages.busy, journey.place) == (False, "live")
+    assert journey.live.screen.recording.state == "recording"
     wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
     press(Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)

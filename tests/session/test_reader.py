@@ -103,7 +103,7 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
     "no hand": (edit(lambda file: file.attrs.__delitem__("hand")), "hand"),
     "third hand": (edit(lambda file: file.attrs.__setitem__("hand", "middle")), "middle"),
     "other protocol": (edit(lambda file: file.attrs.__setitem__("protocol", "foot")), "foot"),
-    "no zone": (edit(lambda file: file.attrs.__setitem__("created", "2026-11-13T15:30:00")), "zone"),
+    "no zone": (edit(lambda file: file.attrs.__setitem__("created", "2026-11-13T15:30:00")), "damaged"),
     "settings not JSON": (edit(lambda file: file.attrs.__setitem__("parameters", "{")), ""),
     "no angles": (edit(lambda file: file.__delitem__("/wrist/angles")), "/wrist/angles"),
     "no camera": (edit(lambda file: file.__delitem__("/camera")), ""),

@@ -56,7 +56,11 @@ class LiveFlow(Flow):
             self.context.way.show("camera", now.patient.patient_id)
 
     def up(self) -> None:
-        self.context.way.show("camera")
+        """Back to the camera; of a running recording it is asked first whether it shall stop."""
+        if not self.is_recording:
+            self.context.way.show("camera")
+        elif not self.screen.recording.storing:
+            self._ask_to_stop(self._stop_question())
 
     def show_research(self, *, on: bool) -> None:
         self.screen.show_research(on=on)
@@ -111,6 +115,7 @@ class LiveFlow(Flow):
         now, way = self.context.now, self.context.way
         self.context.messages.withdraw(self._closing_question())
         self.context.messages.withdraw(self._hasty_question())
+        self.context.messages.withdraw(self._stop_question())
         self.screen.end()  # the source goes on, for another set
         in_course = now.set_up is not None and now.set_up.course is not None
         if self.course.goes_on():
@@ -134,8 +139,11 @@ class LiveFlow(Flow):
 
     def _ask_hasty(self) -> None:
         """A recording that has only just begun is ended: is it meant?"""
+        self._ask_to_stop(self._hasty_question())
+
+    def _ask_to_stop(self, question: Words) -> None:
         self.context.messages.ask(
-            self._hasty_question(),
+            question,
             (
                 Answer(self.tr("Stop and review"), self.screen.recording.stop, "S", risky=True),
                 Answer(self.tr("Go on measuring"), lambda: None),
@@ -147,6 +155,13 @@ class LiveFlow(Flow):
             self.tr("The recording has only just begun."),
             self.tr("It goes on while you choose, and everything is kept."),
             self.tr("Go on measuring, or stop it already?"),
+        )
+
+    def _stop_question(self) -> Words:
+        return Words(
+            self.tr("Stop recording?"),
+            self.tr("It goes on while you choose, and everything is kept."),
+            self.tr("Go on measuring, or stop: the session is saved and opens in the review."),
         )
 
     # --- the window closes --------------------------------------------------------------------------------

@@ -55,7 +55,9 @@ class PatientsFlow(Flow):
         self.context.way.show("exercise", row.patient_id)
 
     def up(self) -> None:
-        if not put_off_last(self.screen):
+        if self.screen.search.text():
+            self.screen.search.clear()
+        elif not put_off_last(self.screen):
             self.to_patient()
 
     def _take_key(self, name: str) -> None:
