@@ -141,8 +141,11 @@ def _of_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side |
                 path,
                 phrase("it has no marker {wanted}; it has {names}", wanted=markers[name], names=listed(track.names)),
             )
+    taken = {name: k for name, k in taken.items() if np.isfinite(track.place_m[:, k]).any()}
     left = [name for k, name in enumerate(track.names) if k not in taken.values()]
-    unused = _left(phrase("markers"), left, phrase("none of the discs by their names, or of the other hand"))
+    unused = _left(
+        phrase("markers"), left, phrase("none of the discs by their names, of the other hand, or never seen")
+    )
     return Reference(
         path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s,
         points_m={name: track.place_m[:, k] for name, k in taken.items()}, unused=unused, names=track.names,
@@ -243,9 +246,8 @@ def _left(what: str, names: Sequence[str], why: str) -> tuple[str, ...]:
 
 def _candidates(name: str, there: Iterable[str]) -> list[str]:
     """The columns that an angle's name fits, whatever their hand and unit."""
-    ends = ("", "_deg", "_rad", "_r", "_l")
-    own = {f"{before}{name}{end}".lower() for before in ("", "wrist_") for end in ends}
-    return [column for column in there if split_unit(column)[0].lower() in own]
+    own = {f"{before}{name}{end}".lower() for before in ("", "wrist_") for end in ("", "_deg", "_rad")}
+    return [column for column in there if SIDES.sub("", split_unit(column)[0]).lower() in own]
 
 
 def _time_name(table: TextTable) -> str:

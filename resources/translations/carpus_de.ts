@@ -6364,10 +6364,6 @@
         <translation>kein Punkt der Handfläche und kein Winkel von Handgelenk oder Fingern ist darin; vorhanden sind {there}</translation>
     </message>
     <message>
-        <source>none of the discs by their names, or of the other hand</source>
-        <translation>dem Namen nach keine der Punkte oder von der anderen Hand</translation>
-    </message>
-    <message>
         <source>three discs of the palm are needed; say which of {there} they are</source>
         <translation>drei Punkte der Handfläche werden gebraucht; geben Sie an, welche von {there} es sind</translation>
     </message>
@@ -6650,6 +6646,10 @@
     <message>
         <source>the hand went out of sight in each</source>
         <translation>die Hand war in jeder zeitweise nicht zu sehen</translation>
+    </message>
+    <message>
+        <source>none of the discs by their names, of the other hand, or never seen</source>
+        <translation>dem Namen nach keine der Punkte, von der anderen Hand oder nie gesehen</translation>
     </message>
 </context>
 <context>

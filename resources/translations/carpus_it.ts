@@ -6364,10 +6364,6 @@
         <translation>non contiene dischi del palmo né angoli di polso o dita; ci sono {there}</translation>
     </message>
     <message>
-        <source>none of the discs by their names, or of the other hand</source>
-        <translation>dal nome non sono dischi, o sono dell’altra mano</translation>
-    </message>
-    <message>
         <source>three discs of the palm are needed; say which of {there} they are</source>
         <translation>servono tre dischi del palmo; indicare quali sono tra {there}</translation>
     </message>
@@ -6650,6 +6646,10 @@
     <message>
         <source>the hand went out of sight in each</source>
         <translation>la mano è uscita di vista in ciascuna</translation>
+    </message>
+    <message>
+        <source>none of the discs by their names, of the other hand, or never seen</source>
+        <translation>dal nome non sono dischi, sono dell’altra mano o non si vedono mai</translation>
     </message>
 </context>
 <context>

@@ -97,13 +97,17 @@ def test_the_second_column_of_a_name_can_be_chosen(tmp_path: Path) -> None:
     assert np.degrees(found.angles_rad["flexion"]) == pytest.approx([-20.0, -30.0])
 
 
-def test_of_both_hands_columns_that_of_the_session_is_taken_and_said(tmp_path: Path) -> None:
-    (tmp_path / "r.csv").write_text("time,flexion_l,flexion_r\n0,1,20\n0.1,2,30\n", encoding="utf-8")
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [("flexion_l", "flexion_r"), ("wrist_flexion_left", "Right:Flexion"), ("Flexion links (°)", "Flexion rechts (°)")],
+)
+def test_of_both_hands_columns_that_of_the_session_is_taken_and_said(left: str, right: str, tmp_path: Path) -> None:
+    (tmp_path / "r.csv").write_text(f"time,{left},{right}\n0,1,20\n0.1,2,30\n", encoding="utf-8")
     for hand, first in (("left", 1.0), ("right", 20.0)):
         found = read_reference(tmp_path / "r.csv", hand=hand)  # type: ignore[arg-type]
         assert np.degrees(found.angles_rad["flexion"][0]) == pytest.approx(first)
         assert "both hands" in found.remarks[0]
-    with pytest.raises(ReferenceUnreadable, match="flexion_l, flexion_r"):
+    with pytest.raises(ReferenceUnreadable, match=f"{left}, {right}".replace("(", r"\(").replace(")", r"\)")):
         read_reference(tmp_path / "r.csv")
 
 
@@ -141,6 +145,9 @@ def test_two_hands_in_one_file_and_gaps_of_zeros(tmp_path: Path) -> None:
     assert "R:WRIST" in compared.remarks[0]
     with pytest.raises(ReferenceUnreadable, match="R:WRIST, L:WRIST for WRIST"):
         read_reference(path)
+    both["R:MCP3"][:] = 0.0
+    never = read_reference(write_trc(tmp_path / "never.trc", time_s, both), hand="right")
+    assert set(PALM_MARKERS) - set(never.points_m) == {"MCP3"}
     chosen = read_reference(path, markers={name: f"L:{name}" for name in PALM_MARKERS})
     assert chosen.points_m["WRIST"] == pytest.approx(both["L:WRIST"] / 1e3, nan_ok=True)
     with pytest.raises(ReferenceUnreadable, match="no marker R:PALM; it has R:WRIST"):
