@@ -10891,6 +10891,10 @@ Umschalt+F8 von der Seite</translation>
         <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is counted down, and Space takes it back.</source>
         <translation>Für Hände, die den Arm des Patienten halten. Die Taste darf weit weg sein: Ein Pedal oder ein Presenter ist eine Tastatur mit wenigen Tasten. Bild ab geht weiter, nimmt auf und beendet. Vor einem Start von selbst wird gezählt, und die Leertaste nimmt ihn zurück.</translation>
     </message>
+    <message>
+        <source>A demo: what is chosen here holds until it is closed.</source>
+        <translation>Demo: Was hier gewählt wird, gilt, bis sie geschlossen wird.</translation>
+    </message>
 </context>
 <context>
     <name>Sheet</name>

@@ -10891,6 +10891,10 @@ Maiusc+F8 di lato</translation>
         <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is counted down, and Space takes it back.</source>
         <translation>Per mani che tengono il braccio del paziente. Il tasto può essere lontano: un pedale o un telecomando per presentazioni è una tastiera con pochi tasti. Pag giù prosegue, registra e ferma. Prima di un inizio da solo si conta, e lo Spazio lo annulla.</translation>
     </message>
+    <message>
+        <source>A demo: what is chosen here holds until it is closed.</source>
+        <translation>Dimostrazione: ciò che si sceglie qui vale finché non viene chiusa.</translation>
+    </message>
 </context>
 <context>
     <name>Sheet</name>

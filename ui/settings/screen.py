@@ -121,7 +121,11 @@ class SettingsScreen(QWidget):
         self._lay_out_index(cards)
         self._fold()
         self.choose("looks")
-        head = in_line((heading(theme, self.tr("Settings")), 1), self.back, margins=(0, 0, 8, 0))
+        self.of_demo = Text(theme, self.tr("A demo: what is chosen here holds until it is closed."), 14, wrap=True)
+        self.of_demo.hide()
+        head = in_line(
+            (heading(theme, self.tr("Settings")), 1), (self.of_demo, 1), self.back, gap=16, margins=(0, 0, 8, 0)
+        )
         beside = in_line(self._left, (self._stack, 1), gap=GAP_PX)
         in_column(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
 
