@@ -14,6 +14,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.records.library import Library
+from carpus.core.records.values import PatientRecord
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.camera_state import Cameras, CameraState
@@ -22,7 +23,6 @@ from carpus.ui.last_places import Kind, LastPlaces
 from carpus.ui.messages.messages import Messages, tell_written
 from carpus.ui.now_open import NowOpen
 from carpus.ui.opening import Opener
-from carpus.ui.ports import PatientRow
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 
@@ -136,11 +136,11 @@ class Flow(QObject):
     def show_research(self, *, on: bool) -> None:
         """Show what only research needs, or fold it away; no value changes by it."""
 
-    def open_patient(self, patient_id: str) -> PatientRow:
+    def open_patient(self, patient_id: str) -> PatientRecord:
         """From now on this patient is open."""
         now = self.context.now
         if now.patient is None or now.patient.patient_id != patient_id:
-            now.patient = PatientRow.of(self.context.library.patients.one(patient_id))
+            now.patient = self.context.library.patients.one(patient_id)
         return now.patient
 
     def close_patient(self) -> None:

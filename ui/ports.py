@@ -4,50 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import date, datetime
+from datetime import datetime
 from typing import Literal, Protocol
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.pipeline.live_values import StartMode
-from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientRecord
+from carpus.core.records.values import PatientRecord
 from carpus.core.session.values import AngleOrder
 from carpus.core.types import ByteImage, FloatArray, Frame, Side
 
 
 # --- patients ---------------------------------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class PatientRow:
-    """One row of the list. ``name`` is searched, and shown only as ``found_by``: where a search found the row by it and
-    by nothing else that is shown."""
-
-    patient_id: str
-    pseudonym: str
-    side: AffectedSide
-    dominance: Dominance = "unknown"
-    exercise: str = ""
-    last_session: datetime | None = None
-    session_count: int = 0
-    note: str = ""
-    name: str = ""
-    diagnosis: str = ""
-    onset: Onset = ""
-    onset_day: date | None = None
-    """Of the operation or injury, as in :class:`core.records.values.PatientEntry`."""
-    result_count: int = 0
-    """Results of all recordings; more than ``session_count`` where one was tracked again: it counts once."""
-    found_by: str = ""
-
-    @classmethod
-    def of(cls, record: PatientRecord) -> PatientRow:
-        entry = record.entry
-        return cls(
-            record.patient_id, entry.pseudonym, entry.side, entry.dominance, record.last_exercise, record.last_session,
-            record.session_count, entry.note, entry.name, entry.diagnosis, entry.onset, entry.onset_day,
-            record.result_count,
-        )  # fmt: skip
-
-
 @dataclass(frozen=True, slots=True)
 class ResultLine:
     """The last result of one movement; ``verdict`` as of :mod:`core.results.progress`."""
@@ -67,7 +35,7 @@ class ResultLine:
 class PatientCard:
     """What the therapist must recall before the next session."""
 
-    row: PatientRow
+    record: PatientRecord
     results: Sequence[ResultLine] = ()
     last_set: str = ""
     note: str = ""

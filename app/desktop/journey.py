@@ -21,6 +21,7 @@ from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.errors import CarpusFault
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.library import Library
+from carpus.core.records.values import PatientRecord
 from carpus.ui.background import Background
 from carpus.ui.camera_state import CameraState
 from carpus.ui.flow import STEPS, TABS, Flow, Navigator, ScreenContext
@@ -28,7 +29,6 @@ from carpus.ui.last_places import LastPlaces
 from carpus.ui.messages.messages import Messages
 from carpus.ui.now_open import NowOpen, SourceChoice
 from carpus.ui.opening import Opener, OpenIt
-from carpus.ui.ports import PatientRow
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 
@@ -92,7 +92,7 @@ class Journey(Screens):
         row = now.patient
         if row is not None and row.patient_id and not patients.has(row.patient_id):
             known = patients.called(row.pseudonym)
-            now.patient = PatientRow.of(patients.one(known)) if known else row
+            now.patient = patients.one(known) if known else row
             if now.set_up is not None:
                 now.set_up = replace(now.set_up, patient_id=now.patient.patient_id)
         for flow in self.way.flows.values():
@@ -166,7 +166,7 @@ class Journey(Screens):
             self.messages.fault(fault)
             return
         if not found.patient_id:  # of nobody here: shown under the name in its file
-            self.now.patient = PatientRow("", found.subject_id, found.side)
+            self.now.patient = PatientRecord.unlisted(found.subject_id.strip(), found.side)
         self.review.show(found.session_id, found.patient_id)
 
     def _take_key(self, name: str) -> None:

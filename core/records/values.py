@@ -83,6 +83,15 @@ class PatientRecord:
     result_count: int = 0
     version: int = 0
 
+    @classmethod
+    def unlisted(cls, pseudonym: str, side: AffectedSide, patient_id: str = "") -> PatientRecord:
+        """Somebody of whom no list says more."""
+        return cls(patient_id, PatientEntry(pseudonym or "?", side), 0, None, "")
+
+    @property
+    def pseudonym(self) -> str:
+        return self.entry.pseudonym
+
 
 @dataclass(frozen=True, slots=True)
 class SessionEntry:

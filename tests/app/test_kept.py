@@ -55,7 +55,7 @@ def deeds(folder: Path) -> list[tuple[str, str, str]]:
 def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
     patients, stored = StoredPatients(library), StoredSessions(library)
     linden = patients.add(PatientEntry("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
-    patients.change(linden, PatientEntry("Linden 43", "right", "right"))
+    patients.change(patients.card(linden).record, PatientEntry("Linden 43", "right", "right"))
     session = store(library, set_up(linden, "Linden 43"))
     store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
     stored.set_aside(session, "pain")

@@ -15,7 +15,6 @@ from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.errors import OutputNotWritable
 from carpus.core.records.values import PatientEntry
-from carpus.ui.ports import PatientRow
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import at, click, click_discs, still_hand
 
@@ -85,7 +84,7 @@ def test_escape_leaves_the_guide_and_not_the_screen_and_it_is_for_the_practice_p
     desktop.shell.key.emit("back")
     assert not tour.is_on
     assert journey.place == "patients"
-    journey.now.patient = PatientRow.of(desktop.library.patients.one(desktop.library.patients.add(_somebody())))
+    journey.now.patient = desktop.library.patients.one(desktop.library.patients.add(_somebody()))
     for asked_for in (False, True):
         tour.begin(asked_for=asked_for)
         journey.way.go("camera")

@@ -20,7 +20,7 @@ from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.records.values import PatientEntry, SessionEntry
+from carpus.core.records.values import Onset, PatientEntry, PatientRecord, SessionEntry
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, motion_of
@@ -42,7 +42,6 @@ from carpus.ui.ports import (
     FoundMarker,
     Judged,
     PatientCard,
-    PatientRow,
     ProposedMarker,
     ResultLine,
     VerdictLimits,
@@ -411,14 +410,13 @@ WHY = {
 }  # fmt: skip
 
 
-def _rows() -> list[PatientRow]:
-    def row(key: str, name: str, side: str, exercise: str, days: int, count: int) -> PatientRow:
+def _rows() -> list[PatientRecord]:
+    def row(key: str, name: str, side: str, exercise: str, days: int, count: int) -> PatientRecord:
         why, since = WHY.get(name, ("", 0))
         day = (NOW - timedelta(weeks=since)).date() if since else None
-        return PatientRow(
-            key, name, side, "right", exercise, NOW - timedelta(days=days), count,  # type: ignore[arg-type]
-            diagnosis=why, onset="operation" if since else "", onset_day=day,
-        )  # fmt: skip
+        onset: Onset = "operation" if since else ""
+        entry = PatientEntry(name, side, "right", diagnosis=why, onset=onset, onset_day=day)  # type: ignore[arg-type]
+        return PatientRecord(key, entry, count, NOW - timedelta(days=days), exercise)
 
     return [
         row("heron", "Heron 17", "left", "FOREARM_PS", 1, 3),
@@ -434,13 +432,13 @@ def _rows() -> list[PatientRow]:
 class FakeStore:
     """A register in memory."""
 
-    def __init__(self, rows: Sequence[PatientRow] | None = None) -> None:
+    def __init__(self, rows: Sequence[PatientRecord] | None = None) -> None:
         self.rows = list(_rows() if rows is None else rows)
         self.added: list[PatientEntry] = []
         self.in_archive: list[str] = []
         self.listed = ["Wrist fracture, plate", "Wrist fracture, cast", "Flexor tendon repair"]
 
-    def patients(self, search: str = "") -> list[PatientRow]:
+    def patients(self, search: str = "") -> list[PatientRecord]:
         words = search.casefold().split()
         return [one for one in self.rows if all(word in one.pseudonym.casefold() for word in words)][:MOST_ROWS]
 
@@ -449,7 +447,7 @@ class FakeStore:
 
     def card(self, patient_id: str) -> PatientCard:
         if patient_id == PRACTICE_PATIENT:
-            return PatientCard(PatientRow(PRACTICE_PATIENT, "", "right"))
+            return PatientCard(PatientRecord.unlisted("practice", "right", PRACTICE_PATIENT))
         row = next(row for row in self.rows if row.patient_id == patient_id)
         if row.last_session is None:
             return PatientCard(row)
@@ -463,19 +461,11 @@ class FakeStore:
     def add(self, entry: PatientEntry) -> str:
         self.added.append(entry)
         key = f"new-{len(self.added)}"
-        row = PatientRow(
-            key, entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name,
-            diagnosis=entry.diagnosis, onset=entry.onset, onset_day=entry.onset_day,
-        )  # fmt: skip
-        self.rows.insert(0, row)
+        self.rows.insert(0, PatientRecord(key, entry, 0, None, ""))
         return key
 
-    def change(self, patient_id: str, entry: PatientEntry) -> None:
-        place = next(k for k, row in enumerate(self.rows) if row.patient_id == patient_id)
-        self.rows[place] = replace(
-            self.rows[place], pseudonym=entry.pseudonym, side=entry.side, dominance=entry.dominance,
-            diagnosis=entry.diagnosis, onset=entry.onset, onset_day=entry.onset_day,
-        )  # fmt: skip
+    def change(self, shown: PatientRecord, entry: PatientEntry) -> None:
+        self.rows[self.rows.index(shown)] = replace(shown, entry=entry)
 
     def diagnoses(self) -> list[str]:
         return list(self.listed)

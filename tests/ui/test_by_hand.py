@@ -18,12 +18,11 @@ from pytestqt.qtbot import QtBot
 from carpus.core.measures.by_hand import HandValue, counted
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import PatientEntry, PatientRecord
 from carpus.core.results.progress import progress
 from carpus.ui.background import Background
 from carpus.ui.by_hand.flow import ByHandFlow
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
-from carpus.ui.ports import PatientRow
 from carpus.ui.progress.flow import write_tables
 from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.shell import Shell
@@ -149,7 +148,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     shell = SimpleNamespace(close_surely=lambda: closed.append("closed"))
     context = a_context(theme, host, told, background, library=library)
     now = context.now
-    now.patient = PatientRow(patient, "Linden 42", "left")
+    now.patient = PatientRecord.unlisted("Linden 42", "left", patient)
     flow = ByHandFlow(context)
     context.shell = cast("Shell", shell)
     screen = flow.screen
@@ -174,7 +173,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     typed(screen, "FLEXION", "70")
     heron = library.patients.add(PatientEntry("Heron 17", "right"))
     for person, name, written in ((heron, "Heron 17", ""), (patient, "Linden 42", "70")):
-        now.patient = PatientRow(person, name, "left")
+        now.patient = PatientRecord.unlisted(name, "left", person)
         flow.show()
         qtbot.waitUntil(lambda person=person: screen.record.patient_id == person)
         assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.names import MOST_CHARACTERS
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import PatientEntry, PatientRecord
 from carpus.ui.controls.text import Text
 from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
@@ -28,6 +28,10 @@ from tests.ui.fakes import FakeStore
 from tests.ui.geometry import shown_texts
 
 TODAY = date(2026, 11, 20)
+
+
+def renamed(record: PatientRecord, **names: str) -> PatientRecord:
+    return replace(record, entry=replace(record.entry, **names))  # type: ignore[arg-type]
 
 
 @pytest.fixture
@@ -57,7 +61,7 @@ def test_arrow_and_enter_start_a_session_while_the_search_has_the_keyboard(
 def test_typing_narrows_the_list_by_name_real_name_and_exercise(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore
 ) -> None:
-    store.rows[5] = replace(store.rows[5], name="Rosa Muster")
+    store.rows[5] = renamed(store.rows[5], name="Rosa Muster")
     screen.refresh()
     for typed, expected in (
         ("lind", ["linden"]),
@@ -99,11 +103,11 @@ def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
 def test_a_real_name_is_shown_in_list_and_card_where_it_was_searched_for(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore, typed: str, is_shown: bool
 ) -> None:
-    store.rows[5] = replace(store.rows[5], name="Rosa Muster Wu")
+    store.rows[5] = renamed(store.rows[5], name="Rosa Muster Wu")
     screen.refresh("linden")
     qtbot.keyClicks(screen.search, typed)
     row = screen.list.rows.find("linden")
-    assert ("Rosa Muster Wu · Wrist fracture" in cells(screen.list.rows.row(row), TODAY)[2]) == is_shown
+    assert ("Rosa Muster Wu · Wrist fracture" in screen.list.rows.cells(screen.list.rows.row(row))[2]) == is_shown
     screen.list.setCurrentIndex(screen.list.rows.index(row))
     assert ("Name: Rosa Muster Wu" in shown_texts(screen.card)) == is_shown
     screen.search.clear()
@@ -210,7 +214,7 @@ def test_a_long_name_moves_no_button_and_widens_nothing(qtbot: QtBot, screen: Pa
     edit, card = screen.card.edit_button, screen.card
     before = edit.geometry(), card.geometry(), screen.list.geometry()
     place = next(n for n, row in enumerate(store.rows) if row.patient_id == "linden")
-    store.rows[place] = replace(store.rows[place], pseudonym="Blue Hummingbird Mountain 42 and more of it")
+    store.rows[place] = renamed(store.rows[place], pseudonym="Blue Hummingbird Mountain 42 and more of it")
     screen.refresh("linden")
     screen.layout().activate()
     qtbot.wait(1)
@@ -256,7 +260,9 @@ def test_after_midnight_it_is_another_day_without_a_new_start(theme: Theme, stor
 def test_of_very_many_patients_the_first_are_shown_and_searching_finds_the_others(
     screen: PatientsScreen, store: FakeStore
 ) -> None:
-    store.rows = [replace(store.rows[0], patient_id=str(n), pseudonym=f"Oak {n}") for n in range(MOST_ROWS + 200)]
+    store.rows = [
+        replace(renamed(store.rows[0], pseudonym=f"Oak {n}"), patient_id=str(n)) for n in range(MOST_ROWS + 200)
+    ]
     screen.refresh()
     assert screen.list.rows.rowCount() == MOST_ROWS + 1
     screen.search.setText(f"oak {MOST_ROWS + 150}")

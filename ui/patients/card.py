@@ -11,6 +11,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.records.values import PatientRecord
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
@@ -18,7 +19,7 @@ from carpus.ui.controls.layouts import STRETCH, ScrollArea, empty, fill, in_colu
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.figures import figure_of, followed_name
 from carpus.ui.picture.photo import Photo
-from carpus.ui.ports import PatientCard, PatientRow, ResultLine
+from carpus.ui.ports import PatientCard, ResultLine
 from carpus.ui.theme import Theme
 from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.verdicts import change_since_first, counted_once_words, verdict_token
@@ -92,24 +93,26 @@ class PatientCardView(Card):
         needed_px = PHOTO_FROM_PX + (0 if self._why.isHidden() else WHY_PX)
         self._photo.set_roomy(self.height() >= self._theme.px(needed_px))
 
-    def show_card(self, card: PatientCard | None, camera_ready: bool) -> None:
+    def show_card(self, card: PatientCard | None, camera_ready: bool, found_by: str = "") -> None:
         self.setVisible(card is not None)
         if card is None:
             return
-        row = card.row
+        row = card.record
         practice = row.patient_id == PRACTICE_PATIENT
         self._name.setText(row.pseudonym)
-        self._name.setToolTip(plain_tooltip(" · ".join(part for part in (row.pseudonym, row.name) if part)))
+        self._name.setToolTip(plain_tooltip(" · ".join(part for part in (row.pseudonym, row.entry.name) if part)))
         self.edit_button.setVisible(not practice)
-        self._found_by.say(self.tr("Name: {name}").format(name=row.found_by) if row.found_by else "")
+        self._found_by.say(self.tr("Name: {name}").format(name=found_by) if found_by else "")
         self._hand.setText(
-            self.tr("Simulated: nothing counts") if practice else terms.affected_phrase(row.side, row.dominance)
+            self.tr("Simulated: nothing counts")
+            if practice
+            else terms.affected_phrase(row.entry.side, row.entry.dominance)
         )
         self._show_why(row)
         day = numbers.day_month(row.last_session) if row.last_session else ""
         self._photo.show_picture(card.marker_picture_rgb, self.tr("Markers as on {day}").format(day=day) if day else "")
         none = self.tr("No session counted yet") if card.has_sessions else self.tr("No session yet")
-        self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else none)
+        self._exercise.setText(terms.exercise_name(row.last_exercise) if row.last_exercise else none)
         self._last.setText(self._last_words(card, practice))
         self._about.say(card.about)
         self._warning.setText(" ".join(card.warnings))
@@ -127,11 +130,11 @@ class PatientCardView(Card):
         self.progress_button.setEnabled(row.session_count > 0 or not practice)  # values by hand come first
         self.sessions_button.setEnabled(row.session_count > 0 or card.has_sessions)
 
-    def _show_why(self, row: PatientRow) -> None:
-        shown, day = row.diagnosis, row.onset_day
+    def _show_why(self, row: PatientRecord) -> None:
+        shown, day = row.entry.diagnosis, row.entry.onset_day
         for text, words in (
             (self._diagnosis, shown),
-            (self._since, terms.onset_words(row.onset, day)),
+            (self._since, terms.onset_words(row.entry.onset, day)),
             (self._weeks, numbers.weeks_since(day, self._today()) if day is not None else ""),
         ):
             text.say(words)
@@ -146,7 +149,7 @@ class PatientCardView(Card):
         return self.tr("Start session, same set-up") if same else self.tr("Start first session")
 
     def _last_words(self, card: PatientCard, practice: bool) -> str:
-        row = card.row
+        row = card.record
         if row.last_session is None:
             if practice:
                 return self.tr(

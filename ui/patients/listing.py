@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import date
+from types import MappingProxyType
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
 from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.records.values import PatientRecord
 from carpus.ui import numbers, terms
 from carpus.ui.controls.text import ElidedText
 from carpus.ui.fonts import MEDIUM, font
-from carpus.ui.ports import PatientRow
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.translate import tr
 
@@ -31,15 +32,18 @@ class PatientModel(QAbstractListModel):
 
     def __init__(self, today: Callable[[], date]) -> None:
         super().__init__()
-        self._rows: tuple[PatientRow, ...] = ()
+        self._rows: tuple[PatientRecord, ...] = ()
+        self.found_by: Mapping[str, str] = {}
+        """Real names of those that a search found by it alone, by identity."""
         self.today = today
 
-    def show_rows(self, rows: Sequence[PatientRow]) -> None:
+    def show_rows(self, rows: Sequence[PatientRecord], found_by: Mapping[str, str] = MappingProxyType({})) -> None:
         self.beginResetModel()
+        self.found_by = found_by
         self._rows = tuple(rows)
         self.endResetModel()
 
-    def row(self, number: int) -> PatientRow:
+    def row(self, number: int) -> PatientRecord:
         return self._rows[number]
 
     def find(self, patient_id: str) -> int:
@@ -54,18 +58,22 @@ class PatientModel(QAbstractListModel):
             return None
         row = self._rows[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            return ", ".join(part for part in cells(row, self.today()) if part)
+            return ", ".join(part for part in self.cells(row) if part)
         return row if role == Qt.ItemDataRole.UserRole else None
 
+    def cells(self, row: PatientRecord) -> tuple[str, str, str, str, str, str, str]:
+        """As :func:`cells`, today."""
+        return cells(row, self.today(), self.found_by.get(row.patient_id, ""))
 
-def cells(row: PatientRow, today: date) -> tuple[str, str, str, str, str, str, str]:
+
+def cells(row: PatientRecord, today: date, found_by: str = "") -> tuple[str, str, str, str, str, str, str]:
     """Pseudonym, hand, diagnosis (after the name that it was found by), how long since, date of the last session, how
     long ago, number of sessions."""
-    side = terms.side_name(row.side)
+    side = terms.side_name(row.entry.side)
     if row.patient_id == PRACTICE_PATIENT:
         return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
-    about = " · ".join(part for part in (row.found_by, row.diagnosis) if part)
-    since = numbers.weeks_since(row.onset_day, today) if row.onset_day is not None else ""
+    about = " · ".join(part for part in (found_by, row.entry.diagnosis) if part)
+    since = numbers.weeks_since(row.entry.onset_day, today) if row.entry.onset_day is not None else ""
     if row.last_session is None:
         return row.pseudonym, side, about, since, tr("No session counted yet"), "", ""
     when = row.last_session
@@ -121,9 +129,9 @@ class PatientRowPainter(QStyledItemDelegate):
         painter.strokePath(corners, QPen(theme.color("line"), 1))
         painter.restore()
 
-    def _paint_cells(self, painter: QPainter, box: QRectF, row: PatientRow) -> None:
+    def _paint_cells(self, painter: QPainter, box: QRectF, row: PatientRecord) -> None:
         scale = self._theme.text_scale
-        *texts, when, ago, count = cells(row, self._model.today())
+        *texts, when, ago, count = self._model.cells(row)
         end = box.right() - RIGHT_PAD_PX
         edges = [*(box.left() + share * box.width() for share in columns(scale)), end]
         for number, text in enumerate(texts):

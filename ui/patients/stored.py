@@ -10,10 +10,10 @@ from carpus.core.records import of_clinic
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import PatientEntry, PatientRecord
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare, compare_rows, unfair_reasons
-from carpus.ui.ports import MOST_ROWS, PatientCard, PatientRow, ResultLine
+from carpus.ui.ports import MOST_ROWS, PatientCard, ResultLine
 from carpus.ui.report.further_rows import main_words
 from carpus.ui.report.hand_rows import compared_figures
 from carpus.ui.report.tables import repetition_words
@@ -28,10 +28,9 @@ class StoredPatients:
 
     def __init__(self, library: Library) -> None:
         self._library = library
-        self._shown: dict[str, int] = {}
 
-    def patients(self, search: str = "") -> Sequence[PatientRow]:
-        return [PatientRow.of(record) for record in self._library.patients.listed(search, most=MOST_ROWS)]
+    def patients(self, search: str = "") -> Sequence[PatientRecord]:
+        return self._library.patients.listed(search, most=MOST_ROWS)
 
     def archived(self) -> Sequence[str]:
         return [one.pseudonym for one in Records(self._library).archived() if one.recorded is None]
@@ -39,27 +38,25 @@ class StoredPatients:
     def card(self, patient_id: str) -> PatientCard:
         """What the therapist must recall, of the last session against the first that compares."""
         record = self._library.patients.one(patient_id)
-        self._shown[patient_id] = record.version
-        row = PatientRow.of(record)
         entries = self._library.sessions(patient_id)
         if not entries:
             archived = any(one.patient_id == patient_id for one in Records(self._library).archived())
-            return PatientCard(row, has_sessions=archived)  # the way to the archive is the list of sessions
+            return PatientCard(record, has_sessions=archived)  # the way to the archive is the list of sessions
         picture = self._library.marker_picture(patient_id)
         real = [entry for entry in entries if not entry.simulated]
         if not real and patient_id != PRACTICE_PATIENT:
-            return PatientCard(row, marker_picture_rgb=picture, has_sessions=True)
+            return PatientCard(record, marker_picture_rgb=picture, has_sessions=True)
         try:
             last = self._library.figures((real or entries)[0])
             first = self._first_alike(patient_id, last)
         except SessionUnreadable:
-            return PatientCard(row, marker_picture_rgb=picture, has_sessions=True)
+            return PatientCard(record, marker_picture_rgb=picture, has_sessions=True)
         note = last.notes[-1][1] if last.notes else ""
         said = () if patient_id == PRACTICE_PATIENT else warnings(last)
         # A reach or a touch is not told by how far the joints bend.
         about = main_words(last)
         results = () if about else _results(first, last)
-        return PatientCard(row, results, repetition_words(last), note, last.when, picture, said, True, about)
+        return PatientCard(record, results, repetition_words(last), note, last.when, picture, said, True, about)
 
     def suggest_pseudonym(self) -> str:
         return self._library.patients.suggest_pseudonym()
@@ -69,12 +66,11 @@ class StoredPatients:
         self._library.notes.patient("added", patient_id)
         return patient_id
 
-    def change(self, patient_id: str, entry: PatientEntry) -> None:
-        """Change what a person wrote; what the form does not show stays."""
-        record = self._library.patients.one(patient_id)
-        new = replace(entry, age_band=record.entry.age_band)
-        self._library.patients.change(patient_id, new, self._shown.pop(patient_id, record.version))
-        self._library.notes.patient("changed", patient_id)
+    def change(self, shown: PatientRecord, entry: PatientEntry) -> None:
+        """Change what a person wrote over what was ``shown``; what the form does not show stays."""
+        new = replace(entry, age_band=shown.entry.age_band)
+        self._library.patients.change(shown.patient_id, new, shown.version)
+        self._library.notes.patient("changed", shown.patient_id)
 
     def diagnoses(self) -> Sequence[str]:
         return of_clinic.diagnoses(self._library.store)
