@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from carpus.app.command_line import bar, misused, say, tell
 from carpus.app.of_file import note_in
-from carpus.app.settings import settings_folder
+from carpus.app.settings import load_sound_settings, settings_folder
 from carpus.core.errors import BackupMissing, CarpusFault
 from carpus.core.names import known_names
 
@@ -43,7 +43,8 @@ def run(arguments: argparse.Namespace) -> int:
         say(f"no back-up in {place} is called “{name}”; {known_names(name, there)}.")
         return 1
     backup = there[name]
-    past = _past(place, arguments.against or Path(backup.data_folder or "."))
+    own = Path(backup.data_folder) if backup.data_folder else load_sound_settings()[0].data_folder
+    past = _past(place, arguments.against or own)
     if arguments.against is not None:
         plan = plan_restore(backup, place, arguments.against, past)
         for words, paths in (("comes", plan.added), ("changes", plan.replaced), ("goes", plan.lost)):
