@@ -457,7 +457,7 @@ def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_wait
     assert other.exists()
     with monkeypatch.context() as patched:
         patched.setattr(os, "link", full)
-        patched.setattr(os, "open", full)
+        patched.setattr(os, "rename", full)
         assert corrections.waiting() == [Waiting(kept.session_id, other)]
     assert trial.exists()
     assert corrections.waiting() == [Waiting(kept.session_id, other)]
