@@ -8,6 +8,7 @@ for frame in carpus.track("recording", "clicks.json"):
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
@@ -28,7 +29,7 @@ from carpus.core.calibration.naming import propose_names
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
+from carpus.core.errors import CalibrationImpossible, CarpusFault, RecordingEmpty, SettingsInvalid
 from carpus.core.formats.csv_tables import repetition_table, tables
 from carpus.core.formats.formats import FORMATS, Exported, Wanted, export_sessions
 from carpus.core.formats.new_output import FOR_PROGRAMS
@@ -47,6 +48,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import Profile, TrackerSettings
 from carpus.core.types import BoolArray, FloatArray, Frame, Side, TrackedFrame, TrackStatus
+from carpus.core.words import one_sentence
 
 FilterName = Literal["default", "paper"]
 Dip = Literal["coupled", "free"]
@@ -206,7 +208,7 @@ def write_session(
         _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
     chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
     recorded, out, told = _path(where, "path", path), _path(where, "output", output), _clicks(where, clicks)
-    source = open_recording(recorded, need_depth=chosen.uses_depth)
+    source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_warn)
     try:
         track_recording(
             source, told, out, replace(chosen, smooth=smooth and chosen.smooth), software_version=__version__,
@@ -315,8 +317,13 @@ def _check_picture(
         raise SettingsInvalid(where, f"{name} is no recording and no picture ({wanted}) {kind.__name__}")
 
 
+def _warn(fault: CarpusFault) -> None:
+    """What a command says on stderr before it tracks."""
+    warnings.warn(one_sentence(fault), stacklevel=2)
+
+
 def _tracked(path: Path, told: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
-    source = open_recording(path, need_depth=chosen.uses_depth)
+    source = open_recording(path, need_depth=chosen.uses_depth, notice=_warn)
     try:
         begun, names = begin_tracking(source, told, chosen), told.protocol.joint_names(chosen.dip_free)
         for frame in begun.frames:

@@ -249,3 +249,15 @@ def test_the_page_of_python_names_every_function_and_its_lines_compile() -> None
     compile(lines, "api.md", "exec")
     called = set(re.findall(r"carpus\.(\w+)\(", lines))
     assert called <= set(carpus.__all__)
+
+
+def test_a_unit_that_is_assumed_is_warned_of_before_tracking(folder: Path, tmp_path: Path) -> None:
+    for path in folder.iterdir():
+        if path.name in ("rgb.txt", "depth.txt"):
+            lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
+            times = "".join(f"{float(time_s) * 1e3:.3f} {picture}\n" for time_s, picture in lines)
+            (tmp_path / path.name).write_text(times, encoding="utf-8")
+        else:
+            (tmp_path / path.name).symlink_to(path)
+    with pytest.warns(UserWarning, match="times in ms"):
+        next(carpus.track(tmp_path, folder / "calibration.json"))
