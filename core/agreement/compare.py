@@ -123,7 +123,7 @@ def compare(
     values = np.column_stack((motion.angles_rad, motion.joint_angles_rad))
     own = {name: np.where(use, values[:, k], np.nan) for k, name in enumerate(names)}
     if reference.readings:
-        return _with_readings(session, reference, time_s, own, figures)
+        return _with_readings(reference, time_s, own, figures)
     not_used = list(reference.unused)
     if reference.points_m:
         curves = _curves_of_points(session, reference, time_s)
@@ -340,7 +340,7 @@ def _curves_of_angles(
 
 def _curves_of_points(session: Session, reference: Reference, time_s: FloatArray) -> ClockCurves:
     """How fast each disc moves, which no turn and no shift of the axes changes."""
-    names = _common(session, reference)
+    names = _common(reference)
     markers = session.header.protocol.markers
     theirs_s = _since_start(reference, session)
     mine = np.column_stack([_speed(time_s, session.markers.position_cam_m[:, markers.index(name)]) for name in names])
@@ -363,7 +363,7 @@ def _speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
 
 
 # --- space -----------------------------------------------------------------------------------------------------
-def _common(session: Session, reference: Reference) -> list[str]:
+def _common(reference: Reference) -> list[str]:
     names = [name for name in PALM_MARKERS if name in reference.points_m]
     if len(names) < 3:
         raise ReferenceUnsuited(
@@ -381,7 +381,7 @@ def _angles_of_points(
     The discs of the palm are one rigid body in both: their whole ways give the turn between the two systems of axes,
     and the reference's own neutral pose its zero.
     """
-    names = _common(session, reference)
+    names = _common(reference)
     markers = session.header.protocol.markers
     reference_s = _since_start(reference, session)
     theirs = np.stack([reference.points_m[name] for name in names], axis=1)
@@ -424,7 +424,6 @@ def _within(time_s: FloatArray, begin_s: float) -> np.ndarray:
 
 # --- readings --------------------------------------------------------------------------------------------------
 def _with_readings(
-    session: Session,
     reference: Reference,
     time_s: FloatArray,
     own: Mapping[str, FloatArray],

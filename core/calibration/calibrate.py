@@ -368,7 +368,7 @@ def measure_hand(
         noise,
         camera,
     )
-    residual_mm = _residuals_mm(capture, camera, marker_w0_m, rotation, translation, palm)
+    residual_mm = _residuals_mm(capture, camera, marker_w0_m, rotation, translation)
     hand_length_mm = 1e3 * float(np.linalg.norm(marker_w0_m[palm[3]])) / _MCP3_OVER_HAND_LENGTH
     view_axis = -origin_cam / np.linalg.norm(origin_cam)
     tilt_deg = float(np.degrees(np.arccos(np.clip(rotation[:, 2] @ view_axis, -1.0, 1.0))))
@@ -451,7 +451,6 @@ def _residuals_mm(
     marker_w0_m: FloatArray,
     rotation: FloatArray,
     translation: FloatArray,
-    palm: NDArray[np.int64],
 ) -> FloatArray:
     """Root mean square distance (M,) of each disc from its fitted place over the captured frames."""
     placed = marker_w0_m @ rotation.T + translation

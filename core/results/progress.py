@@ -328,7 +328,7 @@ def _proposal(recent: Sequence[SessionFigures], exercise: Exercise, direction: i
     if not means:
         return None
     basis = sum(means) / len(means)
-    limit = _limit_deg(known[0][0], known[0][1], exercise)
+    limit = _limit_deg(known[0][0], known[0][1])
     told_from = math.ceil(basis + limit)
     goal = min(math.floor(basis + min(STEP_DEG, limit)), MOST_DEG)
     least = 1.0 if exercise.angle != PRONOSUPINATION else -MOST_DEG  # a palm turns up from 90 degrees of pronation
@@ -337,7 +337,7 @@ def _proposal(recent: Sequence[SessionFigures], exercise: Exercise, direction: i
     return GoalProposal(direction, basis, len(means), float(goal), float(told_from))
 
 
-def _limit_deg(newest: SessionFigures, row: RangeRow, exercise: Exercise) -> float:
+def _limit_deg(newest: SessionFigures, row: RangeRow) -> float:
     """What a gain must exceed: the clinic's own limit where it has one, else the default."""
     name = row.joint or WRIST_ANGLES[row.angle]
     own = newest.study.limit_deg(name, row.movement) if newest.study is not None else None

@@ -196,13 +196,12 @@ def paint_discs(painter: QPainter, box: QRectF, side: Side, *, whole_hand: bool,
             where = -1
         rows[int(where * sign)].append((at.y(), marker_name(name), at))
     for where, names in rows.items():
-        _paint_names(painter, box, inner, where, sorted(names, key=lambda one: one[0]), text, unit)
+        _paint_names(painter, box, where, sorted(names, key=lambda one: one[0]), text, unit)
 
 
 def _paint_names(
     painter: QPainter,
     box: QRectF,
-    inner: QRectF,
     where: int,
     names: list[tuple[float, str, QPointF]],
     text: QFont,

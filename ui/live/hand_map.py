@@ -16,6 +16,7 @@ from carpus.ui.live.light import map_words
 from carpus.ui.plot.history import Seen
 from carpus.ui.theme import Theme
 
+RADIUS_PX = 7.0
 WORDS_PX = 172
 MOST_LINES = 4.2
 """Lines of the sentence beside the map, below which the keys have room."""
@@ -66,7 +67,7 @@ class HandMap(QWidget):
         painter.drawPath(to.map(outline()))
         painter.setClipping(False)
         for name in self.seen or SITES:
-            self._paint_disc(painter, to.map(QPointF(*PLACES[name])), self.seen.get(name, "hidden"), 7.0)
+            self._paint_disc(painter, to.map(QPointF(*PLACES[name])), self.seen.get(name, "hidden"))
         self._paint_words(painter, words_left)
 
     def _words_px(self) -> float:
@@ -80,14 +81,15 @@ class HandMap(QWidget):
             ("seen", self.tr("seen")), ("partly", self.tr("partly seen")), ("hidden", self.tr("hidden, predicted")),
         )  # fmt: skip
 
-    def _paint_disc(self, painter: QPainter, at: QPointF, state: Seen, radius: float) -> None:
+    def _paint_disc(self, painter: QPainter, at: QPointF, state: Seen) -> None:
         color = self._theme.color
         if state == "seen":
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(color("accent"))
-            painter.drawEllipse(at, radius - 0.5, radius - 0.5)
+            painter.drawEllipse(at, RADIUS_PX - 0.5, RADIUS_PX - 0.5)
             return
-        box = QRectF(at.x() - radius - 1, at.y() - radius - 1, 2 * radius + 2, 2 * radius + 2)
+        outer = RADIUS_PX + 1
+        box = QRectF(at.x() - outer, at.y() - outer, 2 * outer, 2 * outer)
         shape, token = ("partly", "warn") if state == "partly" else ("predicted", "text2")
         paint_state(painter, shape, box, color(token), color("surface"))  # type: ignore[arg-type]
 
@@ -99,7 +101,7 @@ class HandMap(QWidget):
         painter.drawText(QPointF(left, y + QFontMetricsF(painter.font()).ascent()), self.tr("Markers"))
         y += 34 * scale
         for state, words in self._counts():
-            self._paint_disc(painter, QPointF(left + 8, y + 9 * scale), state, 7.0)
+            self._paint_disc(painter, QPointF(left + 8, y + 9 * scale), state)
             count = sum(one == state for one in self.seen.values())
             painter.setFont(font(14 * scale, SEMIBOLD))
             painter.setPen(theme.color("text"))

@@ -112,7 +112,7 @@ class PatientView(QWidget):
         box = QRectF(0.73 * width - 0.24 * width, 740, 0.48 * width, 100)
         _fitted(painter, box, rest_words(scene.rest_s), TASK_PX * self._theme.text_scale, color("text"), middle=True)
         if self._set_up is not None:
-            words = then_words(self._set_up.exercise.id, scene, self.audience)
+            words = then_words(self._set_up.exercise.id, self.audience)
             size = SMALL_PX * self._theme.text_scale
             _fitted(painter, box.translated(0, 110), words, size, color("text2"), middle=True)
 

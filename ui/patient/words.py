@@ -61,7 +61,7 @@ def rest_words(seconds: int) -> str:
     return tr("About half a minute") if seconds > 15 else tr("A moment longer")
 
 
-def then_words(exercise_id: str, scene: GuideScene, audience: Audience) -> str:
+def then_words(exercise_id: str, audience: Audience) -> str:
     """What comes after a rest."""
     task = _task(exercise_id, 1, audience == "child")
     return tr("then: {task}").format(task=inside(task)) if task else ""

@@ -122,10 +122,10 @@ class MotionPlot(SessionPlot):
             if len(series.time_s) and abs(float(series.time_s[row]) - time_s) <= series.longest_step_s:
                 value = float(series.value[row])
                 sd = math.nan if series.sd is None else float(series.sd[row])
-            out.append(Value(name, token, value, sd, said=self._said(key, name, value, sd)))
+            out.append(Value(name, token, value, sd, said=self._said(name, value, sd)))
         return out
 
-    def _said(self, key: int, name: str, value: float, sd: float) -> str:
+    def _said(self, name: str, value: float, sd: float) -> str:
         if not math.isfinite(value):
             return f"{name} {numbers.UNKNOWN}"
         if self.kind == "zyz":

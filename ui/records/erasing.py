@@ -241,7 +241,7 @@ class EraseSheet(Sheet):
         body.setSpacing(10)
         self._parts = ScrolledColumn()
         column = in_column(
-            _section(theme, _sign(theme, "trash-2", "bad"), self.title, self.about),
+            _section(_sign(theme, "trash-2", "bad"), self.title, self.about),
             gap=10,
             margins=(0, 0, 0, 0),
             within=self._parts,
@@ -251,7 +251,7 @@ class EraseSheet(Sheet):
             (_sign(theme, "good"), self.tr("This stays"), self.stays),
             (_sign(theme, "warn"), self.tr("This cannot be undone"), self.ends),
         ):
-            fill(column, Line(theme), _section(theme, sign, Text(theme, title, 20, SEMIBOLD), words))
+            fill(column, Line(theme), _section(sign, Text(theme, title, 20, SEMIBOLD), words))
         column.addWidget(Line(theme))
         milder = Card(theme, 0, "soft", "soft")
         offered = Text(
@@ -260,7 +260,6 @@ class EraseSheet(Sheet):
         milder.body.setContentsMargins(0, 12, 12, 12)
         milder.body.addLayout(
             _section(
-                theme,
                 _sign(theme, "archive"),
                 Text(theme, self.tr("Archive instead"), 16, SEMIBOLD),
                 offered,
@@ -384,6 +383,6 @@ def _sign(theme: Theme, name: str, token: str = "accent") -> Sign:
     return Sign(theme, name, ICON_PX, (COLUMN_PX, ICON_PX + 4), token, lean=0.33)
 
 
-def _section(theme: Theme, sign: QWidget, title: QWidget, words: QWidget) -> QHBoxLayout:
+def _section(sign: QWidget, title: QWidget, words: QWidget) -> QHBoxLayout:
     texts = in_column(title, words, gap=4)
     return in_line((sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=0)
