@@ -25,9 +25,11 @@ if TYPE_CHECKING:
     from carpus.core.capture.devices.process_camera import ProcessCamera
 
 
-def library_finding(name: str, package: str, load: Callable[[], None], *, asks: bool, wanted: bool) -> Finding | None:
-    """The library by its package; loaded, in a process of its own, where ``asks`` and ``wanted``; None where it is
-    missing and nothing wants it."""
+def library_finding(
+    name: str, package: str, load: Callable[[], None], asks: bool = True, wanted: bool = True
+) -> Finding | None:
+    """The maker's library by its package; loaded, in a process of its own, where ``asks`` and ``wanted``; None where it
+    is missing and nothing wants it."""
     from importlib.metadata import PackageNotFoundError, version  # which every command would load here
 
     try:

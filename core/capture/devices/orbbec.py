@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib.util import find_spec
 from typing import Any
 
@@ -34,7 +35,6 @@ from carpus.core.capture.source import Notice, ignore
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
 from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
 from carpus.core.errors import CameraBusy, CameraUnsuited, DriverMissing
-from carpus.core.installing import Finding
 from carpus.core.phrase import phrase
 
 MODULE, PACKAGE = "pyorbbecsdk", "pyorbbecsdk2"
@@ -429,11 +429,7 @@ def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) 
     return replace(pair.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
 
 
-def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | None:
-    """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
-    return library_finding(phrase("Orbbec driver"), PACKAGE, load_library, asks=asks_version, wanted=wanted)
-
-
+driver_finding = partial(library_finding, phrase("Orbbec driver"), PACKAGE, load_library)
 KIND = CameraKind(
     title="Orbbec Femto, Gemini or Astra 2",
     models=MODELS,

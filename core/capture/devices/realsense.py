@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,6 @@ from carpus.core.errors import (
     RecordingDamaged,
     RecordingUnsupported,
 )
-from carpus.core.installing import Finding
 from carpus.core.phrase import phrase
 
 PACKAGE = "pyrealsense2"
@@ -529,11 +529,7 @@ def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) 
     return sensor.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else sensor
 
 
-def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | None:
-    """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
-    return library_finding(phrase("RealSense driver"), PACKAGE, load_library, asks=asks_version, wanted=wanted)
-
-
+driver_finding = partial(library_finding, phrase("RealSense driver"), PACKAGE, load_library)
 KIND = CameraKind(
     title="Intel RealSense",
     models=MODELS,
