@@ -95,14 +95,25 @@ class Server:
             raise ServerGone(self.name, phrase("no answer"))
         with self._readying:
             if not self._is_ready:
-                with self._engine.begin() as connection:
-                    connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
+                with self._alone() as connection:
                     up_to_date(connection, self.name)
+                with self._alone() as connection:  # its own: what changes tables holds up everybody
                     then = self._make_ready(connection)
                 self._is_ready = True
                 then()
         with self._answering() as connection:
             self._silent_until = 0.0
+            yield connection
+
+    @contextlib.contextmanager
+    def _alone(self) -> Iterator[Connection]:
+        """While no other computer makes the server ready: one that brings much takes minutes."""
+        with self._engine.begin() as connection:
+            try:
+                connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
+            except DBAPIError as cause:
+                self._silent_until = time.monotonic() + SILENT_S
+                raise ServerGone(self.name, phrase("another computer is bringing what it has")) from cause
             yield connection
 
     @contextlib.contextmanager

@@ -4660,6 +4660,10 @@
         <translation>Winkel aus {format}</translation>
     </message>
     <message>
+        <source>another computer is bringing what it has</source>
+        <translation>ein anderer Computer bringt gerade, was er hat</translation>
+    </message>
+    <message>
         <source>bytes that follow its end: {count}</source>
         <translation>Bytes, die auf ihr Ende folgen: {count}</translation>
     </message>

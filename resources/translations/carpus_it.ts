@@ -4648,6 +4648,10 @@
         <translation>angoli da {format}</translation>
     </message>
     <message>
+        <source>another computer is bringing what it has</source>
+        <translation>un altro computer sta portando ciò che ha</translation>
+    </message>
+    <message>
         <source>bytes that follow its end: {count}</source>
         <translation>byte che seguono la sua fine: {count}</translation>
     </message>

@@ -243,6 +243,16 @@ def test_a_computer_that_stops_in_the_middle_holds_up_others_for_seconds(
         a.store._database.close()
 
 
+def test_a_server_to_which_another_computer_brings_what_it_has_is_away_so_long(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path, there) as house:
+        with engine_of(there).begin() as connection:
+            connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
+            with pytest.raises(ServerGone):
+                house.names()
+        house.store.server.look()  # type: ignore[union-attr]
+        assert house.names() == []
+
+
 def test_what_the_server_may_not_write_is_told(tmp_path: Path, there: str) -> None:
     name = there.rsplit("/", 1)[1]
     with opened(tmp_path, there) as house:
