@@ -32,6 +32,7 @@ from carpus.core.records.schema import DIAGNOSIS, PATIENT, RECIPIENT, SEEN, SESS
 from carpus.core.records.session_list import (
     COPY,
     IS_THERE,
+    TRIALS_FOLDER,
     FilesOfSessions,
     ListedSessions,
     look_for_share,
@@ -236,6 +237,8 @@ def _outside(store: Store, patient_id: str) -> tuple[Path, ...]:
         for path in _plain_files(root)
         if not is_identity(path.relative_to(root).parts[0]) and path.name != IS_THERE and not _is_beside(path, listed)
     } - copies
+    sessions = [str(row.id) for row in store.rows(select(SESSION.c.id))]
+    found |= set(_plain_files(store.folder / TRIALS_FOLDER)) - set(trials_of(store, sessions))
     stem, suffix = STORE_FILE.split(".")
     found |= set(store.folder.glob(f"{stem}.*-*.{suffix}"))
     found |= set(store.folder.parent.glob(f"{glob.escape(store.folder.name)}.before-restore-*"))
