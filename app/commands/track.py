@@ -162,8 +162,9 @@ def _add_of_recording(parser: argparse.ArgumentParser) -> None:
         "--start-angles",
         type=number(-LARGEST_START_DEG, LARGEST_START_DEG, "degrees"),
         nargs=3,
-        metavar=("DEVIATION", "FLEXION", "SUPINATION"),
-        help="degrees at the first frame, for a hand that cannot lie neutral; added to all angles and marked as given",
+        metavar=("DEVIATION", "FLEXION", "PRONOSUPINATION"),
+        help="degrees at the first frame, for a hand that cannot lie neutral, the third from palm "
+        "down (thumb up is + 90); added to all angles and marked as given",
     )
     parser.add_argument("--subject", type=a_pseudonym, metavar="PSEUDONYM", help="stored in the session; never a name")
     parser.add_argument(

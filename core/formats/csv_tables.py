@@ -19,6 +19,8 @@ import numpy as np
 from carpus.core.formats.measures_files import HEAD, csv_rows
 from carpus.core.formats.new_output import FOR_PROGRAMS, cell, new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
+from carpus.core.hand.exercises import PRONOSUPINATION
+from carpus.core.hand.forearm_rotation import is_from_thumb_up, read_wrist_angles, supination_from_thumb_up
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import COLUMNS, rows_of
 from carpus.core.results.figures import SessionFigures
@@ -37,6 +39,8 @@ WRIST_COLUMNS = {
     "status": STATUS,
     "filter_... smoother_...": ESTIMATES,
     "..._deviation_deg ..._flexion_deg ..._pronosupination_deg": ANGLES_MEAN,
+    "..._supination_from_thumb_up_deg ..._rotation_from_start_deg": "tables for a spreadsheet have one of these in the "
+    "place of pronosupination: supination, 0 is thumb up, or beside another movement the rotation from the start",
     "..._sd_deg": "their standard deviations, calibration included",
     "..._position_..._mm ..._velocity_..._mm_s": f"of the WRIST disc, {W0_AXES}",
     "..._angular_velocity_..._deg_s": "of the hand, in its own axes W2",
@@ -84,7 +88,7 @@ REPETITION_COLUMNS = {
     "both sides",
     "peak_s": "when it was furthest on its way there, the middle of a hold",
     "end_s": "when it reached its last turning place, or passed that middle again",
-    "angle_deg": "at the peak; of pronosupination from the palm down, as in the table of the wrist",
+    "angle_deg": "at the peak, counted as in the table of the wrist",
     "arc_deg": "from its smallest angle to its largest, without what noise adds",
     "arc_sd_deg": "standard deviation of the arc by the tracker",
     "peak_speed_deg_s": "of its quickest stroke",
@@ -121,7 +125,10 @@ def write(take: Take, folder: Path) -> list[Path]:
         "wrist": WRIST_COLUMNS, "joints": JOINT_COLUMNS, "markers": MARKER_COLUMNS, "events": EVENT_COLUMNS,
         "repetitions": REPETITION_COLUMNS, "measures": MEASURE_COLUMNS,
     }  # fmt: skip
-    for name, table in (tables(take.session) | {"repetitions": repetition_table(take.session, take.figures)}).items():
+    made = tables(take.session) | {"repetitions": repetition_table(take.session, take.figures)}
+    if take.form != FOR_PROGRAMS:
+        made = _as_read(made, take)
+    for name, table in made.items():
         out.append(new_table(folder / f"{take.name}.{name}{end}", list(table), _rows(table), take.form))
     measures = csv_rows(measure_rows(take.figures, take.name))
     out.append(new_table(folder / f"{take.name}.measures{end}", HEAD, measures, take.form))
@@ -137,6 +144,33 @@ def write(take: Take, folder: Path) -> list[Path]:
         "tables": {path.name: said[path.name.removesuffix(end).split(".")[-1]] for path in out},
     }
     return [*out, new_json(folder / f"{take.name}.csv.json", content)]
+
+
+READ_NAMES = {True: "supination_from_thumb_up", False: "rotation_from_start"}
+"""What ``pronosupination`` is called where it is counted as clinicians do, by whether it is from thumb up."""
+
+
+def _as_read(made: dict[str, Table], take: Take) -> dict[str, Table]:
+    """Tables with the forearm's rotation as a clinician reads it, under another name than that of the files."""
+    exercise, start_rad = take.figures.exercise, take.session.calibration.start_angles_rad
+    thumb_up = is_from_thumb_up(exercise)
+    out = dict(made)
+    out["wrist"] = {}
+    for name, values in made["wrist"].items():
+        named = name.replace("pronosupination", READ_NAMES[thumb_up])
+        if named != name and not name.endswith("_sd_deg"):
+            angles = np.radians(np.column_stack((values, values, values)))
+            values = np.degrees(read_wrist_angles(angles, exercise, start_rad)[:, PRONOSUPINATION])
+        out["wrist"][named] = values
+    if trained_name(take.session) == WRIST_ANGLES[PRONOSUPINATION]:
+        rows = made["repetitions"]
+        count = len(rows["angle_deg"])
+        out["repetitions"] = rows | {
+            "angle": np.array([READ_NAMES[True]] * count, dtype=np.str_),
+            "positive": np.array(["supinated, 0 is thumb up"] * count, dtype=np.str_),
+            "angle_deg": np.degrees(supination_from_thumb_up(np.radians(rows["angle_deg"]))),
+        }
+    return out
 
 
 def tables(session: Session) -> dict[str, Table]:
