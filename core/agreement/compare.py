@@ -22,7 +22,7 @@ from carpus.core.agreement.reference import Reference, listed
 from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
 from carpus.core.errors import ReferenceUnsuited
 from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
-from carpus.core.hand.forearm_rotation import supination_from_thumb_up
+from carpus.core.hand.forearm_rotation import pronosupination_from_palm_down
 from carpus.core.hand.protocols import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.phrase import phrase
@@ -451,8 +451,6 @@ def _with_readings(
                 )
                 continue
             mine = float(values.mean())
-            if reading.from_thumb_up:
-                mine = float(supination_from_thumb_up(np.array(mine)))
         else:
             mine = _range_end(figures, reading.angle, reading.movement)
             if not math.isfinite(mine):
@@ -487,5 +485,7 @@ def _range_end(figures: SessionFigures | None, angle: str, movement: str) -> flo
     for row in (*figures.rows, *figures.joint_rows):
         if row.movement == movement and (row.joint or WRIST_ANGLES[row.angle]) == angle:
             away = movement in ("extension", "ulnar", "pronation") and not row.joint
-            return math.radians(-row.mean_deg if away else row.mean_deg)
+            end = math.radians(-row.mean_deg if away else row.mean_deg)
+            is_forearm = movement in ("supination", "pronation")  # which a range has from thumb up, and a pair not
+            return float(pronosupination_from_palm_down(np.array(end))) if is_forearm else end
     return math.nan

@@ -17,6 +17,7 @@ from carpus.core.agreement.statistics import FEWEST, FEWEST_TO_JUDGE, Agreement,
 from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, new_json, new_table
 from carpus.core.formats.provenance import provenance
 from carpus.core.formats.take import number
+from carpus.core.hand.forearm_rotation import as_read_rad
 from carpus.core.provenance import sha256_of_file
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -189,15 +190,20 @@ def lines(compared: Compared) -> list[str]:
     return out
 
 
+_READ_NAMES = {"pronosupination": "supination, from thumb up"}
+
+
 def _pair_lines(pairs: Sequence[Pairs]) -> list[str]:
     """Each reading beside what Carpus has for it."""
-    width = max(len(one.name) for one in pairs)
+    names = {one.name: _READ_NAMES.get(one.name, one.name) for one in pairs}
+    width = max(map(len, names.values()))
     out = [f"{'':{width}}  {'at':>9}  {'Carpus':>8}  {'reading':>8}  {'difference':>10}"]
     for one in pairs:
-        columns = one.time_s, np.degrees(one.measured_rad), np.degrees(one.reference_rad)
+        mine, theirs = (as_read_rad(one.name, angle) for angle in (one.measured_rad, one.reference_rad))
+        columns = one.time_s, np.degrees(mine), np.degrees(theirs)
         for time_s, mine, other in zip(*columns, strict=True):
             at = f"{written(time_s, 2)} s" if math.isfinite(time_s) else "range"
-            out.append(f"{one.name:{width}}  {at:>9}  {mine:8.2f}  {other:8.2f}  {mine - other:10.2f}")
+            out.append(f"{names[one.name]:{width}}  {at:>9}  {mine:8.2f}  {other:8.2f}  {mine - other:10.2f}")
     return out
 
 

@@ -15,6 +15,7 @@ from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.formats.opensim_read import Columns, read_mot, read_trc
 from carpus.core.formats.table_read import TextTable, is_no_number, parse_number, parse_times, read_table, split_unit
+from carpus.core.hand.forearm_rotation import pronosupination_from_palm_down
 from carpus.core.hand.protocols import SITES, WRIST_ANGLES, joint_angle_names
 from carpus.core.phrase import phrase
 from carpus.core.results.seen import best_motion
@@ -53,17 +54,13 @@ KNOWN_NAMES = frozenset((*TIME_NAMES, "angle", "movement", *(name.lower() for na
 @dataclass(frozen=True, slots=True)
 class GoniometerReading:
     """One reading of a goniometer, radians with the signs of Carpus; ``time_s`` after the first picture, NaN where it
-    is of the whole session's range in the way of ``movement``. Of supination and pronation it is from thumb up."""
+    is of the whole session's range in the way of ``movement``. ``pronosupination`` is from the palm down, as in every
+    file, also where a goniometer's supination or pronation was read from thumb up."""
 
     angle: str
     movement: str
     value_rad: float
     time_s: float
-
-    @property
-    def from_thumb_up(self) -> bool:
-        """Whether zero is thumb up, as a goniometer has it, and not the palm down of ``pronosupination``."""
-        return self.movement in ("supination", "pronation")
 
 
 @dataclass(frozen=True, slots=True)
@@ -360,7 +357,10 @@ def _of_readings(path: Path, table: TextTable) -> Reference:
                 else phrase("line {line}: no angle is called {said}", line=line, said=said or phrase("nothing"))
             )
             continue
-        readings.append(GoniometerReading(name, movement, sign * math.radians(value), scale * times_s[k]))
+        value_rad = sign * math.radians(value)
+        if movement in ("supination", "pronation"):
+            value_rad = float(pronosupination_from_palm_down(np.array(value_rad)))
+        readings.append(GoniometerReading(name, movement, value_rad, scale * times_s[k]))
     if not readings:
         raise ReferenceUnreadable(path, phrase("it holds no reading"))
     return Reference(path, phrase("goniometer list"), readings=tuple(readings), unused=tuple(unused))

@@ -17,6 +17,7 @@ import math
 import numpy as np
 
 from carpus.core.hand.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, PRONOSUPINATION, Exercise
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.types import FloatArray
 
 PALM_DOWN_PRONATION_DEG = 90.0
@@ -31,6 +32,12 @@ def supination_from_thumb_up(pronosupination_rad: FloatArray) -> FloatArray:
     """
     turned = pronosupination_rad - math.radians(PALM_DOWN_PRONATION_DEG)
     return np.asarray(math.pi - np.mod(math.pi - turned, 2.0 * math.pi))
+
+
+def as_read_rad(name: str, angle_rad: FloatArray) -> FloatArray:
+    """An angle by its name in every file as a clinician reads it: ``pronosupination`` from thumb up, others as they
+    are."""
+    return supination_from_thumb_up(angle_rad) if name == WRIST_ANGLES[PRONOSUPINATION] else angle_rad
 
 
 def pronosupination_from_palm_down(supination_rad: FloatArray) -> FloatArray:

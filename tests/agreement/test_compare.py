@@ -181,6 +181,19 @@ def test_readings_of_a_goniometer(session: Session, tmp_path: Path) -> None:
     assert found.shift is None
 
 
+def test_a_goniometer_on_the_forearm_is_read_from_thumb_up(session: Session, tmp_path: Path) -> None:
+    held = np.zeros_like(session.motion.angles_rad)
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    held[:, 2] = np.radians(30.0 * np.floor(time_s / 4.0))  # palm down, 30 and 60 degrees up from there
+    still = replace(session, motion=replace(session.motion, angles_rad=held))
+    path = tmp_path / "goniometer.csv"
+    rows = [f"pronation,{90 - 30 * k},{4 * k + 2}" for k in range(3)]
+    path.write_text("angle,reading_deg,time_s\n" + "\n".join(rows), encoding="utf-8")
+    (turned,) = compare(still, read_reference(path), figures=session_figures(still)).pairs
+    assert np.degrees(turned.measured_rad - turned.reference_rad) == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
+    assert np.degrees(turned.reference_rad) == pytest.approx([0.0, 30.0, 60.0]), "a pair has the angle of the files"
+
+
 def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
     figures = session_figures(session)
     row = figures.row("flexion", 1)

@@ -14,6 +14,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter
 
+from carpus.core.hand.forearm_rotation import as_read_rad
 from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
@@ -46,11 +47,11 @@ class AgreementPlot:
 
     @property
     def measured_deg(self) -> FloatArray:
-        return np.degrees(self.pairs.measured_rad)
+        return np.degrees(as_read_rad(self.pairs.name, self.pairs.measured_rad))
 
     @property
     def reference_deg(self) -> FloatArray:
-        return np.degrees(self.pairs.reference_rad)
+        return np.degrees(as_read_rad(self.pairs.name, self.pairs.reference_rad))
 
     @property
     def mean_deg(self) -> FloatArray:

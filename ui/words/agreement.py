@@ -19,7 +19,8 @@ TOKENS = {"deviation": "curve_b", "flexion": "curve_a", "pronosupination": "curv
 def angle_name(name: str) -> str:
     """``Flexion–extension`` of an angle's name in every file."""
     wrist = {
-        "flexion": tr("Flexion–extension"), "deviation": tr("Side movement"), "pronosupination": tr("Turning"),
+        "flexion": tr("Flexion–extension"), "deviation": tr("Side movement"),
+        "pronosupination": tr("Pronation–supination"),
     }  # fmt: skip
     if name in wrist:
         return wrist[name]
