@@ -42,6 +42,8 @@ TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
 DATA_VARIABLE = "CARPUS_DATA"
 GONE = {
+    "live.moved_stall_s",
+    "live.told_stall_s",
     "report.agreement_limit_deg",
     "report.retest_days",
     "screen.keys",

@@ -25,6 +25,7 @@ from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.measuring import SourceMeasuring
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.records.new_sessions import NewSessions
+from carpus.core.records.recordings import recordings_folder
 from carpus.core.records.set_up import SetUp
 from carpus.core.types import Frame
 from carpus.ui.now_open import OpenSource, SourceChoice
@@ -133,7 +134,9 @@ class Sources:
         return listener
 
     def _session(self, source: FrameSource, *, source_waits: bool = False) -> LiveSession:
-        settings = replace(self._settings.live, folder=self._settings.data_folder)
+        place = recordings_folder(self._settings.data_folder)  # made with the first recording
+        there = next((one for one in (place, *place.parents) if one.is_dir()), None)
+        settings = replace(self._settings.live, folder=there)
         return LiveSession(source, settings, source_waits=source_waits)
 
     def _opened(
