@@ -18,6 +18,7 @@ from carpus.app.batch.work import Outcome, Task, fault_of, work
 from carpus.app.command_line import say
 from carpus.core.child_process import ChildProcess, end_with_owner
 from carpus.core.errors import ExtraMissing, SchedulerUnreachable
+from carpus.core.session.disk import remove_leftovers
 
 Work = Callable[[Task], Outcome]
 TRIES = 3
@@ -81,6 +82,7 @@ class Children:
         child.end()
         if outcome is not None:
             return outcome
+        remove_leftovers(task.place.session, after_s=0.0)
         if child.was_late:
             return fault_of(task.place, LATE.format(minutes=limit_s / 60.0))
         return fault_of(task.place, DIED, may_pass=True)

@@ -11,7 +11,7 @@ from carpus.app.batch.work import Outcome, Task, fault_of
 
 def deadly(task: Task) -> Outcome:
     """``dies`` always kills its process, ``once`` the first time; ``waits`` until it is told to stop; ``hangs`` deaf to
-    that; ``stutters`` succeeds the second time, ``refuses`` never."""
+    that, with half a session beside it; ``stutters`` succeeds the second time, ``refuses`` never."""
     mark = task.place.session
     if task.subject_id == "dies" or (task.subject_id == "once" and not mark.exists()):
         mark.touch()
@@ -26,6 +26,7 @@ def deadly(task: Task) -> Outcome:
             raise
     if task.subject_id == "hangs":
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        mark.with_name(f".{mark.name}.0123abcd.tmp").write_bytes(b"half")
         time.sleep(60.0)
     if task.subject_id in ("stutters", "refuses"):
         tries = mark.with_suffix(".tries")

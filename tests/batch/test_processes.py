@@ -38,6 +38,7 @@ def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
 def test_what_hangs_is_given_up(tmp_path: Path) -> None:
     (outcome,) = outcomes([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
     assert "0.1 minutes" in outcome.said[0]
+    assert not list(tmp_path.iterdir()), "half a session is gone"
 
 
 def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
