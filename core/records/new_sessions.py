@@ -4,7 +4,7 @@ short; and those that waited on this computer."""
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.calibration.result import ALL_STRAIGHT
-from carpus.core.durable import make_private
+from carpus.core.durable import make_private, write_fault
 from carpus.core.errors import (
     CarpusFault,
     ChangedMeanwhile,
@@ -111,21 +111,23 @@ PUBLISHED_WITHIN_S = 10.0
 """A share that hangs is waited for so long; the session then waits on this computer, where it can be reviewed."""
 
 
-def _published(path: Path, folder: Path) -> Path:
+def _published(path: Path, folder_for: Callable[[], Path]) -> Path:
     """As :func:`publish_session`, for a person who waits. What arrives later than that is found at the next look."""
     done: list[Path | CarpusFault] = []
 
     def work() -> None:
         try:
-            done.append(copy_session(path, folder))
+            done.append(copy_session(path, folder_for()))
         except CarpusFault as fault:
             done.append(fault)
+        except OSError as cause:
+            done.append(write_fault(path, cause))
 
     thread = threading.Thread(target=work, name="publishing", daemon=True)
     thread.start()
     thread.join(PUBLISHED_WITHIN_S)
     if not done:
-        raise OutputNotWritable(folder, phrase("no answer for {seconds} s", seconds=f"{PUBLISHED_WITHIN_S:.0f}"))
+        raise OutputNotWritable(path, phrase("no answer for {seconds} s", seconds=f"{PUBLISHED_WITHIN_S:.0f}"))
     if isinstance(done[0], CarpusFault):
         raise done[0]
     remove_published(path)
@@ -150,7 +152,7 @@ class NewSessions:
         cannot be reached it waits on this computer, which is told."""
         library = self._library
         try:
-            path = _published(path, library.index.folder_for(set_up.patient_id))
+            path = _published(path, partial(library.index.folder_for, set_up.patient_id))
             keep_set_up(library.store, set_up)
             session_id = library.index.enter(path, set_up.patient_id, library.who()).session_id
         except CarpusFault as fault:
