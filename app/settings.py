@@ -55,6 +55,7 @@ GONE = {
             "registration", "back",
         )
     ),
+    *(f"tracker.{name}" for name in ("holding", "finding", "readout", "fingers.search", "fingers.limits")),
     *(
         f"detection.{name}"
         for name in (
@@ -279,8 +280,10 @@ def _without_gone(values: Values, path: Path, where: str = "") -> Values:
         place = f"{where}{name}"
         if place in GONE:
             logger.info("The setting %s in %s is not used any more", place, path)
-        else:
-            kept[name] = _without_gone(value, path, f"{place}.") if isinstance(value, Mapping) else value
+        elif not isinstance(value, Mapping):
+            kept[name] = value
+        elif (inner := _without_gone(value, path, f"{place}.")) or not value:
+            kept[name] = inner
     return kept
 
 

@@ -21,7 +21,7 @@ from carpus.core.tracking.association import is_jointly_compatible
 from carpus.core.tracking.digit_filter import ANATOMY, DIGIT_SIZE, SEEN, DigitsLinearisation, DigitView
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, digit_frames, is_crowded
-from carpus.core.tracking.joint_limits import outside_limits
+from carpus.core.tracking.joint_limits import SOFT_RAD, outside_limits
 from carpus.core.tracking.kernel import ModeMixture, Update, corrected, partial_update
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.settings import TrackerSettings
@@ -134,7 +134,7 @@ def far_digits(covariance: FloatArray, named: NDArray[np.bool_], own: FingerSett
 
 def beyond_reach(mean: FloatArray, covariance: FloatArray, own: FingerSettings) -> NDArray[np.bool_]:
     """Digits (5,) bent surely beyond their limits, by means (5, n) and covariances (5, n, n)."""
-    sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + own.limits.soft_rad**2)
+    sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + SOFT_RAD**2)
     return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > own.surely_sd * sd).any(axis=1))
 
 

@@ -41,7 +41,7 @@ from carpus.core.tracking.digit_filter import (
     spread_points,
 )
 from carpus.core.tracking.digit_readout import Seat
-from carpus.core.tracking.digit_search import search_digits
+from carpus.core.tracking.digit_search import MIN_DISCS, search_digits
 from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.finger_settings import FingerSettings
@@ -157,7 +157,7 @@ class DigitMemory:
         factor = np.empty((CHAINS, 3 * DISCS))
         kernels.digits_accepted(
             dt_s, named.names.assigned, trial.scene.visible, own.missed, own.most_seen, SHOWS, self.unseen_s,
-            self.missing, own.search.least_discs, named.update.residual, named.measured, self.noise_factor,
+            self.missing, MIN_DISCS, named.update.residual, named.measured, self.noise_factor,
             1.0 - math.exp(-dt_s / noise.adapt_s), noise.least_adapted, noise.most_adapted, self.disc_m2,
             trial.disc_m2, own.size_grows, own.size_shrinks, visible, unseen_s, missing, factor, disc_m2,
         )  # fmt: skip
@@ -173,7 +173,7 @@ class DigitMemory:
         shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
         self.unseen_s = np.where(shown, 0.0, self.unseen_s + dt_s)
         count = np.count_nonzero(is_named, axis=1)
-        self.missing = np.where(count < own.search.least_discs, self.missing + 1, 0)
+        self.missing = np.where(count < MIN_DISCS, self.missing + 1, 0)
         residual, measured = (values.reshape(CHAINS, DISCS, 3) for values in (named.update.residual, named.measured))
         factor = self.noise_factor.reshape(CHAINS, DISCS, 3)
         adapted = adapted_factor(factor, residual, np.isfinite(measured), dt_s, settings.noise)
@@ -260,15 +260,15 @@ class DigitNaming:
             return {}
         named = np.count_nonzero(trial.blob >= 0, axis=1)
         is_due = given_up | ((missing >= own.patience_frames) & (missing % 2 == 0))
-        chains = np.flatnonzero((named < own.search.least_discs) & is_due & self._model.has_discs)
+        chains = np.flatnonzero((named < MIN_DISCS) & is_due & self._model.has_discs)
         if not chains.size:
             return {}
         unassigned = picture.free & np.isfinite(picture.blobs.value[:, 2])
-        unassigned[trial.blob[(trial.blob >= 0) & (named >= own.search.least_discs)[:, None]]] = False
+        unassigned[trial.blob[(trial.blob >= 0) & (named >= MIN_DISCS)[:, None]]] = False
         value, view = picture.blobs.value[unassigned], picture.seat.view
         in_camera = view.camera.back_project(value[:, :2], value[:, 2])
         point = (in_camera - view.translation_m) @ view.rotation
-        return search_digits(chains, points.mean[:, SEEN], self._memory.palm.disc_m[1:], point, own.search)
+        return search_digits(chains, points.mean[:, SEEN], self._memory.palm.disc_m[1:], point)
 
     def _tried(self, estimates: ModeMixture, points: DigitPoints, picture: DigitPicture) -> FingerTrial:
         if (kernels := in_c()) is not None:

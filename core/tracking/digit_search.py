@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 
@@ -13,57 +12,52 @@ from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SLOTS, digit_discs_m
 from carpus.core.types import FloatArray
 
-
-@dataclass(frozen=True, slots=True)
-class DigitSearchSettings:
-    """When blobs are a digit that nothing foretold.
-
-    ``near_m``: how far from a posture of the grid a disc may lie: half a step of it and the noise of a depth;
-    ``least_discs`` of a digit that tell its posture; ``reach_m`` beyond its length; ``behind_m`` its root, for the
-    thumb ``across_m`` the palm, and ``above_m`` the palm a disc may still be seen. Of postures that explain as many
-    discs the nearer one counts, by ``nearness`` of a disc at most for each. ``thumb_deg`` by slot and ``finger_deg``
-    by its first three: the grid, all that a digit can do in steps of about 15 degrees.
-    """
-
-    near_m: float = 0.012
-    least_discs: int = 2
-    reach_m: float = 0.015
-    behind_m: float = 0.02
-    across_m: float = 0.03
-    above_m: float = 0.05
-    nearness: float = 0.3
-    thumb_deg: tuple[tuple[float, ...], ...] = (
-        (-25.0, -5.0, 15.0, 35.0),
-        (-5.0, 15.0, 35.0, 55.0),
-        (-5.0, 20.0, 45.0, 70.0),
-        (0.0,),
-        (-10.0, 20.0, 50.0, 80.0),
-    )
-    finger_deg: tuple[tuple[float, ...], ...] = (
-        (-18.0, -6.0, 6.0, 18.0),
-        (-30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0),
-        (0.0, 20.0, 40.0, 60.0, 80.0, 100.0),
-    )
+NEAR_M = 0.012
+"""So far from a posture of the grid a disc may lie: half a step of it and the noise of a depth."""
+MIN_DISCS = 2
+"""Of a digit, that tell its posture."""
+BEYOND_M = 0.015
+"""Beyond the length of a digit a disc may still be seen,"""
+BEHIND_M = 0.02
+"""behind its root,"""
+ACROSS_M = 0.03
+"""for the thumb across the palm,"""
+ABOVE_M = 0.05
+"""and above the palm."""
+NEARNESS = 0.3
+"""Of postures that explain as many discs the nearer counts, by so much of a disc at most for each."""
+THUMB_GRID_DEG: tuple[tuple[float, ...], ...] = (
+    (-25.0, -5.0, 15.0, 35.0),
+    (-5.0, 15.0, 35.0, 55.0),
+    (-5.0, 20.0, 45.0, 70.0),
+    (0.0,),
+    (-10.0, 20.0, 50.0, 80.0),
+)
+"""By slot: all that a thumb can do in steps of some 20 degrees."""
+FINGER_GRID_DEG: tuple[tuple[float, ...], ...] = (
+    (-18.0, -6.0, 6.0, 18.0),
+    (-30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0),
+    (0.0, 20.0, 40.0, 60.0, 80.0, 100.0),
+)
+"""By its first three slots: all that a finger can do in steps of about 15 degrees."""
 
 
-def in_reach(
-    point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray, settings: DigitSearchSettings
-) -> NDArray[np.bool_]:
+def in_reach(point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray) -> NDArray[np.bool_]:
     """Whether points (..., 3) in W2 may be discs of the digits with slots and constants ``state`` (5, 16)."""
-    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + settings.reach_m
+    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + BEYOND_M
     off = point_m[..., None, :] - root_disc_m
-    ahead = off[..., 0] > -settings.behind_m
-    ahead[..., 0] &= off[..., 0, 1] > -settings.across_m
-    return np.asarray((ahead & ((off * off).sum(axis=-1) < length**2) & (off[..., 2] < settings.above_m)).any(axis=-1))
+    ahead = off[..., 0] > -BEHIND_M
+    ahead[..., 0] &= off[..., 0, 1] > -ACROSS_M
+    return np.asarray((ahead & ((off * off).sum(axis=-1) < length**2) & (off[..., 2] < ABOVE_M)).any(axis=-1))
 
 
 @lru_cache(maxsize=2)
-def _grid(settings: DigitSearchSettings) -> FloatArray:
+def _grid() -> FloatArray:
     """Postures (5, S, 5) in slots, radians."""
-    thumb, finger = list(product(*settings.thumb_deg)), list(product(*settings.finger_deg))
+    thumb, finger = list(product(*THUMB_GRID_DEG)), list(product(*FINGER_GRID_DEG))
     postures = np.zeros((CHAINS, max(len(thumb), len(finger)), SLOTS))
     postures[0, : len(thumb)] = thumb
-    postures[1:, : len(finger), : len(settings.finger_deg)] = finger
+    postures[1:, : len(finger), : len(FINGER_GRID_DEG)] = finger
     return np.asarray(np.radians(postures))
 
 
@@ -72,19 +66,18 @@ def search_digits(
     state: FloatArray,
     root_disc_m: FloatArray,
     point_m: FloatArray,
-    settings: DigitSearchSettings,
 ) -> dict[int, FloatArray]:
     """Slots (5,) of each of the ``chains`` that explain at least two of the blobs at ``point_m`` (B, 3) in W2.
 
     ``state`` (5, 16) slots and constants of all digits; ``root_disc_m`` (5, 3) discs under which they begin. No blob is
     used by two digits: the digit that explains most comes first.
     """
-    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + settings.reach_m
+    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + BEYOND_M
     near = np.linalg.norm(point_m - root_disc_m[:, None], axis=-1) < length[:, None]
-    waiting = [int(chain) for chain in chains if np.count_nonzero(near[chain]) >= settings.least_discs]
+    waiting = [int(chain) for chain in chains if np.count_nonzero(near[chain]) >= MIN_DISCS]
     if not waiting:
         return {}
-    postures = _grid(settings)
+    postures = _grid()
     points = np.repeat(state[waiting, None], postures.shape[1], axis=1)
     points[..., :SLOTS] = postures[waiting]
     disc = dict(zip(waiting, digit_discs_m(root_disc_m[waiting], points, waiting), strict=True))
@@ -94,10 +87,10 @@ def search_digits(
         best: tuple[float, int, int, NDArray[np.int64]] | None = None
         for chain in waiting:
             reached = np.flatnonzero(free & near[chain])
-            if reached.size < settings.least_discs:
+            if reached.size < MIN_DISCS:
                 continue
-            score, posture, used = _best_posture(disc[chain], point_m[reached], settings)
-            if used.size >= settings.least_discs and (best is None or score > best[0]):
+            score, posture, used = _best_posture(disc[chain], point_m[reached])
+            if used.size >= MIN_DISCS and (best is None or score > best[0]):
                 best = score, chain, posture, reached[used]
         if best is None:
             break
@@ -108,25 +101,21 @@ def search_digits(
     return found
 
 
-def _best_posture(
-    disc_m: FloatArray, point_m: FloatArray, settings: DigitSearchSettings
-) -> tuple[float, int, NDArray[np.int64]]:
+def _best_posture(disc_m: FloatArray, point_m: FloatArray) -> tuple[float, int, NDArray[np.int64]]:
     """Score, index of the posture and blobs used, for discs (S, 3, 3) of postures and blobs (B, 3)."""
     if (kernels := in_c()) is not None:
         most, which, used, count = np.empty(1), *(np.empty(size, dtype=np.int64) for size in (1, DISCS, 1))
-        kernels.best_posture(
-            len(disc_m), len(point_m), disc_m, point_m, settings.near_m**2, settings.nearness, most, which, used, count
-        )
+        kernels.best_posture(len(disc_m), len(point_m), disc_m, point_m, NEAR_M**2, NEARNESS, most, which, used, count)
         return most.item(), which.item(), used[: count.item()]
     gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)
     nearest = gap2.argmin(axis=-1)
-    worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / settings.near_m**2, 0.0)
+    worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / NEAR_M**2, 0.0)
     # A blob is one disc only: the second disc that takes it is worth nothing.
     for first, second in ((0, 1), (0, 2), (1, 2)):
         same = nearest[:, first] == nearest[:, second]
         lesser = same & (worth[:, first] < worth[:, second])
         worth[lesser, first] = 0.0
         worth[same & ~lesser, second] = 0.0
-    score = np.count_nonzero(worth, axis=1) + settings.nearness * worth.sum(axis=1)
+    score = np.count_nonzero(worth, axis=1) + NEARNESS * worth.sum(axis=1)
     best = int(np.argmax(score))
     return float(score[best]), best, nearest[best][worth[best] > 0.0]

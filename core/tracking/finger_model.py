@@ -228,7 +228,7 @@ class FingerModel:
         was misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the
         estimates merged."""
         own = self.settings.fingers
-        kept, merged, misread = settled(estimates, own.most_beyond_rad, own.limits)
+        kept, merged, misread = settled(estimates, own.most_beyond_rad)
         if misread.any():
             kept = self.begun_anew(kept, misread, before)
             merged = kept.merged()
@@ -263,7 +263,7 @@ class FingerModel:
         ahead = self.motion.predicted(estimates, dt_s, self.forgetting(mean, unseen_s, dt_s), switch)
         if dt_s < self.settings.fingers.gap_s:
             return ahead
-        return constrained(ahead, ahead.merged()[0][:, :SLOTS], self.settings.fingers.limits)
+        return constrained(ahead, ahead.merged()[0][:, :SLOTS])
 
     def ahead(
         self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float, root_disc_m: FloatArray

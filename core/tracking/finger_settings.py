@@ -6,9 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 from carpus.core.hand.anatomy_prior import AnatomyPrior
-from carpus.core.tracking.digit_search import DigitSearchSettings
 from carpus.core.tracking.finger_depth import FingerDepthSettings
-from carpus.core.tracking.joint_limits import LimitSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +24,7 @@ class FingerSettings:
     stays hidden or seen on average; ``steepest_rad``: tilt at which discs vanish, give or take ``steepest_sd_rad``.
     ``clutter``: other blobs expected in a picture. ``skin_sd_rad``: how far discs
     that ride on gliding skin mislead about a joint, however long it is seen. ``anatomy``: how far a hand may
-    differ from the average one. ``depth``: what depth says where discs are hidden. ``limits`` of joints; ``search`` of
-    a digit that is lost.
+    differ from the average one. ``depth``: what depth says where discs are hidden.
 
     ``dip_slack_rad``: how far end joints that follow the middle ones stray from two thirds of them;
     ``thumb_aside_rad``: how far the thumb's MCP joint, which hardly moves sideways, strays from straight; both return
@@ -69,8 +66,6 @@ class FingerSettings:
     skin_sd_rad: float = 0.022
     anatomy: AnatomyPrior = field(default_factory=AnatomyPrior)
     depth: FingerDepthSettings = field(default_factory=FingerDepthSettings)
-    limits: LimitSettings = field(default_factory=LimitSettings)
-    search: DigitSearchSettings = field(default_factory=DigitSearchSettings)
     dip_slack_rad: float = math.radians(6.0)
     thumb_aside_rad: float = math.radians(6.0)
     settles_s: float = 1.0

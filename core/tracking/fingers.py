@@ -45,7 +45,7 @@ class Fingers:
         """Whether points (..., 3) in the tracked body may be discs of these fingers."""
         palm = self.memory.palm
         on_palm = (point_m - palm.origin_m) @ palm.axes
-        return in_reach(on_palm, palm.disc_m[1:], self._mean[:, SEEN], self._settings.fingers.search)
+        return in_reach(on_palm, palm.disc_m[1:], self._mean[:, SEEN])
 
     def begin_anywhere(self) -> None:
         """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""

@@ -55,7 +55,7 @@ from carpus.core.tracking.predicted_measurement import (
     predicted_measurement,
     shape_covariance,
 )
-from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm, is_other_hand
+from carpus.core.tracking.reacquire import RATE_RAD_S, VELOCITY_M_S, Facing, FoundPalm, find_palm, is_other_hand
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import (
@@ -67,6 +67,7 @@ from carpus.core.tracking.soft_tissue import (
     stationary_covariance,
 )
 from carpus.core.tracking.surface_fit import calibrated_covariance, reset_and_levelled
+from carpus.core.tracking.track_manager import MIN_PALM_DISCS, NARROW_M
 from carpus.core.types import BoolArray, Detections, FloatArray
 
 _TWICE = 2.0
@@ -205,7 +206,7 @@ class HandFilter:
             calibration.marker_position_w0_m,
             hidden_by_calibration(calibration, settings.shape_hidden),
         )
-        self.readout = Readout(calibration, settings.readout, camera, settings.marker_radius_m)
+        self.readout = Readout(calibration, camera, settings.marker_radius_m)
         # Blobs alone do not tell tissue that rests from a hand that moves; joints that are seen tell when it moves.
         seen = moved_by_joints if self.fingers is not None else resting_or_moving
         tissue = (always_pushed if self._surface is None else seen)(settings.tissue)
@@ -277,7 +278,7 @@ class HandFilter:
 
     def update(self, predicted: PredictedMeasurement, scan: Scan) -> Posterior:
         """Associate the blobs with the discs that were predicted and update by them."""
-        blobs, enough = scan.blobs, self._settings.holding.least_discs + 1
+        blobs, enough = scan.blobs, MIN_PALM_DISCS + 1
         palm = associate_and_update(predicted, blobs, enough, self._resolution_px2, self._noise_factor, self._settings)
         estimate, mixture, levelled = reset_and_levelled(
             predicted.nominal, palm.mixture, scan.ideal.surface, self._surface, self.view, predicted.partial,
@@ -311,7 +312,7 @@ class HandFilter:
         return posterior.levelled or self._unseen_turns(posterior) is None
 
     def _unseen_turns(self, posterior: Posterior) -> NDArray[np.float64] | None:
-        return unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], self._settings.holding.narrow_m)
+        return unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], NARROW_M)
 
     def learn(self, posterior: Posterior, dt_s: float) -> None:
         """Take what outlives a lost track: each disc's noise, and the palm's shape."""
@@ -356,7 +357,7 @@ class HandFilter:
         shapes = SHAPE.stop - SHAPE.start
         strays = self._stationary[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
         reach = None if self.fingers is None else self.fingers.reach
-        return find_palm(ideal, self._as_known, strays, facing, self._settings.finding, reach)
+        return find_palm(ideal, self._as_known, strays, facing, reach)
 
     @property
     def _as_known(self) -> View:
@@ -365,10 +366,9 @@ class HandFilter:
 
     def estimate_at(self, found: FoundPalm) -> PalmEstimate:
         """The state estimate of a palm found without any prediction."""
-        finding = self._settings.finding
-        initial = InitialSd(velocity_m_s=finding.velocity_m_s, rate_rad_s=finding.rate_rad_s)
+        initial = InitialSd(velocity_m_s=VELOCITY_M_S, rate_rad_s=RATE_RAD_S)
         estimate = resting_estimate(initial, self._learnt_covariance)
-        estimate.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m, finding)
+        estimate.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m)
         estimate.covariance[SKIN, SKIN] = self._stationary[SKIN, SKIN]
         estimate.covariance[RELIEF, RELIEF] = self._stationary[RELIEF, RELIEF]
         estimate.value[LEARNT], estimate.value[:3] = self._learnt, found.position_m
@@ -377,10 +377,10 @@ class HandFilter:
     def is_against(self, found: FoundPalm, posterior: Posterior) -> bool:
         """Whether a palm was found turned further than a prediction leaves open that enough discs bear out."""
         palm, own, nominal = posterior.palm, self._settings, posterior.predicted.nominal
-        if posterior.seen < own.holding.least_discs or not is_jointly_compatible(palm.nis, palm.dof, own.association):
+        if posterior.seen < MIN_PALM_DISCS or not is_jointly_compatible(palm.nis, palm.dof, own.association):
             return False
         off = so3.log(nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
-        either = nominal.covariance[TURN, TURN] + found.pose_covariance(self.view.palm_m, own.finding)[3:, 3:]
+        either = nominal.covariance[TURN, TURN] + found.pose_covariance(self.view.palm_m)[3:, 3:]
         return bool(off @ np.linalg.solve(either, off) > own.association.gate_sd**2)
 
     def is_other_hand(self, posterior: Posterior, scan: Scan) -> bool:
@@ -388,7 +388,7 @@ class HandFilter:
         assigned, rest = posterior.palm.assigned, ~posterior.is_finger
         is_named = np.zeros(rest.size, dtype=bool)
         is_named[assigned[assigned >= 0]] = True
-        return is_other_hand(scan.ideal.only(rest), is_named[rest], self._as_known, self._settings.finding)
+        return is_other_hand(scan.ideal.only(rest), is_named[rest], self._as_known)
 
     def predicted_at(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
         """What was predicted, should the palm be where it was found."""

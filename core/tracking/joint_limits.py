@@ -9,7 +9,7 @@ known ends up spread over its range.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,13 +42,10 @@ MID_RANGE_RAD[1:, 3] = 0.0
 """Slots (5, 5) in the middle of their range; the end joint as the coupling has it."""
 
 
-@dataclass(frozen=True, slots=True)
-class LimitSettings:
-    """``soft_rad``: standard deviation of the step that a limit is; ``near_sd`` standard deviations from a limit, of
-    angle and step together, from which on it pulls."""
-
-    soft_rad: float = math.radians(3.0)
-    near_sd: float = 3.0
+SOFT_RAD = math.radians(3.0)
+"""Standard deviation of the step that a limit is."""
+NEAR_SD = 3.0
+"""Standard deviations from a limit, of angle and step together, from which on it pulls."""
 
 
 def slot_limits_rad(slots: FloatArray) -> FloatArray:
@@ -80,7 +77,7 @@ def _softened(
     return shifted, variance - variance**2 * ratio * (z + ratio) / total
 
 
-def constrained(estimates: ModeMixture, slots: FloatArray, settings: LimitSettings) -> ModeMixture:
+def constrained(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
     """Estimates with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
 
     Each angle's pull is found by itself, then all pulls of a digit act together, as measurements with independent
@@ -91,14 +88,14 @@ def constrained(estimates: ModeMixture, slots: FloatArray, settings: LimitSettin
     shared = _DIRECTION[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)
     variance = np.diagonal(shared, axis1=-2, axis2=-1)
     limits = slot_limits_rad(slots)[:, None]
-    reach = settings.near_sd * np.sqrt(variance + settings.soft_rad**2)
+    reach = NEAR_SD * np.sqrt(variance + SOFT_RAD**2)
     near = (angle - reach < limits[..., 0]) | (angle + reach > limits[..., 1])
     chain = np.flatnonzero(near.any(axis=(1, 2)))
     if not chain.size:
         return estimates
     angle, variance, limits, near = angle[chain], variance[chain], limits[chain], near[chain]
-    lifted, narrowed = _softened(angle, variance, limits[..., 0], settings.soft_rad)
-    lowered, narrowed = _softened(-lifted, narrowed, -limits[..., 1], settings.soft_rad)
+    lifted, narrowed = _softened(angle, variance, limits[..., 0], SOFT_RAD)
+    lowered, narrowed = _softened(-lifted, narrowed, -limits[..., 1], SOFT_RAD)
     known = near & (variance > 1e-9)
     safe, narrowed = np.where(known, variance, 1.0), np.where(known, narrowed, 1.0)
     precision = np.where(known, np.maximum(1.0 / narrowed - 1.0 / safe, 0.0), 0.0)
@@ -112,7 +109,7 @@ def constrained(estimates: ModeMixture, slots: FloatArray, settings: LimitSettin
 
 
 def settled(
-    estimates: ModeMixture, most_beyond_rad: float, settings: LimitSettings
+    estimates: ModeMixture, most_beyond_rad: float
 ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
     """Estimates :func:`constrained` and those merged, and digits (5,) that are ``most_beyond_rad`` beyond a limit even
     so."""
@@ -124,12 +121,12 @@ def settled(
         )
         kernels.digits_settled(
             kept.mean.shape[1], estimates.mean, estimates.covariance, estimates.probability, _LIMITS, _DIRECTION,
-            ABDUCTION_LIMIT_RAD, settings.soft_rad, settings.near_sd, most_beyond_rad, kept.mean, kept.covariance,
+            ABDUCTION_LIMIT_RAD, SOFT_RAD, NEAR_SD, most_beyond_rad, kept.mean, kept.covariance,
             *merged, misread,
         )  # fmt: skip
         return kept, merged, misread
     merged = estimates.merged()
-    kept = constrained(estimates, merged[0][:, :SLOTS], settings)
+    kept = constrained(estimates, merged[0][:, :SLOTS])
     if kept is not estimates:
         merged = kept.merged()
     beyond_rad = np.abs(outside_limits(merged[0][:, :SLOTS]))

@@ -14,40 +14,40 @@ from carpus.core.tracking.association import most_chi2
 from carpus.core.tracking.palm_state import POSE, View
 from carpus.core.types import Detections, FloatArray
 
-
-@dataclass(frozen=True, slots=True)
-class FindingSettings:
-    """When blobs are a palm that nothing foretold.
-
-    Two discs' distance may differ from the calibrated one by ``distance_m`` (depth noise of both), a disc lie ``fit_m``
-    from where the fitted palm puts it; ``least`` discs are needed. ``most_blobs``, the likest ones, are looked at.
-    Beyond ``most_gap_m`` root mean square of the discs it is not this palm, nor where chance gives a smaller misfit
-    (chi squared) with the probability ``consistent``; other names are rivals when their misfit is below ``rival_ratio``
-    times the best one's and ``rival_margin``. ``across_m``: how well a blob's place across its ray is known.
-    ``explained``: share of all blobs that a palm of none, one, two ... six discs and the fingers on it must explain,
-    where there are fingers. ``disc_sd_m`` how far a disc may lie from where the found pose puts it (depth noise of one
-    picture, and the shape), ``turn_sd_rad`` and ``place_sd_m`` how well such a pose is known at best,
-    ``turn_prior_rad`` at worst; ``velocity_m_s`` and ``rate_rad_s`` how fast such a hand may be. So many poses as
-    ``most_fitted`` are fitted to all blobs.
-    """
-
-    distance_m: float = 0.007
-    fit_m: float = 0.008
-    least: int = 4
-    most_blobs: int = 40
-    most_gap_m: float = 0.004
-    consistent: float = 0.99
-    rival_ratio: float = 1.25
-    rival_margin: float = 9.0
-    across_m: float = 0.00025
-    explained: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0, 0.8, 0.5, 0.0)
-    disc_sd_m: float = 0.003
-    turn_sd_rad: float = 0.05
-    place_sd_m: float = 0.004
-    turn_prior_rad: float = 0.6
-    velocity_m_s: float = 0.5
-    rate_rad_s: float = 2.0
-    most_fitted: int = 24
+DISTANCE_M = 0.007
+"""Two discs' distance may differ so much from the calibrated one: the depth noise of both."""
+FIT_M = 0.008
+"""A disc may lie so far from where the fitted palm puts it."""
+MIN_FOUND_DISCS = 4
+"""So many discs are a palm."""
+MAX_SEARCHED_BLOBS = 40
+"""The likest ones, that are looked at."""
+MAX_GAP_M = 0.004
+"""Beyond, root mean square of the discs, it is not this palm;"""
+CONSISTENT = 0.99
+"""nor where chance gives a smaller misfit (chi squared) with this probability."""
+RIVAL_RATIO = 1.25
+"""Other names are rivals when their misfit is below so many times the best one's"""
+RIVAL_MARGIN = 9.0
+"""and this."""
+ACROSS_M = 0.00025
+"""How well a blob's place across its ray is known."""
+EXPLAINED: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0, 0.8, 0.5, 0.0)
+"""Share of all blobs that a palm of none, one, two ... six discs and the fingers on it must explain."""
+DISC_SD_M = 0.003
+"""Of a disc about where the found pose puts it: depth noise of one picture, and the shape."""
+TURN_SD_RAD = 0.05
+"""How well the turn of a found pose is known at best,"""
+PLACE_SD_M = 0.004
+"""its place at best,"""
+TURN_PRIOR_RAD = 0.6
+"""and its turn at worst."""
+VELOCITY_M_S = 0.5
+"""How fast such a hand may move,"""
+RATE_RAD_S = 2.0
+"""and turn."""
+MAX_FITTED = 24
+"""So many poses are fitted to all blobs."""
 
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
@@ -96,18 +96,18 @@ class FoundPalm:
     def count(self) -> int:
         return int(np.count_nonzero(self.matched))
 
-    def pose_covariance(self, palm_m: FloatArray, settings: FindingSettings) -> FloatArray:
+    def pose_covariance(self, palm_m: FloatArray) -> FloatArray:
         """Covariance (6, 6) of position and turn: discs nearly in a line say little of the turn about that line."""
         discs = palm_m[self.matched]
         middle = discs.mean(axis=0)
         lever = so3.skew(discs - middle)
-        told = np.einsum("mji,mjk->ik", lever, lever) / settings.disc_sd_m**2
-        turn = np.linalg.inv(told + np.eye(3) / settings.turn_prior_rad**2)
-        turn += settings.turn_sd_rad**2 * np.eye(3)
+        told = np.einsum("mji,mjk->ik", lever, lever) / DISC_SD_M**2
+        turn = np.linalg.inv(told + np.eye(3) / TURN_PRIOR_RAD**2)
+        turn += TURN_SD_RAD**2 * np.eye(3)
         # The middle of the discs is what is known; the origin swings about it with the turn.
         swing = self.rotation_w2_w0 @ so3.skew(middle)
         out = np.empty((6, 6))
-        out[:3, :3] = swing @ turn @ swing.T + settings.place_sd_m**2 * np.eye(3)
+        out[:3, :3] = swing @ turn @ swing.T + PLACE_SD_M**2 * np.eye(3)
         out[:3, 3:] = swing @ turn
         out[3:, :3] = out[:3, 3:].T
         out[3:, 3:] = turn
@@ -137,9 +137,9 @@ class _Fits:
     def count(self) -> NDArray[np.int64]:
         return np.asarray((self.named >= 0).sum(axis=1))
 
-    def likeness(self, settings: FindingSettings) -> FloatArray:
+    def likeness(self) -> FloatArray:
         """Confirming discs (N,), less by how far they lie from their places."""
-        return np.asarray(self.count - self.gap_m / settings.fit_m)
+        return np.asarray(self.count - self.gap_m / FIT_M)
 
     def only(self, rows: NDArray[np.int64]) -> _Fits:
         return _Fits(
@@ -161,7 +161,6 @@ def find_palm(
     view: View,
     strays: FloatArray,
     facing: Facing,
-    settings: FindingSettings,
     reach: Reach | None = None,
 ) -> FoundPalm | None:
     """Where the palm is, or None.
@@ -174,12 +173,12 @@ def find_palm(
     With ``reach`` the blobs left over must mostly lie where the fingers could be.
     """
     known = np.flatnonzero(np.isfinite(detections.depth_m) & (detections.similarity > 0.0))
-    if known.size < settings.least:
+    if known.size < MIN_FOUND_DISCS:
         return None
-    if known.size > settings.most_blobs:
-        known = known[np.argsort(-detections.similarity[known])[: settings.most_blobs]]
+    if known.size > MAX_SEARCHED_BLOBS:
+        known = known[np.argsort(-detections.similarity[known])[:MAX_SEARCHED_BLOBS]]
     points = view.camera.back_project(detections.pixel[known], detections.depth_m[known])
-    search = _Search(view.palm_m, points, settings, reach)
+    search = _Search(view.palm_m, points, reach)
     seen = _Blobs(points, np.hypot(detections.depth_sd_m[known], view.camera.sensor.stays_sd_m(points[:, 2])))
     neutral = view.rotation_w0_cam
     about = _Turns(neutral @ facing.rotation_w2_w0, facing.most_rad, neutral, facing.anyhow_rad)
@@ -189,30 +188,30 @@ def find_palm(
     matched = best.named[0] >= 0
     is_named = np.zeros(len(detections), dtype=bool)
     is_named[known[best.named[0, matched]]] = True
-    if is_other_hand(detections, is_named, view, settings):
+    if is_other_hand(detections, is_named, view):
         return None
     rotation = view.rotation_w0_cam.T @ best.rotation[0]
     position = view.rotation_w0_cam.T @ (best.translation[0] - view.translation_w0_cam_m)
     return FoundPalm(position, rotation, matched)
 
 
-def is_other_hand(detections: Detections, is_named: NDArray[np.bool_], view: View, settings: FindingSettings) -> bool:
+def is_other_hand(detections: Detections, is_named: NDArray[np.bool_], view: View) -> bool:
     """Whether of the blobs ``is_named`` (B,) for discs of this palm some are the other hand's: of the blobs about them
     its mirror image explains at least five and as many as were named, better than this palm does, however it lies."""
-    palm, least = view.palm_m, max(settings.least + 1, int(np.count_nonzero(is_named)))
+    palm, least = view.palm_m, max(MIN_FOUND_DISCS + 1, int(np.count_nonzero(is_named)))
     known = np.isfinite(detections.depth_m)
     points, is_named = view.camera.back_project(detections.pixel[known], detections.depth_m[known]), is_named[known]
     if len(points) < least or not is_named.any():
         return False
-    across_m = np.linalg.norm(palm[:, None] - palm, axis=-1).max() + settings.distance_m
+    across_m = np.linalg.norm(palm[:, None] - palm, axis=-1).max() + DISTANCE_M
     about = (np.linalg.norm(points[:, None] - points[is_named], axis=-1) < across_m).any(axis=1)
     points, is_named = points[about], is_named[about]
-    mirrored = _Search(palm * _MIRROR, points, settings).likest()
+    mirrored = _Search(palm * _MIRROR, points).likest()
     if not (mirrored.count >= least).any():
         return False
     others = mirrored.named[0, mirrored.named[0] >= 0]
-    own = _Search(palm, points[others], settings).likest()
-    is_better = (own.likeness(settings) < mirrored.likeness(settings)).all()
+    own = _Search(palm, points[others]).likest()
+    is_better = (own.likeness() < mirrored.likeness()).all()
     return bool(is_better and is_named[others].any())
 
 
@@ -223,13 +222,12 @@ class _Search:
 
     model: FloatArray
     points: FloatArray
-    settings: FindingSettings
     reach: Reach | None = None
 
     def fits(self) -> _Fits:
         """The poses that most points confirm, refitted to all discs that do."""
         triple, blobs = self._triples()
-        corners, seen, settings = self.model[_TRIPLES], self.points[blobs], self.settings
+        corners, seen = self.model[_TRIPLES], self.points[blobs]
         rotation = _frames(seen) @ np.swapaxes(_frames(corners), -1, -2)[triple]
         # The dorsal side looks at the camera: Z of the palm has a negative component along its axis.
         facing = np.flatnonzero(rotation[:, 2, 2] < 0.0)
@@ -238,24 +236,24 @@ class _Search:
         translation = seen[facing].mean(axis=1) - (rotation @ middle[..., None])[..., 0]
         for last in (False, True):
             nearest, gap_m = self._nearest(rotation, translation)
-            matched = gap_m < settings.fit_m
+            matched = gap_m < FIT_M
             count = matched.sum(axis=1)
-            worth = count - np.where(matched, gap_m, 0.0).sum(axis=1) / (6.0 * settings.fit_m)
-            kept = np.argsort(-worth, kind="stable")[: settings.most_fitted]
-            kept = kept[count[kept] >= settings.least - (0 if last else 1)]
+            worth = count - np.where(matched, gap_m, 0.0).sum(axis=1) / (6.0 * FIT_M)
+            kept = np.argsort(-worth, kind="stable")[:MAX_FITTED]
+            kept = kept[count[kept] >= MIN_FOUND_DISCS - (0 if last else 1)]
             rotation, translation = _refitted(self.model, self.points[nearest[kept]], matched[kept])
         return self._scored(rotation, translation)
 
     def likest(self) -> _Fits:
         """The pose that most points confirm, and these best; or none."""
         fits = self.fits()
-        return fits.only(np.argsort(-fits.likeness(self.settings), kind="stable")[:1])
+        return fits.only(np.argsort(-fits.likeness(), kind="stable")[:1])
 
     def believable(self, fits: _Fits) -> _Fits:
         """Those with enough discs, the back of the hand before the camera, and, where fingers are there to explain the
         rest, their share of the points explained."""
-        share = np.array(self.settings.explained)[fits.count] * (0 if self.reach is None else len(self.points))
-        good = (fits.count >= self.settings.least) & (fits.rotation[:, 2, 2] < 0.0)
+        share = np.array(EXPLAINED)[fits.count] * (0 if self.reach is None else len(self.points))
+        good = (fits.count >= MIN_FOUND_DISCS) & (fits.rotation[:, 2, 2] < 0.0)
         return fits.only(np.flatnonzero(good & (fits.explained >= share)))
 
     def every_assignment(self, four: NDArray[np.int64]) -> _Fits:
@@ -273,7 +271,7 @@ class _Search:
         triples, blobs = [], []
         for number, (a, b, c) in enumerate(_TRIPLES):
             ab, ac, bc = (
-                np.abs(between - np.linalg.norm(self.model[first] - self.model[second])) < self.settings.distance_m
+                np.abs(between - np.linalg.norm(self.model[first] - self.model[second])) < DISTANCE_M
                 for first, second in ((a, b), (a, c), (b, c))
             )
             found = np.argwhere(ab[:, :, None] & ac[:, None, :] & bc[None, :, :])
@@ -284,7 +282,7 @@ class _Search:
     def _scored(self, rotation: FloatArray, translation: FloatArray) -> _Fits:
         """What the points confirm of these poses."""
         nearest, gap_m = self._nearest(rotation, translation)
-        matched = gap_m < self.settings.fit_m
+        matched = gap_m < FIT_M
         count = matched.sum(axis=1)
         mean_m = np.sqrt(np.where(matched, gap_m**2, 0.0).sum(axis=1) / np.maximum(count, 1))
         explained = count
@@ -330,25 +328,25 @@ def _refitted(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) ->
 
 def _best(search: _Search, seen: _Blobs, strays: FloatArray, about: _Turns) -> _Fits | None:
     """The one pose to believe; None when none is good enough, or when other names are about as good."""
-    model, settings = search.model, search.settings
+    model = search.model
     fits = search.believable(search.fits())
     if not fits.count.size:
         return None
     best, misfit = _best_first(fits, search, seen, strays, about)
-    if best.count[0] == settings.least:
+    if best.count[0] == MIN_FOUND_DISCS:
         every = search.every_assignment(best.named[0, best.named[0] >= 0])
         both = best.only(np.arange(1)).and_more(search.believable(every))
         best, misfit = _best_first(both, search, seen, strays, about)
     beyond = _turned_beyond(best, about)
-    most_misfit = most_chi2(settings.consistent)[3 * int(best.count[0]) - POSE.size]
-    if best.gap_m[0] > settings.most_gap_m or misfit[0] > most_misfit or beyond[0]:
+    most_misfit = most_chi2(CONSISTENT)[3 * int(best.count[0]) - POSE.size]
+    if best.gap_m[0] > MAX_GAP_M or misfit[0] > most_misfit or beyond[0]:
         return None
     # A disc of the palm counts for more than one that a finger could reach.
     worth = best.explained + best.count
     placed = model @ np.swapaxes(best.rotation, -1, -2) + best.translation[:, None]
     apart_m = np.linalg.norm(placed - placed[0], axis=-1).max(axis=1)
-    rival = (worth >= worth[0]) & (apart_m > settings.fit_m) & ~beyond
-    rival &= misfit < settings.rival_ratio * misfit[0] + settings.rival_margin
+    rival = (worth >= worth[0]) & (apart_m > FIT_M) & ~beyond
+    rival &= misfit < RIVAL_RATIO * misfit[0] + RIVAL_MARGIN
     return None if rival.any() else best.only(np.arange(1))
 
 
@@ -356,7 +354,7 @@ def _best_first(
     fits: _Fits, search: _Search, seen: _Blobs, strays: FloatArray, about: _Turns
 ) -> tuple[_Fits, FloatArray]:
     """The poses by worth, then those a hand can have, then by their misfits (N,), which come with them."""
-    misfit = _misfit(fits, search.model, seen, strays, search.settings)
+    misfit = _misfit(fits, search.model, seen, strays)
     order = np.lexsort((misfit, _turned_beyond(fits, about), -(fits.explained + fits.count)))
     return fits.only(order), misfit[order]
 
@@ -374,7 +372,7 @@ def _turned_rad(fits: _Fits, about: FloatArray) -> FloatArray:
     return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
-def _misfit(fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, settings: FindingSettings) -> FloatArray:
+def _misfit(fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray) -> FloatArray:
     """Chi squared (N,) of the discs' places, each pose moved to where it is least.
 
     Across the ray of the camera and of the finger a disc is known to a fraction of a millimetre, along them to some:
@@ -387,7 +385,7 @@ def _misfit(fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, se
     off_m = (point_m - fits.translation[:, None]) @ fits.rotation - model
     off = np.where(named[..., None], off_m, 0.0).reshape(-1, 3 * discs)
     ray = (point_m / point_m[..., 2:]) @ fits.rotation * seen.depth_sd_m[at][..., None]
-    own = ray[..., :, None] * ray[..., None, :] + settings.across_m**2 * np.eye(3)
+    own = ray[..., :, None] * ray[..., None, :] + ACROSS_M**2 * np.eye(3)
     own += np.where(named, 0.0, _LOOSE_M2)[..., None, None] * np.eye(3)
     disc = np.arange(discs)
     covariance = np.repeat(strays[None], len(off), axis=0)

@@ -8,8 +8,6 @@ with the place the part that no number of pictures takes away: the filter counts
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from carpus.core import so3
@@ -34,23 +32,16 @@ _TILT_KNOWN = 1e-3
 """Share of the best known direction below which depths tell nothing of a turn: about the line of sight."""
 
 
-@dataclass(frozen=True, slots=True)
-class ReadoutSettings:
-    """``shape_moved_m``: the axes are computed anew when a disc's refined place has moved by this much; before, to
-    first order. ``metacarpal_m`` of ring and little finger from the joint at its base to its head (clinical
-    reference 3.3)."""
-
-    shape_moved_m: float = 3e-4
-    metacarpal_m: float = 0.055
+SHAPE_MOVED_M = 3e-4
+"""The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
+METACARPAL_M = 0.055
+"""Of ring and little finger, from the joint at its base to its head (clinical reference 3.3)."""
 
 
 class Readout:
     """Reads estimates of one calibrated palm; remembers only the axes of the last shape."""
 
-    def __init__(
-        self, calibration: Calibration, settings: ReadoutSettings, camera: Camera, disc_radius_m: float
-    ) -> None:
-        self._settings = settings
+    def __init__(self, calibration: Calibration, camera: Camera, disc_radius_m: float) -> None:
         self._sensor = sensor = camera.sensor
         self._disc_px_m = disc_radius_m * camera.fx_px
         # Readings that do not average, and errors alike over the whole palm, are counted in full as they are.
@@ -67,7 +58,7 @@ class Readout:
     def _axes_of(self, estimate: PalmEstimate) -> tuple[FloatArray, FloatArray]:
         shape = estimate.value[SHAPE]
         moved_m = shape - self._axes_shape
-        if np.abs(moved_m).max() > self._settings.shape_moved_m:  # so too at first
+        if np.abs(moved_m).max() > SHAPE_MOVED_M:  # so too at first
             self._work_out_axes(shape)
             moved_m = np.zeros(_SHAPE_SIZE)
         return self._axes @ so3.exp(self._sensitivity @ moved_m), self._sensitivity
@@ -87,8 +78,8 @@ class Readout:
             is_near = np.empty(1, dtype=np.bool_)
             for _ in range(2):
                 kernels.palm_seat(
-                    self._axes, self._sensitivity, self._axes_shape, self._settings.shape_moved_m, self._disc_m,
-                    self._settings.metacarpal_m, -1.0 if self._side == "left" else 1.0, estimate.value,
+                    self._axes, self._sensitivity, self._axes_shape, SHAPE_MOVED_M, self._disc_m,
+                    METACARPAL_M, -1.0 if self._side == "left" else 1.0, estimate.value,
                     estimate.rotation_w2_w0, estimate.covariance, view.numbers, axes, origin_m, disc_m, cup, cup_sd,
                     rotation, translation_m, pose, turn, is_near,
                 )  # fmt: skip
@@ -104,9 +95,9 @@ class Readout:
         # Ring and little metacarpal flex and take their fingers along; what else a disc moves is skin.
         disc_m[LOOSE, 1:] += estimate.skin_m[LOOSE, 1:]
         cup, cup_sd = NO_CUP.copy(), NO_CUP.copy()
-        cup[-2:] = -estimate.skin_m[LOOSE, 2] / self._settings.metacarpal_m
+        cup[-2:] = -estimate.skin_m[LOOSE, 2] / METACARPAL_M
         down = SKIN.start + 3 * LOOSE + 2
-        cup_sd[-2:] = np.sqrt(estimate.covariance[down, down]) / self._settings.metacarpal_m
+        cup_sd[-2:] = np.sqrt(estimate.covariance[down, down]) / METACARPAL_M
         palm = PalmInBody.of(disc_m, axes, self._side, cup, cup_sd)
         body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
         to_camera = np.zeros((6, 6))
@@ -158,7 +149,7 @@ class Readout:
         (axes, shown), is_near = np.empty((2, 3, 3)), np.empty(1, dtype=np.bool_)
         for _ in range(2):
             kernels.wrist_read(
-                self._axes, self._sensitivity, self._axes_shape, self._settings.shape_moved_m, self._disc_m,
+                self._axes, self._sensitivity, self._axes_shape, SHAPE_MOVED_M, self._disc_m,
                 estimate.value, estimate.rotation_w2_w0, estimate.covariance,
                 self._start if self._has_start else NOTHING,
                 self._tilt_covariance(estimate) if self._has_stays else NOTHING,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import Enum, auto
 
 import numpy as np
@@ -12,37 +11,30 @@ from carpus.core import so3
 from carpus.core.tracking.reacquire import Facing, FoundPalm
 from carpus.core.types import FloatArray, TrackStatus
 
-
-@dataclass(frozen=True, slots=True)
-class HoldingSettings:
-    """Discs that lie within ``narrow_m`` (rms) of one line say nothing of turning about it.
-
-    ``least_discs`` of the palm that tell its pose, below which a frame is predicted. A hand found again out of
-    nothing must keep showing for ``probation_s``; four discs among those of fingers must do so for ``suspected_s``
-    before they are believed. ``share_window_s`` over which the share of direct measurements is told.
-
-    Expecting the hand's turn less surely than ``vague_rad`` the filter may settle on wrong names or at a wrong pose;
-    less surely than ``too_vague_rad`` sigma points reach too far for a correction to be trusted even by the right
-    names. Less surely than ``blind_rad`` any so many blobs would do for discs: none to five of them;
-    ``blind_among_fingers_rad`` where there are discs on fingers, which can look like some of the palm, even like five.
-
-    A hand gone from sight is not found turned further than it may have turned meanwhile (``turn_slack_rad`` and
-    ``most_rate_rad_s``); gone for so long that this says nothing, lost, or shown by every disc of the palm, it is
-    turned no further than ``most_turn_rad`` from the neutral pose.
-    """
-
-    narrow_m: float = 0.008
-    least_discs: int = 3
-    probation_s: float = 0.2
-    suspected_s: float = 0.09
-    share_window_s: float = 1.0
-    vague_rad: float = 0.15
-    too_vague_rad: float = 0.5
-    blind_rad: tuple[float, ...] = (0.1, 0.1, 0.15, 0.35, 0.5, 0.5)
-    blind_among_fingers_rad: tuple[float, ...] = (0.1, 0.06, 0.15, 0.25, 0.35, 0.5)
-    turn_slack_rad: float = 0.35
-    most_rate_rad_s: float = 12.0
-    most_turn_rad: float = 1.9
+NARROW_M = 0.008
+"""Discs that lie as near (rms) to one line say nothing of turning about it."""
+MIN_PALM_DISCS = 3
+"""That tell the pose of the palm; below a frame is predicted."""
+PROBATION_S = 0.2
+"""A hand found again out of nothing must keep showing for so long,"""
+SUSPECTED_S = 0.09
+"""and four discs among those of fingers, before they are believed."""
+SHARE_WINDOW_S = 1.0
+"""Over which the share of direct measurements is told."""
+VAGUE_RAD = 0.15
+"""Expecting the turn less surely the filter may settle on wrong names or at a wrong pose."""
+TOO_VAGUE_RAD = 0.5
+"""Less surely sigma points reach too far for a correction to be trusted even by the right names."""
+BLIND_RAD: tuple[float, ...] = (0.1, 0.1, 0.15, 0.35, 0.5, 0.5)
+"""Less surely any so many blobs would do for discs: none to five of them."""
+BLIND_AMONG_FINGERS_RAD: tuple[float, ...] = (0.1, 0.06, 0.15, 0.25, 0.35, 0.5)
+"""The same where discs on fingers can look like some of the palm, even like five."""
+TURN_SLACK_RAD = 0.35
+"""A hand gone from sight is not found turned further than by this"""
+MAX_RATE_RAD_S = 12.0
+"""and so fast meanwhile."""
+MAX_TURN_RAD = 1.9
+"""Gone for long, lost, or shown by every disc of the palm it is turned no further from the neutral pose."""
 
 
 class TrackStage(Enum):
@@ -61,10 +53,9 @@ class TrackManager:
     ``least_found`` discs by which a hand can be found, ``amid_digits``: there are discs on fingers as well.
     """
 
-    def __init__(self, settings: HoldingSettings, least_found: int, lost_after_s: float, *, amid_digits: bool) -> None:
-        self._settings = settings
+    def __init__(self, least_found: int, lost_after_s: float, *, amid_digits: bool) -> None:
         self._least_found, self._lost_after_s, self._amid_digits = least_found, lost_after_s, amid_digits
-        self._blind_rad = settings.blind_among_fingers_rad if amid_digits else settings.blind_rad
+        self._blind_rad = BLIND_AMONG_FINGERS_RAD if amid_digits else BLIND_RAD
         self.stage = TrackStage.CONFIRMED
         self._time_s: float | None = None
         self._seen_s = self._begun_s = self._found_s = -math.inf
@@ -118,39 +109,37 @@ class TrackManager:
         since_s = timestamp_s
         if self._candidate_before is not None:
             first_s, before = self._candidate_before
-            goes_on = turned_rad(before.rotation_w2_w0, found.rotation_w2_w0) < self._settings.turn_slack_rad
+            goes_on = turned_rad(before.rotation_w2_w0, found.rotation_w2_w0) < TURN_SLACK_RAD
             if goes_on and np.array_equal(before.matched, found.matched):
                 since_s = first_s
         self._candidate = since_s, found
-        return timestamp_s - since_s >= self._settings.suspected_s
+        return timestamp_s - since_s >= SUSPECTED_S
 
     def facing(self, rotation_w2_w0: FloatArray, timestamp_s: float) -> Facing:
         """How far a hand can have turned since it was last seen; a tentative one anyhow."""
         if self.stage is TrackStage.TENTATIVE:
             return self.anyhow()
-        gone_s, own = timestamp_s - max(self._seen_s, self._begun_s), self._settings
-        most_rad = own.turn_slack_rad + own.most_rate_rad_s * gone_s
-        return Facing(rotation_w2_w0, most_rad, own.most_turn_rad) if most_rad < own.most_turn_rad else self.anyhow()
+        gone_s = timestamp_s - max(self._seen_s, self._begun_s)
+        most_rad = TURN_SLACK_RAD + MAX_RATE_RAD_S * gone_s
+        return Facing(rotation_w2_w0, most_rad, MAX_TURN_RAD) if most_rad < MAX_TURN_RAD else self.anyhow()
 
     def anyhow(self) -> Facing:
         """How far a hand can be turned of which nothing is known."""
-        return Facing(np.eye(3), self._settings.most_turn_rad, self._settings.most_turn_rad)
+        return Facing(np.eye(3), MAX_TURN_RAD, MAX_TURN_RAD)
 
     def is_vague(self, turn_sd_rad: float) -> bool:
         """Whether a turn was predicted so unsurely that the filter may settle at a wrong one."""
-        return turn_sd_rad > self._settings.vague_rad
+        return turn_sd_rad > VAGUE_RAD
 
     def looks_anew(self, seen: int, unassigned: int, turn_sd_rad: float) -> bool:
         """Whether to look for the palm, of which ``seen`` discs are where they were predicted, without a prediction as
         well: ``unassigned`` blobs are left over."""
-        few = seen <= self._settings.least_discs or self.stage is TrackStage.TENTATIVE
-        return (few or self.is_vague(turn_sd_rad)) and unassigned + seen > self._settings.least_discs
+        few = seen <= MIN_PALM_DISCS or self.stage is TrackStage.TENTATIVE
+        return (few or self.is_vague(turn_sd_rad)) and unassigned + seen > MIN_PALM_DISCS
 
     def is_unsure(self, seen: int, turn_sd_rad: float) -> bool:
         """Whether what shows ``seen`` discs may be another hand: they are few, or it was not seen a moment ago."""
-        return (
-            seen <= self._settings.least_discs or self.stage is not TrackStage.CONFIRMED or self.is_vague(turn_sd_rad)
-        )
+        return seen <= MIN_PALM_DISCS or self.stage is not TrackStage.CONFIRMED or self.is_vague(turn_sd_rad)
 
     def may_be_turned_over(self, seen: int, unassigned: int) -> bool:
         """Whether blobs are left over for the discs that are not where they were predicted: the knuckles can be where
@@ -163,17 +152,17 @@ class TrackManager:
 
     def is_refuted(self, seen: int, timestamp_s: float) -> bool:
         """Whether the hand was found a moment ago and the next pictures do not bear it out."""
-        least = self._settings.least_discs
+        least = MIN_PALM_DISCS
         if timestamp_s == self._found_s:
             return seen < least + 1
-        return timestamp_s - self._found_s < self._settings.probation_s and seen < least
+        return timestamp_s - self._found_s < PROBATION_S and seen < least
 
     def status_after(self, timestamp_s: float, seen: int, *, fits: bool) -> TrackStatus:
         """The track confirmed, coasted or given up after a frame that showed so many of its discs, where the updated
         pose puts them (``fits``) or not."""
         self._time_s = timestamp_s
         is_believed = self.stage is not TrackStage.TENTATIVE or (seen > self._least_found and fits)
-        if seen >= self._settings.least_discs:
+        if seen >= MIN_PALM_DISCS:
             self._seen_s = timestamp_s
             self.stage = TrackStage.CONFIRMED if is_believed else TrackStage.TENTATIVE
             return TrackStatus.TRACKED

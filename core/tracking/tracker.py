@@ -25,10 +25,18 @@ from carpus.core.tracking.hand_geometry import JointMoment, palm_of
 from carpus.core.tracking.operator_hints import Hinted, OperatorHints
 from carpus.core.tracking.palm_smoother import FilterStep
 from carpus.core.tracking.predicted_measurement import MarkerOrder, PredictedMeasurement
+from carpus.core.tracking.reacquire import MIN_FOUND_DISCS
 from carpus.core.tracking.readout import Readout, lost_frame, lost_moment
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.smoother_record import KeptSteps, SmoothedHand, SmootherRecord
-from carpus.core.tracking.track_manager import TrackManager, turned_rad
+from carpus.core.tracking.track_manager import (
+    MIN_PALM_DISCS,
+    SHARE_WINDOW_S,
+    TOO_VAGUE_RAD,
+    TURN_SLACK_RAD,
+    TrackManager,
+    turned_rad,
+)
 from carpus.core.types import Detections, FloatArray, Moment, SpotAnswer, TrackedFrame, TrackStatus
 
 _SAME_AXIS = np.eye(2)
@@ -165,7 +173,7 @@ class FrameResults:
     def _remember(self, timestamp_s: float, measured: NDArray[np.int64]) -> None:
         self._recent.append((timestamp_s, measured))
         self._recently_measured = self._recently_measured + measured
-        while self._recent[0][0] < timestamp_s - self._settings.holding.share_window_s:
+        while self._recent[0][0] < timestamp_s - SHARE_WINDOW_S:
             self._recently_measured = self._recently_measured - self._recent.popleft()[1]
 
     def _share(self) -> FloatArray:
@@ -190,9 +198,7 @@ class Tracker:
         self.markers = protocol.markers
         """Names of the discs, in the order of every row."""
         self._filter = HandFilter(calibration, camera, settings)
-        self._manager = TrackManager(
-            settings.holding, settings.finding.least, settings.lost_after_s, amid_digits=protocol.has_fingers
-        )
+        self._manager = TrackManager(MIN_FOUND_DISCS, settings.lost_after_s, amid_digits=protocol.has_fingers)
         self._hints = OperatorHints(self.markers, settings.said)
         model = None if self._filter.fingers is None else self._filter.fingers.model
         self._results = FrameResults(protocol, self._filter.order, model, self._filter.readout, settings)
@@ -202,7 +208,7 @@ class Tracker:
                 self._filter.motion,
                 self._filter.view,
                 model,
-                lambda: Readout(palm, settings.readout, camera, settings.marker_radius_m),
+                lambda: Readout(palm, camera, settings.marker_radius_m),
                 self._results.lost_moment,
             )
         )
@@ -240,7 +246,7 @@ class Tracker:
     def would_miss(self, blobs: Detections) -> bool:
         """Whether blobs of a narrowed search are too few to hold the palm, or all of it where the last did not show
         how it is turned, so that the rest is worth a look."""
-        least = self.settings.holding.least_discs if self._filter.showed_turn else self._filter.order.palm.size - 1
+        least = MIN_PALM_DISCS if self._filter.showed_turn else self._filter.order.palm.size - 1
         return len(blobs) <= least
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
@@ -323,19 +329,18 @@ class Tracker:
         found = self._filter.find(ideal, manager.facing(rotation, scan.timestamp_s))
         if found is None or not (is_vague or found.count > seen):
             return None
-        holding = self.settings.holding
-        if found.count <= self.settings.finding.least and self._filter.is_against(found, posterior):
+        if found.count <= MIN_FOUND_DISCS and self._filter.is_against(found, posterior):
             return None
-        is_expected = turned_rad(rotation, found.rotation_w2_w0) < holding.turn_slack_rad
+        is_expected = turned_rad(rotation, found.rotation_w2_w0) < TURN_SLACK_RAD
         if is_vague and not (is_expected or manager.is_borne_out(found, scan.timestamp_s)):
             return None
         there = self._filter.update(self._filter.predicted_at(found, posterior.predicted), scan)
         is_agreed = (
-            turn_sd_rad < holding.too_vague_rad
+            turn_sd_rad < TOO_VAGUE_RAD
             and np.array_equal(there.palm.assigned, posterior.palm.assigned)
             and self._filter.fits(posterior)
         )
-        if is_agreed or there.seen < max(holding.least_discs + 1, seen):
+        if is_agreed or there.seen < max(MIN_PALM_DISCS + 1, seen):
             return None
         manager.take_for(found)
         return there

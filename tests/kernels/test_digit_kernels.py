@@ -16,18 +16,18 @@ from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, 
 from carpus.core.tracking.digit_filter import DigitPoints, DigitsLinearisation, digits_linearised, spread_points
 from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
 from carpus.core.tracking.digit_readout import Seat, seat_of
-from carpus.core.tracking.digit_search import DigitSearchSettings, _best_posture
+from carpus.core.tracking.digit_search import _best_posture
 from carpus.core.tracking.finger_depth import FingerDepthSettings, knuckle_bends
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.hand_geometry import palm_of
-from carpus.core.tracking.joint_limits import LimitSettings, settled
+from carpus.core.tracking.joint_limits import settled
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmEstimate, View
 from carpus.core.tracking.predicted_measurement import PredictedDigits
-from carpus.core.tracking.readout import Readout, ReadoutSettings
+from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import FrameResults
 from carpus.core.tracking.unscented import Spread
@@ -76,7 +76,7 @@ def hand(side: str, seed: int, dip: str = "coupled") -> Hand:
     fingers = Fingers(known(side), CAMERA, settings)
     view = HandFilter(known(side), CAMERA, settings).view
     estimate = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
-    seat = seat_of(estimate, view, Readout(palm_of(known(side)), ReadoutSettings(), view.camera, 6e-3))
+    seat = seat_of(estimate, view, Readout(palm_of(known(side)), view.camera, 6e-3))
     mean, covariance = fingers.model.at_neutral().merged()
     scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
     mean = mean + scale * rng.normal(size=mean.shape)
@@ -101,7 +101,7 @@ def test_the_seat_of_the_digits(side: str) -> None:
         unknown = replace(estimate, value=np.full(SIZE, np.nan))
 
         def seats(estimates: tuple[PalmEstimate, ...] = (estimate, further, unknown)) -> list[object]:
-            readout = Readout(own, ReadoutSettings(), CAMERA, 6e-3)
+            readout = Readout(own, CAMERA, 6e-3)
             return [readout.seat(one, view) for one in estimates]
 
         both(seats)
@@ -224,11 +224,11 @@ def test_limits_of_joints(modes: int) -> None:
         for wide in (1e-6, 1.0, 30.0):
             covariance = np.repeat(wide * it.covariance[:, None], modes, axis=1)
             mixture = ModeMixture(mean, covariance, np.full((5, modes), 1.0 / modes))
-            misread.append(both(lambda of=mixture: settled(of, 0.5, LimitSettings()))[2])
+            misread.append(both(lambda of=mixture: settled(of, 0.5))[2])
     assert np.any(misread)
     assert not np.all(misread)
     narrow = ModeMixture(0.3 + 0.0 * mean, 1e-9 * covariance, mixture.probability)
-    both(lambda: settled(narrow, 0.5, LimitSettings()))
+    both(lambda: settled(narrow, 0.5))
 
 
 def test_what_is_remembered_of_an_accepted_frame() -> None:
@@ -265,9 +265,9 @@ def test_where_digits_are_expected(side: str) -> None:
 @pytest.mark.parametrize("count", [2, 9])
 def test_the_posture_that_explains_most(count: int) -> None:
     rng = np.random.default_rng(18)
-    disc_m, settings = rng.normal(scale=0.02, size=(200, 3, 3)), DigitSearchSettings()
+    disc_m = rng.normal(scale=0.02, size=(200, 3, 3))
     for point_m in (disc_m[7, :2] + 0.001, rng.normal(scale=0.02, size=(count, 3)), np.full((count, 3), 9.0)):
-        both(lambda point_m=point_m: _best_posture(disc_m, point_m, settings))
+        both(lambda point_m=point_m: _best_posture(disc_m, point_m))
 
 
 @pytest.mark.parametrize("flexion_deg", [10.0, 70.0])

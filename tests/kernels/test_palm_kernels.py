@@ -26,7 +26,7 @@ from carpus.core.tracking.predicted_measurement import (
     predicted_measurement,
     shape_partial_update,
 )
-from carpus.core.tracking.readout import Readout, ReadoutSettings
+from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.soft_tissue import (
     DigitSpeeds,
@@ -197,7 +197,7 @@ def test_the_wrist_as_it_is_read(side: Side, start_rad: tuple[float, ...], senso
         estimate = moving(seed)
         if seed == 2:
             estimate = replace(estimate, rotation_w2_w0=np.eye(3))  # where ZYZ angles are not defined
-        both(lambda estimate=estimate: Readout(known, ReadoutSettings(), camera, 6e-3).moment(estimate))
+        both(lambda estimate=estimate: Readout(known, camera, 6e-3).moment(estimate))
 
 
 def test_adapted_noise() -> None:

@@ -11,7 +11,7 @@ from carpus.core.hand.anatomy_prior import constants_of
 from carpus.core.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN, DigitView, digits_linearised, spread_points
-from carpus.core.tracking.digit_search import DigitSearchSettings, in_reach
+from carpus.core.tracking.digit_search import in_reach
 from carpus.core.tracking.hand_geometry import (
     CHAINS,
     CONSTANTS,
@@ -167,4 +167,4 @@ def test_a_disc_is_a_digit_s_within_its_length_and_a_little(
     roots = np.array([[0.0, float(k), 0.0] for k in range(CHAINS)])  # so far apart that one reaches no other's
     state = np.zeros((CHAINS, SLOTS + CONSTANTS))
     state[:, SLOTS : SLOTS + 3] = 0.040, 0.025, 0.020
-    assert in_reach(roots[digit] + off_m, roots, state, DigitSearchSettings()) == is_reached
+    assert in_reach(roots[digit] + off_m, roots, state) == is_reached

@@ -19,7 +19,7 @@ from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.palm_association import measurements_of
 from carpus.core.tracking.palm_state import InitialSd, resting_estimate
-from carpus.core.tracking.readout import Readout, ReadoutSettings
+from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
@@ -86,7 +86,7 @@ def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) ->
     fingers = Fingers(known, seen.truth.camera, settings)
     view = HandFilter(known, seen.truth.camera, settings).view
     estimate = resting_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
-    seat = seat_of(estimate, view, Readout(palm_of(known), ReadoutSettings(), view.camera, 6e-3))
+    seat = seat_of(estimate, view, Readout(palm_of(known), view.camera, 6e-3))
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurements_of(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)

@@ -14,7 +14,7 @@ from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.joint_limits import (
     MID_RANGE_RAD,
     RANGE_SD_RAD,
-    LimitSettings,
+    SOFT_RAD,
     constrained,
     outside_limits,
     settled,
@@ -24,7 +24,6 @@ from carpus.core.tracking.kernel import ModeMixture
 
 SIZE = ANATOMY.stop
 INDEX, PIP = 1, 2
-SETTINGS = LimitSettings()
 
 
 def estimate(pip_deg: float, sd_deg: float) -> ModeMixture:
@@ -40,14 +39,14 @@ def estimate(pip_deg: float, sd_deg: float) -> ModeMixture:
 def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:
     """PIP and its standard deviation after the limits, degrees."""
     before = estimate(pip_deg, sd_deg)
-    after = constrained(before, before.mean[:, 0, :SLOTS], SETTINGS)
+    after = constrained(before, before.mean[:, 0, :SLOTS])
     sd = math.sqrt(after.covariance[INDEX, 0, PIP, PIP])
     return math.degrees(after.mean[INDEX, 0, PIP]), math.degrees(sd)
 
 
 def test_an_angle_well_inside_is_left_alone() -> None:
     before = estimate(60.0, 5.0)
-    after = constrained(before, before.mean[:, 0, :SLOTS], SETTINGS)
+    after = constrained(before, before.mean[:, 0, :SLOTS])
     assert after.mean[INDEX, 0, PIP] == before.mean[INDEX, 0, PIP]
     assert np.array_equal(after.covariance, before.covariance)
 
@@ -55,7 +54,7 @@ def test_an_angle_well_inside_is_left_alone() -> None:
 def test_far_outside_a_limit_acts_as_a_measurement_of_it() -> None:
     """PIP ends at 125 degrees; believed at 175 give or take 10, the step of 3 degrees has the last word."""
     limit, sd = 125.0, 10.0
-    soft = math.degrees(SETTINGS.soft_rad)
+    soft = math.degrees(SOFT_RAD)
     as_measurement = 175.0 + sd**2 / (sd**2 + soft**2) * (limit - 175.0)
     angle, after_sd = pulled(175.0, sd)
     assert angle == pytest.approx(as_measurement, abs=2.5)
@@ -79,7 +78,7 @@ def test_an_angle_of_which_little_is_known_stays_within_its_range() -> None:
 def test_the_truncated_normal_is_that_of_sampling() -> None:
     """Mean and variance of a Gaussian times a soft step, by a million samples."""
     rng = np.random.default_rng(3)
-    mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(SETTINGS.soft_rad)
+    mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(SOFT_RAD)
     sample = rng.normal(mean, sd, 1_000_000)
     kept = sample[sample < limit + rng.normal(0.0, soft, sample.size)]
     angle, after_sd = pulled(mean, sd)
@@ -133,5 +132,5 @@ def test_a_limit_is_felt_from_three_standard_deviations_off(pip_deg: float) -> N
 @pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])
 def test_a_digit_surely_30_degrees_beyond_a_limit_was_misread(beyond_deg: float, is_misread: bool) -> None:
     surely = estimate(math.degrees(HARD_LIMITS_RAD["PIP2_flexion"][1]) + beyond_deg, 0.01)
-    _, _, misread = settled(surely, FingerSettings().most_beyond_rad, SETTINGS)
+    _, _, misread = settled(surely, FingerSettings().most_beyond_rad)
     assert misread.tolist() == [False, is_misread, False, False, False]

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
+from carpus.core.tracking import reacquire
 from carpus.core.tracking.palm_state import SKIN, View
-from carpus.core.tracking.reacquire import Facing, FindingSettings, FoundPalm, find_palm, is_other_hand
+from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm, is_other_hand
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
-from carpus.core.tracking.track_manager import HoldingSettings
+from carpus.core.tracking.track_manager import MAX_TURN_RAD
 from carpus.core.types import Detections, Side
 from tests.tracking.hands import (
     CAMERA,
@@ -28,7 +29,6 @@ from tests.tracking.hands import (
     together,
 )
 
-FINDING = FindingSettings()
 ANYHOW = Facing(np.eye(3), np.pi, np.pi)
 STRAYS = stationary_covariance(SoftTissue())[SKIN, SKIN] + 4e-4**2 * np.eye(18)
 SIDES: tuple[Side, Side] = ("right", "left")
@@ -48,7 +48,7 @@ def clutter(rng: np.random.Generator, count: int) -> list[tuple[float, float]]:
 
 def looked_for(seen: Detections, side: Side = "right", about: Facing = ANYHOW) -> FoundPalm | None:
     """What is found among blobs of a palm of which nothing else is known."""
-    return find_palm(seen, view(side), STRAYS, about, FINDING)
+    return find_palm(seen, view(side), STRAYS, about)
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -92,7 +92,7 @@ def test_three_discs_are_not_enough(side: Side) -> None:
         assert looked_for(blobs(some_pose(rng), rng, side=side, hidden=hidden), side) is None
 
 
-def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it() -> None:
+def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each lies within millimetres of its place, but across the finger no skin glides so far."""
     four = blobs(Pose(), hidden=(CMC1, MCP5))
     assert looked_for(four) is not None
@@ -100,8 +100,8 @@ def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it() -> None:
     pixel[2, 0] += 525.0 * 0.005 / four.depth_m[2]  # MCP3
     found = looked_for(replace(four, pixel=pixel))
     assert found is None
-    loose = replace(FINDING, consistent=1.0 - 1e-12)
-    assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW, loose) is not None
+    monkeypatch.setattr(reacquire, "CONSISTENT", 1.0 - 1e-12)
+    assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW) is not None
 
 
 def test_three_discs_and_far_clutter_are_not_enough() -> None:
@@ -145,7 +145,7 @@ def test_what_is_named_by_the_other_hand_is_told_from_this_palm(hidden: tuple[in
             seen = blobs(pose, rng, side=side, hidden=hidden)
             is_named = np.zeros(len(seen), dtype=bool)
             is_named[rng.choice(len(seen), 3, replace=False)] = True
-            told[side] += is_other_hand(seen, is_named, view("right"), FINDING)
+            told[side] += is_other_hand(seen, is_named, view("right"))
     assert told["left"] == 20
     assert told["right"] == 0
 
@@ -168,7 +168,7 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
         for _ in range(16):
             worn = palm("right") + (glide @ rng.normal(size=18)).reshape(6, 3)
             strange = View(CAMERA, FROM_ABOVE, MIDDLE_M, worn, np.zeros((6, 18)))
-            found = find_palm(blobs(some_pose(rng), rng, hidden=hidden), strange, STRAYS, ANYHOW, FINDING)
+            found = find_palm(blobs(some_pose(rng), rng, hidden=hidden), strange, STRAYS, ANYHOW)
             if found is not None:
                 is_right = np.array_equal(np.flatnonzero(found.matched), np.setdiff1d(np.arange(6), hidden))
                 right, wrong = right + is_right, wrong + (not is_right)
@@ -178,7 +178,7 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
 
 @pytest.mark.parametrize(("turned_deg", "is_one"), [(60.0, True), (106.0, True), (112.0, False), (170.0, False)])
 def test_a_palm_turned_further_than_a_hand_can_be_is_none(turned_deg: float, is_one: bool) -> None:
-    turned, most_rad = blobs(Pose(np.array([turned_deg, 0.0, 0.0]))), HoldingSettings().most_turn_rad
+    turned, most_rad = blobs(Pose(np.array([turned_deg, 0.0, 0.0]))), MAX_TURN_RAD
     assert looked_for(turned) is not None
     assert (looked_for(turned, about=Facing(np.eye(3), most_rad, most_rad)) is not None) == is_one
 
@@ -235,7 +235,7 @@ def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
             continue
         true = rotation_of(*pose.angles_deg)
         error = np.concatenate((pose.position_m - found.position_m, so3.log(found.rotation_w2_w0.T @ true)))
-        covariance = found.pose_covariance(palm("right"), FINDING)
+        covariance = found.pose_covariance(palm("right"))
         assert np.linalg.eigvalsh(covariance)[0] > 0.0
         squared.append(float(error @ np.linalg.solve(covariance, error)))
         assert np.array_equal(np.flatnonzero(found.matched), shown)
@@ -248,7 +248,7 @@ def test_the_knuckles_alone_leave_the_turn_about_their_line_open() -> None:
     whole = looked_for(blobs(Pose()))
     assert knuckles is not None
     assert whole is not None
-    about_y = [np.sqrt(f.pose_covariance(palm("right"), FINDING)[4, 4]) for f in (knuckles, whole)]
+    about_y = [np.sqrt(f.pose_covariance(palm("right"))[4, 4]) for f in (knuckles, whole)]
     assert about_y[0] > 2.0 * about_y[1]
     # They lie millimetres off their line, and each is known to 3 mm: little more is known than what wrists do.
     assert 0.3 < about_y[0] < 0.6

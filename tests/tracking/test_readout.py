@@ -11,7 +11,7 @@ import pytest
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.tracking.palm_state import InitialSd, resting_estimate
-from carpus.core.tracking.readout import Readout, ReadoutSettings
+from carpus.core.tracking.readout import Readout
 from carpus.core.types import FloatArray
 from tests.session.samples import make_calibration
 
@@ -31,7 +31,7 @@ def angles_sd_deg(sensor: DepthSensor) -> FloatArray:
     camera = replace(DEFAULT_CAMERA, sensor=sensor)
     sure = replace(resting_estimate(InitialSd(), 1e-12 * np.eye(21)))
     sure = replace(sure, covariance=1e-12 * np.eye(len(sure.covariance)))
-    moment = Readout(calibration, ReadoutSettings(), camera, RADIUS_M).moment(sure)
+    moment = Readout(calibration, camera, RADIUS_M).moment(sure)
     return np.degrees(moment.angles_sd_rad)
 
 

@@ -7,15 +7,26 @@ import pytest
 
 from carpus.core import so3
 from carpus.core.tracking.reacquire import FoundPalm
-from carpus.core.tracking.track_manager import HoldingSettings, TrackManager, TrackStage
+from carpus.core.tracking.track_manager import (
+    BLIND_AMONG_FINGERS_RAD,
+    BLIND_RAD,
+    MAX_RATE_RAD_S,
+    MAX_TURN_RAD,
+    MIN_PALM_DISCS,
+    PROBATION_S,
+    SUSPECTED_S,
+    TURN_SLACK_RAD,
+    VAGUE_RAD,
+    TrackManager,
+    TrackStage,
+)
 from carpus.core.types import TrackStatus
 
 LOST_AFTER_S, LEAST_FOUND = 1.5, 4
-OWN = HoldingSettings()
 
 
 def manager(*, amid_digits: bool = False) -> TrackManager:
-    out = TrackManager(OWN, LEAST_FOUND, LOST_AFTER_S, amid_digits=amid_digits)
+    out = TrackManager(LEAST_FOUND, LOST_AFTER_S, amid_digits=amid_digits)
     out.begin_at_neutral()
     return out
 
@@ -32,8 +43,8 @@ def seen(track: TrackManager, at_s: float, count: int, *, fits: bool = True) -> 
 def test_a_hand_out_of_sight_coasts_and_is_given_up_after_its_time() -> None:
     track = manager()
     assert seen(track, 0.0, 6) is TrackStatus.TRACKED
-    assert seen(track, 0.1, OWN.least_discs) is TrackStatus.TRACKED
-    assert seen(track, 0.1 + LOST_AFTER_S, OWN.least_discs - 1) is TrackStatus.PREDICTED
+    assert seen(track, 0.1, MIN_PALM_DISCS) is TrackStatus.TRACKED
+    assert seen(track, 0.1 + LOST_AFTER_S, MIN_PALM_DISCS - 1) is TrackStatus.PREDICTED
     assert track.stage is TrackStage.COASTED
     assert seen(track, 0.2 + LOST_AFTER_S, 0) is TrackStatus.LOST
     assert seen(manager(), 9.0, 0) is TrackStatus.PREDICTED, "the time runs from when it began"
@@ -63,7 +74,7 @@ def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count:
     assert track.stage is stage
     assert track.looks_anew(5, 0, 0.0) == (stage is TrackStage.TENTATIVE)
     assert track.facing(np.eye(3), 1.1).most_rad == (
-        OWN.most_turn_rad if stage is TrackStage.TENTATIVE else pytest.approx(OWN.turn_slack_rad)
+        MAX_TURN_RAD if stage is TrackStage.TENTATIVE else pytest.approx(TURN_SLACK_RAD)
     )
     seen(track, 1.2, 5, fits=False)
     assert track.stage is stage
@@ -76,9 +87,9 @@ def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count:
 def test_what_was_not_seen_a_moment_ago_or_shows_little_may_be_another_hand() -> None:
     track = manager()
     seen(track, 0.0, 6)
-    assert not track.is_unsure(OWN.least_discs + 1, OWN.vague_rad)
-    assert track.is_unsure(OWN.least_discs, 0.0)
-    assert track.is_unsure(6, OWN.vague_rad + 0.01)
+    assert not track.is_unsure(MIN_PALM_DISCS + 1, VAGUE_RAD)
+    assert track.is_unsure(MIN_PALM_DISCS, 0.0)
+    assert track.is_unsure(6, VAGUE_RAD + 0.01)
     seen(track, 0.1, 0)
     assert track.is_unsure(6, 0.0)
     seen(track, 0.2, 6)
@@ -89,18 +100,18 @@ def test_a_hand_found_again_is_refuted_by_the_next_pictures_and_by_no_later_ones
     track = manager()
     track.lose(1.0)
     track.initiates(found(6), 1.1)
-    least = OWN.least_discs
+    least = MIN_PALM_DISCS
     assert track.is_refuted(least, 1.1)
     assert not track.is_refuted(least + 1, 1.1)
-    assert track.is_refuted(least - 1, 1.1 + 0.9 * OWN.probation_s)
-    assert not track.is_refuted(least, 1.1 + 0.9 * OWN.probation_s)
-    assert not track.is_refuted(0, 1.1 + 1.1 * OWN.probation_s)
+    assert track.is_refuted(least - 1, 1.1 + 0.9 * PROBATION_S)
+    assert not track.is_refuted(least, 1.1 + 0.9 * PROBATION_S)
+    assert not track.is_refuted(0, 1.1 + 1.1 * PROBATION_S)
 
 
 def test_four_discs_among_those_of_fingers_must_go_on_being_the_same_palm() -> None:
     assert manager().initiates(found(4), 0.0)
     assert manager(amid_digits=True).initiates(found(5), 0.0)
-    step_s = 0.4 * OWN.suspected_s
+    step_s = 0.4 * SUSPECTED_S
 
     def begun(*turned_rad: float, counts: tuple[int, ...] = (4, 4, 4, 4)) -> list[bool]:
         track = manager(amid_digits=True)
@@ -112,18 +123,18 @@ def test_four_discs_among_those_of_fingers_must_go_on_being_the_same_palm() -> N
         return out
 
     assert begun(0.0, 0.1, 0.2, 0.3) == [False, False, False, True]
-    assert not any(begun(0.0, 0.1, 0.1 + 1.1 * OWN.turn_slack_rad, 0.1 + 1.1 * OWN.turn_slack_rad))
+    assert not any(begun(0.0, 0.1, 0.1 + 1.1 * TURN_SLACK_RAD, 0.1 + 1.1 * TURN_SLACK_RAD))
     assert not any(begun(0.0, 0.0, 0.0, 0.0, counts=(4, 4, 0, 4))), "not seen for a picture it begins anew"
 
 
 def test_where_a_hand_can_be_turned_grows_with_the_time_it_was_gone_up_to_the_most() -> None:
     track, turned = manager(), so3.exp(np.array([0.0, 0.4, 0.0]))
     seen(track, 0.0, 6)
-    capped_s = (OWN.most_turn_rad - OWN.turn_slack_rad) / OWN.most_rate_rad_s
+    capped_s = (MAX_TURN_RAD - TURN_SLACK_RAD) / MAX_RATE_RAD_S
     at = [track.facing(turned, gone_s) for gone_s in (0.0, 0.05, 0.99 * capped_s, 1.01 * capped_s, 9.0)]
-    most = [OWN.turn_slack_rad + gone_s * OWN.most_rate_rad_s for gone_s in (0.0, 0.05, 0.99 * capped_s)]
-    assert [one.most_rad for one in at] == pytest.approx([*most, OWN.most_turn_rad, OWN.most_turn_rad])
-    assert all(one.anyhow_rad == OWN.most_turn_rad for one in at)
+    most = [TURN_SLACK_RAD + gone_s * MAX_RATE_RAD_S for gone_s in (0.0, 0.05, 0.99 * capped_s)]
+    assert [one.most_rad for one in at] == pytest.approx([*most, MAX_TURN_RAD, MAX_TURN_RAD])
+    assert all(one.anyhow_rad == MAX_TURN_RAD for one in at)
     assert all(one.rotation_w2_w0 is turned for one in at[:3])
     anyhow = track.anyhow()
     assert all(np.array_equal(one.rotation_w2_w0, np.eye(3)) for one in (*at[3:], anyhow)), "no longer as foreseen"
@@ -132,7 +143,7 @@ def test_where_a_hand_can_be_turned_grows_with_the_time_it_was_gone_up_to_the_mo
 @pytest.mark.parametrize("amid_digits", [False, True])
 def test_so_few_discs_of_a_hand_foreseen_so_unsurely_could_be_anything(amid_digits: bool) -> None:
     track = manager(amid_digits=amid_digits)
-    most_rad = OWN.blind_among_fingers_rad if amid_digits else OWN.blind_rad
+    most_rad = BLIND_AMONG_FINGERS_RAD if amid_digits else BLIND_RAD
     for count, most in enumerate(most_rad):
         assert not track.is_ambiguous(count, most)
         assert track.is_ambiguous(count, 1.01 * most)
@@ -140,11 +151,11 @@ def test_so_few_discs_of_a_hand_foreseen_so_unsurely_could_be_anything(amid_digi
 
 
 def test_the_palm_is_looked_for_anew_where_little_of_it_or_little_is_sure_and_enough_blobs_are_there() -> None:
-    track, least = manager(), OWN.least_discs
+    track, least = manager(), MIN_PALM_DISCS
     assert track.looks_anew(least, 1, 0.0)
     assert not track.looks_anew(least, 0, 0.0)
-    assert not track.looks_anew(least + 1, 9, OWN.vague_rad)
-    assert track.looks_anew(least + 1, 0, 1.01 * OWN.vague_rad)
+    assert not track.looks_anew(least + 1, 9, VAGUE_RAD)
+    assert track.looks_anew(least + 1, 0, 1.01 * VAGUE_RAD)
 
 
 @pytest.mark.parametrize(("found", "left", "may"), [(4, 2, True), (4, 1, False), (5, 1, True), (6, 9, False)])
