@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.agreement.retest import StudyFigures
 from carpus.core.measures.change import FEWEST_PEOPLE, RetestStudy
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.layouts import empty, in_column, scrolled
+from carpus.ui.controls.layouts import empty, host_of, in_column, scrolled
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, Text
 from carpus.ui.settings.limits import study_view
@@ -21,6 +21,8 @@ from carpus.ui.translate import tr
 from carpus.ui.verdicts import reason_words
 
 HEIGHT_PX = 400
+BESIDE_PX = 320
+"""Title, words and buttons, with the room around the sheet."""
 
 
 class RetestSheet(Sheet):
@@ -54,9 +56,14 @@ class RetestSheet(Sheet):
             words = self.tr("Sessions that cannot be read: {count}").format(count=unreadable)
             self._column.addWidget(Text(self._theme, words, 14, REGULAR, "warn", wrap=True))
         self._column.addStretch(1)
-        self._area.setFixedHeight(self._theme.px(HEIGHT_PX))
         self.take.setEnabled(bool(self._usable))
         self.open()
+
+    def _take_room(self) -> None:
+        super()._take_room()
+        if hasattr(self, "_area"):  # not while the sheet is being made
+            room = host_of(self).height() - self._theme.px(BESIDE_PX)
+            self._area.setFixedHeight(max(min(self._theme.px(HEIGHT_PX), room), self._theme.px(80)))
 
     def _take(self) -> None:
         self.close_sheet()
