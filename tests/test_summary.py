@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.protocols import HAND21
 from carpus.core.records.recordings import write_session
+from carpus.core.results import session_lines
 from carpus.core.results.figures import session_figures
 from carpus.core.results.session_lines import range_lines, recording_summary, session_summary
 from carpus.core.session.reader import read_session
@@ -157,3 +159,12 @@ def test_a_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:
     header = dataclasses.replace(stored.header, parameters='{"source": {"simulated": "yes"}}')
     told = values(session_summary(dataclasses.replace(stored, header=header)))
     assert told["Source"] == "simulated: nobody's movement was measured"
+
+
+def test_the_forearm_is_told_from_thumb_up_also_where_it_started_elsewhere() -> None:
+    made = fakes.session(seconds=20.0, exercise="FOREARM_PS", motion="palm_up")
+    (line,) = (one for one in range_lines(made, session_figures(made)) if "forearm, thumb up" in one)
+    assert re.search(r"from 9\d\.\d° pronation to [34]\d\.\d° pronation", line)
+    start = np.radians([0.0, 0.0, 30.0])
+    began = dataclasses.replace(made, calibration=dataclasses.replace(made.calibration, start_angles_rad=start))
+    assert any("60.0° pronation" in one for one in session_lines._calibration(began))

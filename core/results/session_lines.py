@@ -15,7 +15,8 @@ from carpus.core.capture.camera_info import CAMERA_FILE
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.depth_sensor import ASSUMED, DepthSensor
-from carpus.core.hand.exercises import SIDES
+from carpus.core.hand.exercises import PRONOSUPINATION, SIDES
+from carpus.core.hand.forearm_rotation import as_read_rad
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.provenance import said_in
 from carpus.core.results.camera_said import camera_said
@@ -186,7 +187,8 @@ def range_lines(session: Session, figures: SessionFigures) -> list[str]:
     header = replace(session.header, exercise=FREE_MOVEMENT)
     whole = session_figures(replace(session, header=header)) if figures.exercise.counts else figures
     lines = []
-    for angle, name in enumerate(WRIST_ANGLES):
+    for angle, stored_name in enumerate(WRIST_ANGLES):
+        name = "forearm, thumb up" if angle == PRONOSUPINATION else stored_name  # 0 of the files is palm down
         of = figures if figures.exercise.angle == angle else whole
         rows = {row.movement: row for row in of.rows if row.angle == angle}
         if "arc" not in rows:
@@ -274,7 +276,8 @@ def _calibration(session: Session) -> list[str]:
     lines += [f"  doubtful: {finding_sentence(finding)}" for finding in verdict.findings]
     start_deg = np.degrees(calibration.start_angles_rad)
     if np.any(np.isfinite(start_deg) & (start_deg != 0.0)):
-        given = ", ".join(_side(angle, float(start)) for angle, start in enumerate(start_deg))
+        read_rad = [as_read_rad(WRIST_ANGLES[k], angle) for k, angle in enumerate(calibration.start_angles_rad)]
+        given = ", ".join(_side(angle, math.degrees(float(start))) for angle, start in enumerate(read_rad))
         lines.append(f"  Start angles as given by the therapist: {given}.")
     return lines
 
