@@ -233,7 +233,7 @@ def _cards() -> Iterator[tuple[str, list[ast.Call]]]:
 
 HARMLESS = {
     "Go on", "Go on measuring", "Leave it as it is", "Back to the form", "Choose the source again", "Open it again",
-    "Stay here",
+    "Stay here", "Choose another folder", "Close Carpus",
 }  # fmt: skip
 """Last answers of cards: each leaves everything as it is, or only reads something again."""
 
