@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 from pytestqt.qtbot import QtBot
-from sqlalchemy import update
+from sqlalchemy import select, update
 
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.hand.exercises import exercise_named
@@ -17,7 +17,7 @@ from carpus.core.records import patients
 from carpus.core.records.changes import dropped
 from carpus.core.records.kept_sets import keep_set_up, keep_sets, last_set_up, read_sets
 from carpus.core.records.library import Library
-from carpus.core.records.schema import EXERCISE_SET, PATIENT
+from carpus.core.records.schema import EXERCISE_SET, GOAL, PATIENT
 from carpus.core.records.set_up import USUAL_SETS, CoursePart, ExerciseSet, begun, next_part
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
@@ -88,6 +88,20 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
     assert math.isnan(begun(OWN, replace(one, side="left"), goals).target_positive_deg)
     library.store.do([dropped(PATIENT, patient)])
     assert patients.goals(library.store, patient) == {}
+    library.close()
+
+
+def test_a_goal_of_supination_is_read_from_thumb_up_and_one_of_an_older_version_is_converted(tmp_path: Path) -> None:
+    library = Library(tmp_path)
+    patient = library.patients.add(PatientEntry("Heron 3", "left"))
+    one = replace(set_up("FOREARM_PS", -30.0), patient_id=patient, pseudonym="Heron 3")
+    keep_set_up(library.store, one)
+    (stored,) = library.store.rows(select(GOAL))
+    assert stored.positive_deg == 60.0, "as 0.2.0 stored it: 60 degrees up from palm down"
+    assert patients.goals(library.store, patient)["FOREARM_PS", "right"][0] == -30.0
+    again = last_set_up(library.store, patient)
+    assert again is not None
+    assert again.target_positive_deg == -30.0
     library.close()
 
 
