@@ -38,12 +38,13 @@ from carpus.core.records.changes import PRACTICE, fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
-from carpus.core.records.new_sessions import recover
+from carpus.core.records.new_sessions import NewSessions, recover
 from carpus.core.records.restoring import Past, put_in_place, restore
 from carpus.core.records.schema import PATIENT, TABLES
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
+from tests.app.test_library import set_up
 from tests.records.postgres import Cluster
 from tests.records.samples import HERON, LINDEN, LONG_S, T0, fill, measure, opened, record, traces
 from tests.torture.kills import ROOT
@@ -197,6 +198,20 @@ def test_a_server_that_is_away_is_told_and_what_was_measured_is_listed_when_it_i
             "Linden 42": 1, "Typed 7": 1,
         }  # fmt: skip
         assert library.patients.one(linden).entry == LINDEN
+
+
+def test_who_was_typed_while_it_was_away_and_ends_a_recording_later_is_the_listed_patient(
+    tmp_path: Path, there: str
+) -> None:
+    with closing(Library(tmp_path, url=there)) as library:
+        linden = library.patients.add(LINDEN)
+        typed = set_up(uuid.uuid4().hex, "linden 42")
+        path = record(NewSessions(library).new_path(typed), "linden 42", T0)
+        session_id = NewSessions(library).entered(typed, path)
+        assert library.session(session_id).header.subject_id == "linden 42", "reviewed at once"
+        assert recover(library) == ([], [])
+        assert [one.session_id for one in library.sessions(linden)] == [session_id]
+        assert library.owner(session_id) == linden
 
 
 def test_a_server_that_falls_silent_is_left_after_seconds(
