@@ -17,7 +17,6 @@ from carpus.app.settings import Settings, load_sound_settings, note_data_folder,
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, DataFolderChanged, FolderInUse
 from carpus.core.records.reserve import keep_reserve
-from carpus.core.records.restoring import drop_unfinished, is_restored, put_in_place
 from carpus.core.records.set_up import PRACTICE_PATIENT
 
 if TYPE_CHECKING:  # nothing of Qt without a display
@@ -87,6 +86,7 @@ def _opened(
     from carpus.app.desktop.alone import Alone
     from carpus.app.desktop.log import speak_in_the_window
     from carpus.app.desktop.window import end_on_signals
+    from carpus.core.records.restoring import drop_unfinished, is_restored
 
     while True:
         alone = Alone(settings.data_folder)
@@ -139,6 +139,8 @@ def _run(desktop: Desktop, session: Path | None, *, is_demo: bool, is_reopened: 
 
 
 def _take_restored(folder: Path) -> None:
+    from carpus.core.records.restoring import put_in_place
+
     put_in_place(folder, datetime.now())
     note_in(folder, "restored", "everything")
 

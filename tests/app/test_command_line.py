@@ -246,8 +246,10 @@ def test_stopped_while_tracking_leaves_no_part(recording: Path, tmp_path: Path) 
 
 def test_the_unattended_way_can_be_stopped(tmp_path: Path) -> None:
     words = (*COMMAND, "demo", "--unattended", "--data-folder", tmp_path / "data")
-    ended = signalled(words, (tmp_path / "data" / "records.sqlite3").exists, signal.SIGTERM)
-    assert ended == (1, "carpus: stopped.\n")
+    code, said = signalled(words, (tmp_path / "data" / "records.sqlite3").exists, signal.SIGTERM)
+    *steps, last = said.splitlines()
+    assert (code, last) == (1, "carpus: stopped.")
+    assert all(line.startswith("carpus: demo: ") for line in steps)
 
 
 def test_a_list_is_written_last(recording: Path) -> None:
