@@ -23,8 +23,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     path = folder / f"{take.name}.h5"
     session = take.session
     folder.mkdir(parents=True, exist_ok=True)
-    writer = SessionWriter.create(path, session.header, session.camera, session.calibration)
-    try:
+    with SessionWriter.create(path, session.header, session.camera, session.calibration) as writer:
         for frame in _frames(take):
             writer.append(frame)
         for event in session.events:
@@ -33,10 +32,6 @@ def write(take: Take, folder: Path) -> list[Path]:
             writer.write_smoothed(session.smoothed)
         if len(session):
             writer.write_repetitions(repetitions_of(session))
-        writer.close()
-    except BaseException:
-        writer.discard()
-        raise
     return [path]
 
 

@@ -552,10 +552,10 @@ def write_tracked(
     notes: Iterable[Event],
 ) -> TrackReport:
     """Store frames as they are tracked, then notes, the smoother's result where wanted, and the repetitions. When it
-    cannot be done nothing half-done is left behind."""
+    cannot be done nothing half-done is left behind: the recording is still there."""
     counts = dict.fromkeys(TrackStatus, 0)
-    try:
-        done = 0
+    done = 0
+    with writer:
         for frame in tracked:
             writer.append(frame)
             counts[frame.status] += 1
@@ -570,11 +570,6 @@ def write_tracked(
             from carpus.core.results.repetition_rows import repetitions_of  # nobody waits for it at the start
 
             writer.write_repetitions(repetitions_of(writer.read_back()))
-        writer.close()
-    except BaseException:
-        # The recording is still there: a session cut short would only be taken for a whole one.
-        writer.discard()
-        raise
     return TrackReport(
         writer.path,
         done,

@@ -125,7 +125,7 @@ class SessionDraft:
         """Let go of the journal, and of a file that is not finished. May be called twice."""
         self._journal.close()
         if self._writer is not None:
-            self._writer.discard()
+            self._writer.abandon()
 
 
 def _is_session(path: Path, session_id: str) -> bool:

@@ -181,14 +181,12 @@ class SessionWriter(Writing):
         except (OSError, RuntimeError) as cause:
             raise write_fault(self.path, cause) from cause
         finally:
-            self.discard()
+            self.abandon()
 
     def abandon(self) -> None:
         """Stop; nothing is left behind. May be called twice, and when closed."""
         self._let_go(keep=False)
         self._temporary.unlink(missing_ok=True)
-
-    discard = abandon
 
     def _let_go(self, keep: bool = True) -> None:
         if not self._file:

@@ -64,7 +64,7 @@ def test_the_whole_hand_from_set_up_to_session_file_and_a_killed_looking_back_co
     at(qtbot, desktop.journey, "live")
     qtbot.keyClick(live, Qt.Key.Key_Space)
     wait(qtbot, lambda: live.recording.recorded_s > 0.5)
-    (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-looking-back")
+    (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-smoothing")
     process.kill()
     wait(qtbot, lambda: live.recording.recorded_s > 2.0)
     qtbot.keyClick(live, Qt.Key.Key_Space)

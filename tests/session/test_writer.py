@@ -37,7 +37,7 @@ def open_below(folder: Path) -> list[str]:
     return [path for path in held if path.startswith(str(folder))]
 
 
-@pytest.mark.parametrize("end", [SessionWriter.close, SessionWriter.abandon, SessionWriter.discard])
+@pytest.mark.parametrize("end", [SessionWriter.close, SessionWriter.abandon])
 def test_no_file_stays_open(tmp_path: Path, end: Callable[[SessionWriter], None]) -> None:
     session = begun(tmp_path / "s.h5", rows=1)
     assert open_below(tmp_path)
@@ -120,7 +120,7 @@ def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> 
     session.append(with_moment(make_frame(2), position_m=np.array(0.0)))
     with pytest.raises(ValueError, match="/wrist/position"):
         session.flush()
-    session.discard()
+    session.abandon()
     assert list(tmp_path.iterdir()) == []
 
 
