@@ -184,11 +184,7 @@ class ByHandScreen(Fitted):
         self.form.show_values(self._with_written(), self.side, self.day_shown, self._of_carpus())
         self._fill_more()
         self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.short_date(self.day_shown)))
-        by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
-        words = self.tr("Empty means not measured. Nothing here changes a figure of Carpus.")
-        simulated = any(one.simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
-        why = self.tr("What Carpus has of this day is simulated, and no value.") if simulated else ""
-        self.basis.setText(" ".join(filter(None, (by, words, why))))
+        self._say_basis()
         shown = self.chart.measure.id if self.chart.measure else ""
         self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))
         self._fill_changes()
@@ -201,6 +197,15 @@ class ByHandScreen(Fitted):
         others = [(one.id, measure_name(one)) for one in MEASURES if one.id not in self.form.rows]
         self.more.offer([("", self.tr("Other measures…")), *others])
 
+    def _say_basis(self) -> None:
+        """Who enters it, what it means, and where the forearm is counted from."""
+        by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
+        words = self.tr("Empty means not measured. Nothing here changes a figure of Carpus.")
+        simulated = any(one.simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
+        why = self.tr("What Carpus has of this day is simulated, and no value.") if simulated else ""
+        zero = terms.thumb_up_words() if {"PRONATION", "SUPINATION"} & set(self.form.rows) else ""
+        self.basis.setText(" ".join(filter(None, (by, words, zero, why))))
+
     def _add(self, _number: int) -> None:
         name = str(self.more.currentData())
         if not name:
@@ -209,6 +214,7 @@ class ByHandScreen(Fitted):
         self.form.set_measures({*self.form.rows, name})
         self.form.rows[name].show(self._with_written(), self.side, self.day_shown, self._of_carpus().get(name))
         self._fill_more()
+        self._say_basis()
         self._show_course(name)
         self.form.rows[name].fields[0][1].setFocus(Qt.FocusReason.OtherFocusReason)
 

@@ -455,7 +455,8 @@ def _speaks_of_error(report: SessionReport) -> bool:
 def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
     page.rule(top)
-    said = method(figures, report.markers, compared=_speaks_of_error(report))
+    by_hand = report.by_hand if report.form.has("by_hand") else ()
+    said = method(figures, report.markers, compared=_speaks_of_error(report), by_hand=by_hand)
     y = page.said(said, top + 4, 8.0, REGULAR, "text2")
     y = page.said(terms.LEGAL_SENTENCE, y + 3, 8.0, SEMIBOLD)
     residual = figures.quality.residual_mm

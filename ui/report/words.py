@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import datetime
 
 from carpus.core.hand.exercises import SIDES, STILL_RADIUS_MM
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, compare
 from carpus.core.rounding import written
@@ -76,7 +77,7 @@ def since_words(changes: tuple[Comparison, ...], when: str) -> str:
     return tr("Since {when}: {changes}.").format(when=when, changes=", ".join(words))
 
 
-def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
+def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Sequence[HandValue] = ()) -> str:
     """How it was measured, in three lines; ``compared``: the page speaks of measurement error, which is explained."""
     quality = figures.quality
     distance = (
@@ -103,7 +104,7 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
             markers=markers, distance=distance
         ),
         order.format(zero=zero),
-        zero_words(figures),
+        zero_words(figures, by_hand),
         tr("The wrist’s angles are in the order of the ISB.")
         if figures.joint_rows and figures.angle_order == "isb"
         else "",
@@ -116,10 +117,10 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
     return " ".join(filter(None, sentences))
 
 
-def zero_words(figures: SessionFigures) -> str:
-    """Where pronation and supination are counted from, where the figures have them."""
-    has_them = any(row.movement in ("supination", "pronation") for row in figures.rows)
-    return terms.thumb_up_words() if has_them else ""
+def zero_words(figures: SessionFigures, by_hand: Sequence[HandValue] = ()) -> str:
+    """Where pronation and supination are counted from, where there are any, measured or entered by hand."""
+    named = {row.movement for row in figures.rows} | {one.measure.lower() for one in by_hand}
+    return terms.thumb_up_words() if named & set(terms.FOREARM) else ""
 
 
 def camera_words(figures: SessionFigures) -> str:
