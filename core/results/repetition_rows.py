@@ -124,7 +124,7 @@ class ShownRepetition:
 
 def repetitions_of(session: Session) -> Repetitions:
     """What ``/repetitions`` of a session holds, on the clock of its frames."""
-    trained = trained_angle(SeenSession.of(session))
+    trained = trained_angle(SeenSession.of(session, (exercise_named(session.header.exercise).joint,)))
     if trained is None:
         return Repetitions("", ())
     start_s = float(session.timestamp_s[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,8 +79,8 @@ def joint_curves(session: Session) -> JointCurves | None:
     )
 
 
-def joint_tracks(session: Session) -> dict[str, JointTrack]:
-    """Every joint by its name; empty for the wrist alone."""
+def joint_tracks(session: Session, only: Collection[str] | None = None) -> dict[str, JointTrack]:
+    """Every joint by its name, or ``only`` some; empty for the wrist alone."""
     curves = joint_curves(session)
     if curves is None:
         return {}
@@ -87,6 +88,7 @@ def joint_tracks(session: Session) -> dict[str, JointTrack]:
     return {
         name: joint_track(name, curves.time_s, angles[:, k], sds[:, k], curves.seen[:, k], session.smoothed is not None)
         for k, name in enumerate(curves.names)
+        if only is None or name in only
     }
 
 
@@ -119,8 +121,8 @@ class SeenSession:
     tracks: dict[str, JointTrack]
 
     @classmethod
-    def of(cls, session: Session) -> SeenSession:
-        """By the rules of the ranges."""
+    def of(cls, session: Session, joints: Collection[str] | None = None) -> SeenSession:
+        """By the rules of the ranges; ``joints`` alone where no other is asked for."""
         view = seen_well(session)
         exercise = exercise_named(session.header.exercise)
-        return cls(session, exercise, view, wrist_signals(session, view), joint_tracks(session))
+        return cls(session, exercise, view, wrist_signals(session, view), joint_tracks(session, joints))
