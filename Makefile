@@ -7,7 +7,7 @@ export OMP_NUM_THREADS := 1
 
 PACKAGE_PY := $(or $(PYTHON),python3)
 
-.PHONY: run test lint pytest coverage bench accuracy validation torture screenshots fresh package package-test windows-test release docs translations setup setup-test lock clean
+.PHONY: run test lint pytest unit window journey thorough coverage bench accuracy validation torture screenshots fresh package package-test windows-test release docs translations setup setup-test lock clean
 
 run: setup                      ## the application on a simulated camera and patient
 	.venv/bin/carpus demo
@@ -23,6 +23,12 @@ lint: setup-test                ## style, types, layers
 pytest: setup-test
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --durations=60
 
+unit window journey: setup-test ## one of the three suites that all tests are; unit is the quick one
+	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup -m $@
+
+thorough: setup-test            ## long repetitions of what the tests show with few (part of `make torture`)
+	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup -m thorough
+
 coverage: setup-test            ## how much of the code the tests reach, half as long again as the tests alone
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --cov --cov-report=term:skip-covered $(ARGUMENTS)
 
@@ -35,7 +41,7 @@ accuracy: setup-test            ## errors against simulated truth
 validation: setup-test          ## resources/validation.md: accuracy, agreement, retest from fresh seeds (an hour; ARGUMENTS=--people 0: less)
 	$(PY) -m tests.validation $(ARGUMENTS)
 
-torture: setup-test             ## kills, damaged files, bad disks: what is lost and let in (an hour or two)
+torture: thorough               ## kills, damaged files, bad disks: what is lost and let in (an hour or two)
 	$(PY) -m tests.torture
 	$(PY) -m tests.torture.spreadsheets
 

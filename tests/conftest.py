@@ -47,7 +47,9 @@ _SERVES_ALL = "carpus-reading"
 _GRACE_S = 60.0
 """How long a thread may take to end after its test; a leak never ends, so the figure only delays the report."""
 
-
+_UNITS = {"agreement", "calibration", "detection", "formats", "hand", "kernels", "measures", "tracking"}
+"""Folders of tests that need no window, no process, no server; those of them that ask for a recording are journeys."""
+_WINDOWS = {"ui", "app", "results"}
 _PATIENCE_MS = 60_000
 """How long a window may take to what a test waits for; what never comes only fails later."""
 
@@ -78,9 +80,15 @@ def pytest_collection() -> Iterator[None]:
         gc.enable()
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """What is made once for a file or folder is made in one process: else each process makes it again."""
+    """Puts each test in its suite, before pytest chooses among them.
+
+    What is made once for a file or folder is made in one process: else each process makes it again.
+    """
     for item in items:
+        if item.get_closest_marker("thorough") is None:
+            item.add_marker(_suite(item))
         made = getattr(item, "_fixtureinfo", None)
         places = [
             fixture.baseid
@@ -90,6 +98,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         ]
         if places and item.get_closest_marker("xdist_group") is None:
             item.add_marker(pytest.mark.xdist_group(min(places, key=len)))
+
+
+def _suite(item: pytest.Item) -> str:
+    folder = item.path.relative_to(Path(__file__).parent).parts[0]
+    if folder in _UNITS and "rendered" not in getattr(item, "fixturenames", ()):
+        return "unit"
+    return "window" if folder in _WINDOWS else "journey"
 
 
 @pytest.fixture(autouse=True, scope="session")

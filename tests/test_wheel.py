@@ -19,6 +19,7 @@ import pytest
 from carpus import __version__
 from carpus.core.kernels import build
 from tests.rendered import FLEXION, Rendered
+from tests.session.test_golden import unpacked
 
 ROOT = Path(__file__).parents[1]
 PARTS = ("app", "core", "ui", "resources")
@@ -68,6 +69,7 @@ def test_a_wheel_holds_the_program_and_nothing_beside_it(wheel: Path) -> None:
     assert not wheel.name.endswith("-any.whl")
 
 
+@pytest.mark.thorough
 def test_a_wheel_without_a_compiler_is_for_every_computer(tmp_path: Path) -> None:
     """Of a checkout in which nothing is built yet; it then runs on NumPy alone."""
     checkout = tmp_path / "checkout"
@@ -89,16 +91,27 @@ def test_a_wheel_without_a_compiler_is_for_every_computer(tmp_path: Path) -> Non
     assert done.stdout == "None\n"
 
 
-def test_a_source_archive_holds_all_that_a_wheel_is_built_of(wheel: Path, tmp_path: Path) -> None:
-    """The wheel that is built from it is the one that a checkout builds, though its parts are no links there."""
-    made = f"from hatchling.build import build_sdist; print(build_sdist({str(tmp_path)!r}))"
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The source archive."""
+    folder = tmp_path_factory.mktemp("source")
+    made = f"from hatchling.build import build_sdist; print(build_sdist({str(folder)!r}))"
     subprocess.run([sys.executable, "-c", made], cwd=ROOT, check=True, capture_output=True)
-    (path,) = tmp_path.glob("*.tar.gz")
-    with tarfile.open(path) as archive:
-        names = {name.partition("/")[2] for name in archive.getnames()}
-    subprocess.run(["tar", "-xf", path, "-C", tmp_path], check=True)
+    (path,) = folder.glob("*.tar.gz")
+    return path
+
+
+def test_a_source_archive_holds_all_that_a_wheel_is_built_of(archive: Path) -> None:
+    with tarfile.open(archive) as opened:
+        names = {name.partition("/")[2] for name in opened.getnames()}
     assert names >= parts_of_the_checkout() | FACE | {"requirements.lock"}
     assert not [name for name in names if name.startswith(("build/", "dist/", ".venv/", ".ci/", *PARTS))]
+
+
+@pytest.mark.thorough
+def test_a_wheel_of_the_source_archive_is_that_of_a_checkout(archive: Path, wheel: Path, tmp_path: Path) -> None:
+    """Though its parts are no links there."""
+    subprocess.run(["tar", "-xf", archive, "-C", tmp_path], check=True)
     (unpacked,) = (folder for folder in tmp_path.iterdir() if folder.is_dir())
     for library in build.built():
         shutil.copy(library, unpacked / "carpus/core/kernels")  # compiling them is another test's
@@ -127,21 +140,32 @@ def carpus(installed: Path, folder: Path, *arguments: str) -> str:
     return done.stdout
 
 
-def test_the_installed_program_runs_where_folders_and_files_are_called_as_its_parts_are(
-    installed: Path, rendered: Rendered, tmp_path: Path
-) -> None:
+@pytest.fixture
+def mistakable(tmp_path: Path) -> Path:
+    """A folder in which folders and files are called as parts of the program are."""
     for name in ("app", "core", "ui", "resources", "tests", "carpus"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "__init__.py").write_text("raise SystemExit('not the program')\n")
     (tmp_path / "types.py").write_text("raise SystemExit('not the program')\n")
+    return tmp_path
+
+
+def test_the_installed_program_runs_where_folders_and_files_are_called_as_its_parts_are(
+    installed: Path, mistakable: Path
+) -> None:
     where = "import carpus, carpus.core; print(carpus.__file__, *carpus.core.__path__)"
     asked = [sys.executable, "-P", "-c", f"import sys; sys.path[:0] = [{str(installed)!r}]; {where}"]
-    found = subprocess.run(asked, cwd=tmp_path, check=True, capture_output=True, text=True).stdout.split()
+    found = subprocess.run(asked, cwd=mistakable, check=True, capture_output=True, text=True).stdout.split()
     assert [Path(path).is_relative_to(installed) for path in found] == [True, True]
-    (tmp_path / "r").symlink_to(rendered(FLEXION))
+    session = unpacked("v2-wrist6.h5", mistakable)
+    assert "\nFrames       12 " in carpus(installed, mistakable, "info", session.name)
+
+
+@pytest.mark.thorough
+def test_the_installed_program_tracks(installed: Path, rendered: Rendered, mistakable: Path) -> None:
+    (mistakable / "r").symlink_to(rendered(FLEXION))
     words = ("track", "r", "--calibration", "r/calibration.json", "--output", "s.h5")
-    assert "Frames: 24, " in carpus(installed, tmp_path, *words)
-    assert "\nFrames       24 " in carpus(installed, tmp_path, "info", "s.h5")
+    assert "Frames: 24, " in carpus(installed, mistakable, *words)
 
 
 def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_nobody_has(wheel: Path) -> None:
@@ -184,15 +208,19 @@ def install_lines() -> list[str]:
     return list({line.partition("pip install ")[2]: line for line in reversed(found)}.values())
 
 
-def test_install_lines_work_as_written(empty: Path) -> None:
-    """In an empty environment; what Carpus needs comes from where these tests have it, not from the net. Of the lines
-    that only ask for more, the names of what they ask for are looked up, as pip does."""
+def test_install_lines_ask_for_extras_that_there_are() -> None:
     lines = install_lines()
     (line,) = (line for line in lines if "venv" in line)
     known = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
     asked = [extra for one in lines for extra in re.findall(r'pip install "\.\[([\w,]+)\]"$', one)]
     assert {"realsense"} <= {name for extra in asked for name in extra.split(",")} <= set(known)
     assert len(asked) == len([one for one in lines if one != line and "pyorbbecsdk2" not in one])
+
+
+@pytest.mark.thorough
+def test_install_line_works_as_written(empty: Path) -> None:
+    """In an empty environment; what Carpus needs comes from where these tests have it, not from the net."""
+    (line,) = (line for line in install_lines() if "venv" in line)
     path = os.pathsep.join([f"{empty}/.venv/bin", str(Path(sys.executable).parent), os.environ["PATH"]])
     pip = {"PIP_NO_DEPS": "1", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1",
            "PIP_NO_COMPILE": "1"}  # fmt: skip

@@ -78,6 +78,7 @@ def told(folder: Path) -> dict[str, str]:
         return {row["session"]: row["outcome"] for row in csv.DictReader(file)}
 
 
+@pytest.mark.thorough
 def test_a_worker_that_is_killed_costs_nothing(address: str, recordings: Path, tmp_path: Path) -> None:
     out = tmp_path / "far"
     found_there = places([recordings], out)
@@ -117,6 +118,21 @@ def made_in_python() -> Iterator[str]:
     begun.communicate("", 60)
 
 
+def test_workers_elsewhere_track_what_the_command_asks(made_in_python: str, rendered: Rendered, tmp_path: Path) -> None:
+    """The short form of the others: one recording, nobody killed, the numbers of this computer."""
+    recording, near, table = rendered(FLEXION), tmp_path / "near.h5", tmp_path / "all.parquet"
+    shutil.copytree(recording, tmp_path / "in" / "r")
+    words = ["track", str(tmp_path / "in"), "--no-smooth", "--output", str(tmp_path / "out"), "--table", str(table)]
+    assert main([*words, "--scheduler", made_in_python]) == 0
+    assert told(tmp_path / "out") == {"r.h5": "tracked"}
+    assert set(parquet.read_table(table).column("session").to_pylist()) == {"r.h5"}
+    words = ["track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--no-smooth", "--output"]
+    assert main([*words, str(near)]) == 0
+    far, here = (read_session(path).motion for path in (tmp_path / "out" / "r.h5", near))
+    assert np.array_equal(far.angles_rad, here.angles_rad, equal_nan=True)
+
+
+@pytest.mark.thorough
 def test_a_client_that_is_killed_begins_again(made_in_python: str, recordings: Path, tmp_path: Path) -> None:
     out, table = tmp_path / "out", tmp_path / "all.parquet"
     words = ["track", str(recordings), "--no-smooth", "--output", str(out), "--table", str(table)]

@@ -31,7 +31,7 @@ MOST_COUNTED_M = 2e-4
 NEAREST_RAD = 1e-4
 """Angles of the whole way, which those differences shift."""
 
-MOST_FRAMES = 40
+MOST_FRAMES = 30
 """Rendering costs more than all walks together: recordings that others show too, and the first of their pictures."""
 
 Pipeline = Callable[[], FramePipeline[Tracker]]

@@ -28,7 +28,9 @@ from tests.second_patient.skeleton import Bone, placed_bones, rest_posture
 from tests.sources import ROOT, SOURCES, nodes
 
 pytestmark = pytest.mark.xdist_group("second patient")
-"""To grow a person costs more than all else that is done with one: each is grown once."""
+"""To grow a person costs more than all else that is done with one: each is grown once.
+
+It is a ruler for ``make accuracy``, which no change of the program bends: most is looked at thoroughly only."""
 CUPPED = row_named("hand: power grip, cupped palm")
 
 
@@ -81,6 +83,7 @@ def test_discs_are_in_the_protocols_order() -> None:
     assert PALM_MARKERS == PALM
 
 
+@pytest.mark.thorough
 def test_skin_is_closed_and_faces_outwards(take: Take) -> None:
     skin = take.patient.skin
     assert 2000 < len(skin.triangle) < 12000
@@ -95,6 +98,7 @@ def test_skin_is_closed_and_faces_outwards(take: Take) -> None:
     assert np.mean(outward > 0.0) > 0.99
 
 
+@pytest.mark.thorough
 def test_discs_lie_on_the_surface_that_is_drawn(take: Take) -> None:
     stuck, look = np.ones(len(NAMES), dtype=bool), look_at(take)
     for t in (0.0, 1.6, 3.0):
@@ -111,6 +115,7 @@ def test_discs_lie_on_the_surface_that_is_drawn(take: Take) -> None:
             assert abs(depth[near[i, 1], near[i, 0]] - cam[i, 2]) < 0.0012, (t, NAMES[i])
 
 
+@pytest.mark.thorough
 def test_paper_has_its_middle_where_the_truth_says() -> None:
     """The blue pixels of each disc that faces the camera, averaged, against the disc's true place."""
     take = take_of(row_named("wrist, nothing glides"), 12)
@@ -141,6 +146,7 @@ def test_palm_and_neutral_frame_are_as_the_contract_says(take: Take) -> None:
     assert np.allclose(truth.marker_position_w0_m[0], 0.0, atol=1e-12)
 
 
+@pytest.mark.thorough
 def test_truth_goes_round(take: Take) -> None:
     """WRIST by the wrist's pose; with a rigid palm every disc of the palm."""
     truth = take.truth
@@ -179,6 +185,7 @@ HAND21_ANGLES = ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduc
 )
 
 
+@pytest.mark.thorough
 def test_grip_moves_metacarpals_4_and_5_and_never_the_fixed_unit(take: Take) -> None:
     open_hand = take.motion.at(np.zeros(1))
     gripped = dataclasses.replace(open_hand, cup=np.ones(1))
@@ -195,6 +202,7 @@ def test_grip_moves_metacarpals_4_and_5_and_never_the_fixed_unit(take: Take) -> 
     )
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seed", [3, 12, 13])
 def test_skin_glides_as_far_as_was_drawn_and_settles(seed: int) -> None:
     motion = motion_of("mixed", seed)
@@ -220,6 +228,7 @@ def test_skin_glides_as_far_as_was_drawn_and_settles(seed: int) -> None:
     assert np.linalg.norm(middle - straight) > 0.45 * np.linalg.norm(full - straight)
 
 
+@pytest.mark.thorough
 def test_a_rigid_palm_is_rigid() -> None:
     take = take_of(row_named("pro/supination, rigid palm"), 12)
     disc = take.truth.disc_position_cam_m
@@ -227,6 +236,7 @@ def test_a_rigid_palm_is_rigid() -> None:
     assert np.ptp(apart, axis=0).max() < 5e-5
 
 
+@pytest.mark.thorough
 def test_left_mirrors_right() -> None:
     right, left = (take_of(CUPPED, 12, side) for side in ("right", "left"))
     mirror = np.array([1.0, -1.0, 1.0])
@@ -246,6 +256,7 @@ def test_left_mirrors_right() -> None:
     assert right.truth.disc_pixel[0, NAMES.index("MCP1"), 0] < right.truth.disc_pixel[0, NAMES.index("MCP3"), 0]
 
 
+@pytest.mark.thorough
 def test_depth_noise_follows_its_law() -> None:
     shape = (240, 320)
     for distance_m in (0.6, 0.9):
@@ -268,6 +279,7 @@ def test_depth_noise_follows_its_law() -> None:
         assert abs(far) < 0.06
 
 
+@pytest.mark.thorough
 def test_depth_has_holes_where_the_projector_is_hidden() -> None:
     sensor = sensor_of(31, (120, 160))
     scene = np.full((120, 160), 0.8, dtype=np.float32)
@@ -279,6 +291,7 @@ def test_depth_has_holes_where_the_projector_is_hidden() -> None:
     assert (other == 0).mean() < 0.05
 
 
+@pytest.mark.thorough
 def test_colour_noise_grows_with_the_light() -> None:
     sensor = sensor_of(31, (120, 160))
     spread = []
@@ -291,6 +304,7 @@ def test_colour_noise_grows_with_the_light() -> None:
     assert spread[1] > 1.5 * spread[0]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name)
 def test_every_row_begins_still_and_stays_in_the_picture(row: Row, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recording, "FPS", 10.0)
@@ -305,6 +319,7 @@ def test_every_row_begins_still_and_stays_in_the_picture(row: Row, monkeypatch: 
     assert 0.6 < truth.translation_w0_cam_m[2] < 0.85
 
 
+@pytest.mark.thorough
 def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
     folder = tmp_path / "take"
     truth = recorded(take_of(row_named("rest, fingers open and close"), 12, seconds=0.9), folder)
@@ -323,6 +338,7 @@ def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
     assert np.degrees(np.sqrt(np.nanmean((session.motion.angles_rad - truth.angles_rad) ** 2))) < 6.0
 
 
+@pytest.mark.thorough
 def test_what_is_kept_shows_the_hand_its_truth_describes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A motion that is drawn of other data beside another checkout is no recording of this one."""
     monkeypatch.setattr("platformdirs.user_cache_dir", lambda *_, **__: str(tmp_path))
