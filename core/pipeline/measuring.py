@@ -22,7 +22,7 @@ from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo, is_simulated, recorded_at, recording_id
 from carpus.core.dates import iso
-from carpus.core.errors import CarpusFault, DiskFull, ExtraMissing, NotLookedBack, RecordingEmpty
+from carpus.core.errors import CarpusFault, DiskFull, ExtraMissing, NotLookedBack, OutputNotWritable, RecordingEmpty
 from carpus.core.hand.forearm_rotation import stored_targets_deg
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
@@ -186,6 +186,9 @@ class RecordedSession:
         self._journal.flush()
         draft = self._draft or SessionDraft(self._journal.path)
         try:
+            draft.read()
+            if draft.rows != len(self._times_s):  # else the journal would go with what is only in it
+                raise OutputNotWritable(self.path.parent, phrase("what was written is not what is read"))
             self.path = draft.finish() or self.path
         finally:
             draft.discard()

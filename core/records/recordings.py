@@ -28,6 +28,7 @@ from carpus.core.errors import (
     SessionUnreadable,
     WaitingErased,
 )
+from carpus.core.phrase import phrase
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session import reader
@@ -99,6 +100,11 @@ class SessionDraft:
                 self._writer = SessionWriter(free_name(self._target), image)
             (self._writer.add if kind == b"ROWS" else self._writer.add_smoothed)(blocks)
 
+    @property
+    def rows(self) -> int:
+        """Frames taken so far."""
+        return len(self._writer) if self._writer is not None else 0
+
     def flush(self) -> None:
         """Write all that was taken: no more frames come."""
         if self._writer is not None:
@@ -163,7 +169,7 @@ def recover_recordings(folder: Path, now: datetime | None = None, given_up: Coll
         if path in given_up or not (is_part or path.suffix == JOURNAL_SUFFIX):
             continue
         try:
-            target = _recover_part(path, when) if is_part else _recover_journal(path, when)
+            target = _recover_part(path, when) if is_part else _recover_journal(path, when, faults)
             (busy if target is path else recovered if target else empty).append(target or path)
         except CarpusFault as fault:
             faults.append(fault)
@@ -172,8 +178,9 @@ def recover_recordings(folder: Path, now: datetime | None = None, given_up: Coll
     return Recovery(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
 
 
-def _recover_journal(path: Path, when: str) -> Path | None:
-    """The session of a journal; the journal itself while it is recorded, None where nothing had been stored."""
+def _recover_journal(path: Path, when: str, faults: list[CarpusFault]) -> Path | None:
+    """The session of a journal; the journal itself while it is recorded, None where nothing had been stored. One whose
+    bytes went bad holds more than was read of it: it is kept under another name."""
     own = claim(path)
     if own is None:
         return path
@@ -181,6 +188,13 @@ def _recover_journal(path: Path, when: str) -> Path | None:
         for name in (path.with_suffix(".h5"), free_name(path.with_suffix(".h5"))):
             remove_leftovers(name, after_s=0.0)
         target = write_session(path, when)
+        with JournalReader(path) as journal:
+            is_damaged = journal.is_damaged()
+    if is_damaged and target is None:
+        raise SessionUnreadable(path, phrase("damaged"))
+    if is_damaged:
+        aside = path.rename(free_name(path.with_suffix(".damaged")))
+        faults.append(SessionUnreadable(aside, phrase("damaged")))
     path.unlink(missing_ok=True)
     sync_folder(path.parent)
     return target

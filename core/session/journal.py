@@ -15,6 +15,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import struct
 import time
 import zlib
@@ -177,6 +178,7 @@ class JournalReader:
         except OSError as cause:
             raise SessionUnreadable(path, cause.strerror or "") from cause
         self._count, self._position = 0, len(MAGIC)
+        self._passed_over = self._has_gap = False
         start = self._file.read(len(MAGIC))
         if not MAGIC.startswith(start.rstrip(b"\0")):
             self._file.close()
@@ -201,7 +203,19 @@ class JournalReader:
             self._position += _RECORD.size + length
             self._count += 1
             if zlib.crc32(content) == content_sum:
+                self._has_gap |= self._passed_over
                 yield kind, content
+            else:
+                self._passed_over = True
+
+    def is_damaged(self) -> bool:
+        """Whether a record follows one that was not read: bytes went bad, where a kill or a power cut costs the end."""
+        for _ in self.read():
+            pass
+        self._file.seek(self._position + 4)  # past a last one that is not whole
+        rest = b"" if self._has_gap else self._file.read()
+        heads = (rest[one.start() : one.start() + _RECORD.size] for one in re.finditer(b"PATI|ROWS|SMOO", rest))
+        return self._has_gap or any(head[16:] == struct.pack("<I", zlib.crc32(head[:16])) for head in heads)
 
     @property
     def session_id(self) -> str:

@@ -88,6 +88,31 @@ def test_half_a_smoothed_result_is_left_out_and_broken_records_cost_only_themsel
     assert (len(session), session.smoothed, session.events) == (N, None, ())
 
 
+@pytest.mark.parametrize(
+    ("place", "kept_as", "names"),
+    [
+        ("image", "s.journal", ["t.h5"]),
+        ("rows", "s.journal", ["t.h5"]),
+        ("event", "s.damaged", ["s.h5", "t.h5"]),
+    ],
+)
+def test_journal_whose_bytes_went_bad_is_kept(tmp_path: Path, place: str, kept_as: str, names: list[str]) -> None:
+    path = interrupt(tmp_path / "s.journal", smoothed=N)
+    data = bytearray(path.read_bytes())
+    data[{"image": 500, "rows": data.index(b"ROWS") + 5, "event": data.rindex(b"ROWS") + 5}[place]] ^= 1
+    path.write_bytes(data)
+    journal = journal_of(tmp_path / "t.journal")  # a power cut may cost the end, which is no damage
+    journal.append(make_frame(0))
+    journal.flush()
+    journal.append(make_frame(1))
+    journal.close()
+    os.truncate(journal.path, journal.path.stat().st_size - 100)
+    recovery = recover_recordings(tmp_path)
+    assert [one.name for one in recovery.recovered] == names
+    assert [Path(fault.subject).name for fault in recovery.faults] == [kept_as]
+    assert (tmp_path / kept_as).read_bytes() == data
+
+
 def test_recording_that_runs_is_left_alone_by_other_programs(tmp_path: Path) -> None:
     journal = journal_of(tmp_path / "s.journal", 1)
     program = """if True:
