@@ -20,14 +20,22 @@ lint: setup-test                ## style, types, layers
 	$(PY) -m mypy
 	.venv/bin/lint-imports --no-cache
 
-pytest: setup-test
-	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --durations=60
+SUITE = $(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --durations=60
 
-unit window journey: setup-test ## one of the three suites that all tests are; unit is the quick one
-	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup -m $@
+pytest: setup-test              ## all tests but the thorough ones
+	$(SUITE)
+
+unit: setup-test                ## those that need no window, process or recording: the quick ones
+	$(SUITE) -m unit
+
+window: setup-test              ## those of the window and of the commands
+	$(SUITE) -m window
+
+journey: setup-test             ## those of whole ways
+	$(SUITE) -m journey
 
 thorough: setup-test            ## long repetitions of what the tests show with few (part of `make torture`)
-	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup -m thorough
+	$(SUITE) -m thorough
 
 coverage: setup-test            ## how much of the code the tests reach, half as long again as the tests alone
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --cov --cov-report=term:skip-covered $(ARGUMENTS)
