@@ -18,7 +18,7 @@ from pathlib import Path
 import platformdirs
 
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.durable import make_private, sync_folder, write_fault
+from carpus.core.durable import hold, make_private, private, sync_folder, write_fault
 from carpus.core.errors import (
     CarpusFault,
     NothingRecorded,
@@ -254,12 +254,13 @@ def _place(source: Path, target: Path) -> None:
     with suppress(OSError):  # another disk, or one without hard links
         os.link(source, target)
         return
-    remove_leftovers(target)
+    remove_leftovers(target, after_s=0.0)
     part = temporary_path(target)
     try:
-        shutil.copyfile(source, part)
-        part.chmod(0o600)
-        with part.open("r+b") as copy:
+        with source.open("rb") as file, open(part, "xb", opener=private) as copy:
+            hold(copy)
+            shutil.copyfileobj(file, copy, 1 << 20)
+            copy.flush()
             os.fsync(copy.fileno())
         publish(part, target)
     finally:
