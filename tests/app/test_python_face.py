@@ -139,15 +139,19 @@ def test_a_name_that_the_package_does_not_have_is_none_of_it() -> None:
         _ = carpus.no_such_thing
 
 
-def test_the_package_lists_its_functions() -> None:
-    program = "import sys, carpus; print(*dir(carpus)); print('numpy' in sys.modules)"
-    listed, loaded = subprocess.run(
-        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True
+def test_listing_its_functions_loads_nothing_and_opening_a_session_nothing_of_the_window(folder: Path) -> None:
+    script = "import sys, carpus; print(*dir(carpus)); print('numpy' in sys.modules)\n"
+    script += "session = carpus.open_session(sys.argv[1])\n"
+    script += "print(len(session), session.header.hand, 'PySide6' in sys.modules)"
+    command = [sys.executable, "-c", script, str(folder / "truth.h5")]
+    listed, loaded, opened = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout.splitlines()
     assert listed.split() == sorted(
         ["__version__", "track", "write_session", "open_session", "simulate", "propose_clicks", "export", "compare"]
     )
-    assert loaded == "False", "listing them loads nothing"
+    assert loaded == "False"
+    assert opened.split() == ["75", "right", "False"]
 
 
 def test_the_papers_filter_in_python_is_that_of_the_command(rendered: Rendered, tmp_path: Path) -> None:
@@ -180,19 +184,6 @@ def test_a_session_is_written_with_velocities_and_repetitions(
     assert len(wrist["filter_flexion_deg"].resample("500ms").mean()) == 5
     assert repetitions.index.total_seconds().tolist() == pytest.approx(repetitions["start_s"].tolist(), abs=1e-5)
     assert repetitions.attrs["units"]["peak_speed_deg_s"] == "deg/s"
-
-
-def test_a_session_opens_and_nothing_of_the_window_is_loaded(folder: Path) -> None:
-    program = (
-        "import sys, carpus\n"
-        "if __name__ == '__main__':\n"
-        f"    session = carpus.open_session({str(folder / 'truth.h5')!r})\n"
-        "    print(len(session), session.header.hand, 'PySide6' in sys.modules)\n"
-    )
-    script = folder.parent / "read.py"
-    script.write_text(program, encoding="utf-8")
-    done = subprocess.run([sys.executable, str(script)], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["75", "right", "False"]
 
 
 @pytest.mark.parametrize("protocol", ["wrist6", "hand21"])

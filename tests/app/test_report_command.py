@@ -74,9 +74,9 @@ def words(path: Path) -> str:
 def test_sessions_make_a_report_of_a_session_or_of_progress(
     sessions: list[Path], tmp_path: Path, command: Command
 ) -> None:
-    done = carpus("report", sessions[0], "--output", tmp_path / "one.pdf")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert str(tmp_path / "one.pdf") in done.stdout
+    done = command("report", sessions[0], "--output", tmp_path / "one.pdf")
+    assert (done.code, done.err) == (0, "")
+    assert str(tmp_path / "one.pdf") in done.out
     page = words(tmp_path / "one.pdf")
     assert "Linden 42" in page
     assert "Session report" in page

@@ -1,10 +1,8 @@
-"""The whole journey through the real application: by mouse, by keyboard, from a file, and when things go wrong."""
+"""The whole journey through the real application: by mouse, from a file, and when things go wrong."""
 
 from __future__ import annotations
 
-import json
 import math
-import re
 import shutil
 import time
 from dataclasses import replace
@@ -23,9 +21,7 @@ from carpus.app.desktop.journey import Journey
 from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.capture.camera_info import sidecar_path
 from carpus.core.capture.devices import openni2_camera
-from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.pipeline import measuring
 from carpus.core.pipeline.looking_back import LookingBack
@@ -35,12 +31,10 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.ui.messages.messages import NoticeStrip, StopCard
 from carpus.ui.now_open import SourceChoice
-from tests.capture.oni_writer import in_millimetres, write_oni
 from tests.journeys.conftest import Open
-from tests.journeys.takes import RANGE_DEG, SPEC, SPEED, clicks_of
+from tests.journeys.takes import RANGE_DEG, SPEED, clicks_of
 from tests.session.samples import journal_of, make_calibration, make_header
 from tests.ui.printed import words_of
-from tests.ui.test_markers import walk
 
 PATIENCE_MS = 60_000
 """Only a failing test ever waits that long."""
@@ -195,76 +189,17 @@ def test_the_whole_journey_by_mouse(
     assert stored.counted == 0 or math.isfinite(stored.rows[0].mean_deg)
 
 
-def test_the_whole_journey_by_keyboard(
-    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    desktop = open_desktop()
-    journey, shell = desktop.journey, desktop.shell
-
-    def press(key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
-        qtbot.keyClick(shell.focusWidget() or shell, key, modifier)
-
-    qtbot.keyClicks(shell.focusWidget(), "practice")
-    press(Qt.Key.Key_Return)
-    still_hand(qtbot, desktop)
-    press(Qt.Key.Key_Space)
-    picture = journey.markers.screen.picture
-    press(Qt.Key.Key_Left)
-    for target in clicks_of(take):
-        walk(qtbot, picture, target)
-        press(Qt.Key.Key_Space)
-    wait(qtbot, journey.markers.screen.primary.isEnabled)
-    press(Qt.Key.Key_Return)
-    at(qtbot, desktop.journey, "live")
-    press(Qt.Key.Key_Space)
-    wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
-    press(Qt.Key.Key_F5)
-    qtbot.keyClicks(shell.focusWidget(), "strap loose")
-    press(Qt.Key.Key_Return)
-    assert shell.bar.back_button.isEnabled()
-    press(Qt.Key.Key_Escape)  # asks whether the recording shall stop
-    assert journey.messages.busy
-    press(Qt.Key.Key_Escape)  # the answer that loses nothing
-    assert (journey.messages.busy, journey.place) == (False, "live")
-    assert journey.live.screen.recording.state == "recording"
-    wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
-    press(Qt.Key.Key_Space)
-    path = reviewed(qtbot, desktop)
-    check_file(path, "practice")
-    with h5py.File(path) as file:
-        assert "strap loose" in file["events/text"].asstr()[:].tolist()
-    pdf = tmp_path / "report.pdf"
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
-    press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
-    at(qtbot, desktop.journey, "report")
-    with qtbot.waitSignal(journey.report.screen.saved, timeout=PATIENCE_MS):
-        press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
-    assert "strap loose" in words_of(pdf)
-    press(Qt.Key.Key_Escape)
-    at(qtbot, desktop.journey, "review")
-    press(Qt.Key.Key_Escape)
-    at(qtbot, desktop.journey, "patients")
-    assert desktop.library.patients.listed() == []  # practice never counts
-
-
-@pytest.mark.parametrize("kind", ["folder", "oni"])
 def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time(
-    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, kind: str
+    qtbot: QtBot, open_desktop: Open, take: Path
 ) -> None:
-    recording, source = take, TumFolder(take)
-    if kind == "oni":
-        recording = tmp_path / "Übung 1.oni"
-        write_oni(recording, in_millimetres(source.frames()), source.info.camera, fps=round(SPEC.fps))
-        camera_info = sidecar_path(recording)
-        camera_info.write_text(re.sub("registered: .*\n", "", camera_info.read_text()))
     journey = (desktop := open_desktop()).journey
     journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, desktop.journey, "markers")
     journey.way.back()
     at(qtbot, desktop.journey, "camera")
-    journey.camera.screen.set_path(str(recording))
+    journey.camera.screen.set_path(str(take))
     click(qtbot, journey.camera.screen.primary)
-    at(qtbot, desktop.journey, "markers")  # nothing says that depth lies on colour: it is measured, nobody is asked
+    at(qtbot, desktop.journey, "markers")
     assert not journey.markers.screen.new_picture.isVisible()
     click_discs(qtbot, desktop, take)
     assert not journey.messages.busy
@@ -281,11 +216,8 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time
         times = file["frames/timestamp"][:]
         assert len(times) + int(file["quality/dropped_frames"][:].sum()) == len(stored)
     assert time.monotonic() - begun_s > 0.9 * (times[-1] - times[0]) / SPEED
-    if kind == "folder":
-        assert set(np.round(times, 6)) <= set(stored)
-        assert (times[0], times[-1]) == (pytest.approx(stored[0]), pytest.approx(stored[-1]))
-    else:
-        assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "assumed"
+    assert set(np.round(times, 6)) <= set(stored)
+    assert (times[0], times[-1]) == (pytest.approx(stored[0]), pytest.approx(stored[-1]))
 
 
 def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_that_is_not_there_is_told(
@@ -328,12 +260,21 @@ def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_tha
     assert journey.now.source is None
 
 
-def test_a_recording_that_is_being_stored_is_not_stopped_again_by_closing(
+def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_stopped_again_by_closing(
     qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
-    source = journey.now.source
+    source, card, folder = journey.now.source, journey.messages.card, desktop.library.folder
     assert source is not None
+    usage = shutil.disk_usage(folder)
+    with monkeypatch.context() as full:
+        full.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
+        journey.live.screen.recording.toggle()
+        wait(qtbot, card.isVisible)
+    assert "20 MB free" in card.what.text()
+    assert journey.live.screen.recording.state == "off"
+    assert list(folder.rglob("*.h5*")) == []
+    click(qtbot, card.answers[-1])
     kept: list[object] = []
     real = LookingBack.wait
 
@@ -396,7 +337,7 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     assert card().isAncestorOf(shell.focusWidget())
     qtbot.mouseClick(live.controls.main, Qt.MouseButton.LeftButton)
     goes_on(Qt.Key.Key_Space)  # "Go on measuring"
-    shell.close()
+    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)  # leaves no recording either
     goes_on(Qt.Key.Key_Escape)  # the answer that loses nothing
     monkeypatch.setattr("carpus.ui.live.recording.HASTY_S", 3600.0)
     recording.toggle()
@@ -441,33 +382,6 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     assert again.journey.patients.screen.findChildren(NoticeStrip) == []
 
 
-def test_neither_a_full_disk_nor_a_stop_at_once_leaves_a_file_and_both_are_told(
-    qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    desktop, journey = to_live(qtbot, open_desktop(), take)
-    recording, card, folder = journey.live.screen.recording, journey.messages.card, desktop.library.folder
-    usage = shutil.disk_usage(folder)
-    with monkeypatch.context() as full:
-        full.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
-        recording.toggle()
-        wait(qtbot, card.isVisible)
-    assert "20 MB free" in card.what.text()
-    assert recording.state == "off"
-    assert list(folder.rglob("*.h5*")) == []
-    click(qtbot, card.answers[-1])
-    feed = journey.now.source.measuring.feed
-    feed.end_tracking()
-    wait(qtbot, lambda: feed.counters().waiting_tracking == 0)
-    recording.toggle()
-    wait(qtbot, lambda: recording.count is not None)
-    recording.toggle()
-    wait(qtbot, card.isVisible)
-    assert desktop.library.sessions(PRACTICE_PATIENT) == []
-    assert list(folder.rglob("*.h5*")) == []
-    click(qtbot, card.answers[0])
-    at(qtbot, journey, "patients")
-
-
 def cut_short(data_folder: Path) -> None:
     """What is left of a session when the program is killed, or the disk was too full to finish it."""
     folder = recordings_folder(data_folder) / "someone"
@@ -485,14 +399,11 @@ def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(ope
     assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
 
 
-@pytest.mark.parametrize("demo", [False, True])
 def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
-    qtbot: QtBot, open_desktop: Open, demo: bool, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(CareCameras, "name", lambda _: None)
     journey = (desktop := open_desktop()).journey
-    if demo:
-        journey.now.choice = SourceChoice("practice")
     journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, journey, "markers")
     journey.patients.show()

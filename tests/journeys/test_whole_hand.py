@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import multiprocessing
 from pathlib import Path
 
 import h5py
@@ -13,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.settings import Settings
 from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.pipeline.track import NOT_LOOKED_BACK, retrack_session
+from carpus.core.pipeline.track import retrack_session
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE
@@ -29,7 +28,7 @@ def hand_take(rendered: Rendered) -> Path:
     return rendered(SPEC)
 
 
-def test_the_whole_hand_from_set_up_to_session_file_and_a_killed_looking_back_costs_nothing_else(
+def test_the_whole_hand_from_set_up_to_session_file(
     qtbot: QtBot, open_desktop: Open, hand_take: Path, tmp_path: Path
 ) -> None:
     desktop = open_desktop(take=take_of(hand_take, SPEC.fps), speed=1.0)
@@ -60,19 +59,6 @@ def test_the_whole_hand_from_set_up_to_session_file_and_a_killed_looking_back_co
     path = reviewed(qtbot, desktop)
     is_the_movement(path, hand_take)
     looked_back_as_tracking_it_again(path, tmp_path / "again.h5")
-    click(qtbot, journey.review.screen.card.again_button)
-    at(qtbot, desktop.journey, "live")
-    qtbot.keyClick(live, Qt.Key.Key_Space)
-    wait(qtbot, lambda: live.recording.recorded_s > 0.5)
-    (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-smoothing")
-    process.kill()
-    wait(qtbot, lambda: live.recording.recorded_s > 2.0)
-    qtbot.keyClick(live, Qt.Key.Key_Space)
-    session = read_session(reviewed(qtbot, desktop))
-    assert session.complete
-    assert session.smoothed is None
-    assert np.mean(session.status == 0) > 0.8
-    assert [event.kind for event in session.events] == [NOT_LOOKED_BACK]
     assert not journey.messages.busy
 
 

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 from tests.journeys.takes import RANGE_DEG
+from tests.ui.printed import words_of
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 60.0
@@ -142,6 +143,10 @@ def test_a_person_measures_in_a_real_window(person: Person, tmp_path: Path) -> N
     person.press("Return")
     person.sees("place live")
     person.press("space")
+    person.sees("recording")
+    person.press("F5")
+    person.use("type", "--delay", "30", "strap loose")
+    person.press("Return")
     person.sees("repeated")
     time.sleep(HASTY_S)  # an end within the first seconds asks
     person.press("space")
@@ -158,8 +163,9 @@ def test_a_person_measures_in_a_real_window(person: Person, tmp_path: Path) -> N
     assert person.sees("saved ") == f"saved {pdf}"
     assert person.leave() == 0
     assert "Traceback" not in person.faults
-    assert pdf.read_bytes().startswith(b"%PDF")
+    assert "strap loose" in words_of(pdf)
     with h5py.File(session) as file:
+        assert "strap loose" in file["events/text"].asstr()[:].tolist()
         assert file.attrs["complete"]
         tracked = file["frames/status"][:] == 0
         flexion_deg = np.degrees(file["wrist/angles"][:, 1])[tracked]

@@ -52,8 +52,10 @@ class Reporter:
             self._look_at_markers()
         elif journey.place == "live":
             self.say("place live")
-            if journey.live.screen.recording.state == "recording" and journey.live.screen.recording.repetitions >= 2:
-                self.say("repeated")
+            if journey.live.screen.recording.state == "recording":
+                self.say("recording")
+                if journey.live.screen.recording.repetitions >= 2:
+                    self.say("repeated")
         elif journey.place != "review" or journey.review.screen.shown:
             self.say(f"place {journey.place}")
 

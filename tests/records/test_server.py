@@ -43,7 +43,6 @@ from carpus.core.records.restoring import Past, put_in_place, restore
 from carpus.core.records.schema import PATIENT, TABLES
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
-from carpus.core.results.repetition_rows import RepetitionChoices
 from tests.app.test_library import set_up
 from tests.records.postgres import Cluster
 from tests.records.samples import HERON, LINDEN, LONG_S, T0, fill, measure, opened, record, traces
@@ -95,22 +94,6 @@ def test_what_one_computer_enters_the_other_has_at_once(tmp_path: Path, cluster:
     for folder in (sessions, tmp_path / "b"):
         assert traces(folder, "Linden", "Erika", linden, session_ids[0]) == []
     assert [count(there, name) for name in TABLES if name != "deed"] == [0] * (len(TABLES) - 1)
-
-
-def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
-        linden = a.patients.add(LINDEN)
-        session_id = measure(a, linden, T0)
-        seen = b.patients.one(linden).version
-        a.patients.change(linden, PatientEntry("Linden 42", "right", note="mine"), seen)
-        with pytest.raises(ChangedMeanwhile):
-            b.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), seen)
-        assert b.patients.one(linden).entry.note == "mine"
-        version = of_sessions.keep_choices(a.store, session_id, RepetitionChoices({0: "a"}), 0)
-        with pytest.raises(ChangedMeanwhile):
-            of_sessions.keep_choices(b.store, session_id, RepetitionChoices({1: "b"}), 0)
-        of_sessions.keep_choices(b.store, session_id, RepetitionChoices({1: "b"}), version)
-        assert of_sessions.choices(a.store, session_id)[0].left_out == {1: "b"}
 
 
 RACING = """

@@ -258,7 +258,7 @@ def test_paths_of_new_sessions_are_free_and_speak_and_no_two_patients_share_a_fo
         assert len(folders) == 4
 
 
-def test_several_threads_and_two_programs_at_once(tmp_path: Path, url: str) -> None:
+def test_several_threads_and_two_programs_at_once(tmp_path: Path) -> None:
     faults: list[BaseException] = []
 
     def work(house: House, start: int) -> None:
@@ -269,7 +269,7 @@ def test_several_threads_and_two_programs_at_once(tmp_path: Path, url: str) -> N
         except BaseException as fault:
             faults.append(fault)
 
-    with opened(tmp_path, url) as one, opened(tmp_path, url) as other:
+    with opened(tmp_path) as one, opened(tmp_path) as other:
         threads = [
             threading.Thread(target=work, args=(house, start))
             for house, start in ((one, 100), (one, 200), (other, 300), (other, 400))
@@ -322,8 +322,8 @@ def test_what_a_damaged_file_says_of_itself_keeps_no_start_from_going_on(tmp_pat
         str(fault).encode("utf-8")
 
 
-def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path) -> None:
-    with opened(tmp_path) as one, opened(tmp_path) as other:
+def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, url: str) -> None:
+    with opened(tmp_path, url) as one, opened(tmp_path, url) as other:
         linden = one.patients.add(LINDEN)
         session_id = measure(one, linden, T0)
         read = other.patients.one(linden)

@@ -17,8 +17,6 @@ SHARED = {
     "records/backing_up.py", "records/erasing.py", "records/lists.py", "records/locking.py",
 }  # fmt: skip
 """What flows share; beside it the ``flow.py`` of each room, and what it reads from the disk, ``stored.py``."""
-PRINTING = ("carpus.ui.report.gather", "carpus.core.results.figures")
-"""What ``carpus report`` needs must not bring widgets with it."""
 
 
 def loaded_by(modules: list[str]) -> set[str]:
@@ -52,7 +50,3 @@ def test_pyqtgraph_is_loaded_when_a_plot_is_shown_not_when_the_window_opens() ->
     loaded = loaded_by(["carpus.app.compose", "carpus.ui.review.flow"])
     assert "carpus.ui.plot.card" in loaded
     assert "pyqtgraph" not in loaded
-
-
-def test_printing_loads_no_widgets() -> None:
-    assert "PySide6.QtWidgets" not in loaded_by(list(PRINTING))
