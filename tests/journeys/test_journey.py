@@ -275,6 +275,7 @@ def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_sto
     assert journey.live.screen.recording.state == "off"
     assert list(folder.rglob("*.h5*")) == []
     click(qtbot, card.answers[-1])
+    caplog.clear()
     kept: list[object] = []
     real = LookingBack.wait
 

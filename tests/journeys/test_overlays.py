@@ -71,7 +71,7 @@ def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet_
     check_all()
     bar = desktop.shell.bar
     bar.lock_aside(True)
-    for button in (bar.back_button, bar.help_button, bar.settings_button):
+    for button in (bar.help_button, bar.settings_button):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
         assert not button.hasFocus(), "it would take the keys and the pedal from a running recording"
         assert "recording" in button.toolTip()
