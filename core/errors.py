@@ -176,7 +176,7 @@ class DiskFull(CarpusFault):
 class SessionUnreadable(CarpusFault):
     happened = phrase("This session cannot be read: {subject} ({detail}).")
     safe = phrase("The file is untouched, and all other sessions are safe.")
-    do = phrase("Check that it is a session of this or an older Carpus, or take it from a backup.")
+    do = phrase("Check that it is a session of this or an older Carpus, or take it from a back-up.")
 
 
 class SessionMissing(SessionUnreadable):
@@ -188,7 +188,7 @@ class SessionMissing(SessionUnreadable):
 class SessionChanged(CarpusFault):
     happened = phrase("This session was changed after it was finished: {subject}.")
     safe = phrase("It can still be read; its seal does not fit what it holds now.")
-    do = phrase("Take it from a backup, or do not rely on its figures.")
+    do = phrase("Take it from a back-up, or do not rely on its figures.")
 
 
 class SessionUnfinished(CarpusFault):
@@ -468,7 +468,7 @@ class RegisterDamaged(RegisterUnreadable):
 
     happened = phrase("The list of patients is damaged: {subject} ({detail}).")
     safe = RegisterUnreadable.safe
-    do = phrase("Start Carpus again: it keeps what can still be read. If names are missing then, restore a backup.")
+    do = phrase("Start Carpus again: it keeps what can still be read. If names are missing then, restore a back-up.")
 
 
 class RegisterSetAside(CarpusFault):
@@ -480,7 +480,7 @@ class RegisterSetAside(CarpusFault):
     safe = phrase(
         "All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}."
     )
-    do = phrase("Look through the list; restore it from a backup, or enter again what is missing.")
+    do = phrase("Look through the list; restore it from a back-up, or enter again what is missing.")
 
 
 class RegisterMissing(CarpusFault):
@@ -488,7 +488,7 @@ class RegisterMissing(CarpusFault):
 
     happened = phrase("There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.")
     safe = phrase("All sessions are safe. If there was a list before, its names, notes and comments are gone.")
-    do = phrase("Restore the list from a backup, or enter the names again.")
+    do = phrase("Restore the list from a back-up, or enter the names again.")
 
 
 class LogUnguarded(CarpusFault):
@@ -498,7 +498,7 @@ class LogUnguarded(CarpusFault):
         "What keeps the log of deeds from being changed had been taken out of {subject}; it is there again."
     )
     safe = phrase("Patients and sessions are safe. Lines of the log may have been changed or taken out.")
-    do = phrase("Compare the log with that of a backup.")
+    do = phrase("Compare the log with that of a back-up.")
 
 
 class FilesSetApart(CarpusFault):
@@ -506,7 +506,7 @@ class FilesSetApart(CarpusFault):
 
     happened = phrase("{detail} among the sessions cannot be read and are set apart: {subject}.")
     safe = phrase("They are untouched where they are, and all other sessions are safe.")
-    do = phrase("Take them from a backup, or leave them; Carpus does not open them again.")
+    do = phrase("Take them from a back-up, or leave them; Carpus does not open them again.")
 
 
 class RecordingWaits(CarpusFault):

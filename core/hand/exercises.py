@@ -114,7 +114,7 @@ EXERCISES = (
         position=phrase("Elbow at the side, forearm free, palm down under the camera."),
         unseen=phrase(
             "Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers "
-            "go out of sight at about 25° of pronation. A goal short of thumb up has a minus: supination −25°."
+            "go out of sight at about 25° of pronation. A target short of thumb up has a minus: supination −25°."
         ),
         adult=(phrase("Turn your palm up"), phrase("Turn your palm down")),
         child=(phrase("Turn up"), phrase("Turn down")),

@@ -3616,7 +3616,7 @@
         <translation>Prüfen Sie, ob jeder Marker unter seinem Namen angeklickt ist.</translation>
     </message>
     <message>
-        <source>Check that it is a session of this or an older Carpus, or take it from a backup.</source>
+        <source>Check that it is a session of this or an older Carpus, or take it from a back-up.</source>
         <translation>Prüfen Sie, ob es eine Sitzung dieses oder eines älteren Carpus ist, oder nehmen Sie sie aus einer Sicherung.</translation>
     </message>
     <message>
@@ -3708,7 +3708,7 @@
         <translation>Schließen Sie das andere Programm, und versuchen Sie es noch einmal.</translation>
     </message>
     <message>
-        <source>Compare the log with that of a backup.</source>
+        <source>Compare the log with that of a back-up.</source>
         <translation>Vergleichen Sie das Protokoll mit dem einer Sicherung.</translation>
     </message>
     <message>
@@ -3892,7 +3892,7 @@
         <translation>Sehen Sie die Linien im Bild an, und geben Sie dem Marker seinen richtigen Namen.</translation>
     </message>
     <message>
-        <source>Look through the list; restore it from a backup, or enter again what is missing.</source>
+        <source>Look through the list; restore it from a back-up, or enter again what is missing.</source>
         <translation>Sehen Sie die Liste durch; stellen Sie sie aus einer Sicherung wieder her, oder tragen Sie ein, was fehlt.</translation>
     </message>
     <message>
@@ -4076,7 +4076,7 @@
         <translation>Deckung von Tiefe und Farbe</translation>
     </message>
     <message>
-        <source>Restore the list from a backup, or enter the names again.</source>
+        <source>Restore the list from a back-up, or enter the names again.</source>
         <translation>Stellen Sie die Liste aus einer Sicherung wieder her, oder tragen Sie die Namen neu ein.</translation>
     </message>
     <message>
@@ -4128,7 +4128,7 @@
         <translation>Schalten Sie die Deckung von Tiefe und Farbe in der Kamera ein, oder verfolgen Sie ohne Tiefe.</translation>
     </message>
     <message>
-        <source>Take it from a backup, or do not rely on its figures.</source>
+        <source>Take it from a back-up, or do not rely on its figures.</source>
         <translation>Nehmen Sie sie aus einer Sicherung, oder verlassen Sie sich nicht auf ihre Werte.</translation>
     </message>
     <message>
@@ -4136,7 +4136,7 @@
         <translation>Nehmen Sie die Stelle mit dem Fragezeichen, wenn sie der Punkt ist.</translation>
     </message>
     <message>
-        <source>Take them from a backup, or leave them; Carpus does not open them again.</source>
+        <source>Take them from a back-up, or leave them; Carpus does not open them again.</source>
         <translation>Nehmen Sie sie aus einer Sicherung, oder lassen Sie sie; Carpus öffnet sie nicht mehr.</translation>
     </message>
     <message>
@@ -6456,7 +6456,7 @@
         <translation>Unterarmdrehung</translation>
     </message>
     <message>
-        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A goal short of thumb up has a minus: supination −25°.</source>
+        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A target short of thumb up has a minus: supination −25°.</source>
         <translation>Die Winkel zählen ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen verschwinden die Marker bei etwa 25° Pronation. Ein Ziel vor Daumen oben hat ein Minus: Supination −25°.</translation>
     </message>
     <message>
@@ -6476,7 +6476,7 @@
         <translation>Starten Sie Carpus neu. Hilft das nicht, fragen Sie Ihre IT-Betreuung.</translation>
     </message>
     <message>
-        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a backup.</source>
+        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a back-up.</source>
         <translation>Starten Sie Carpus neu: Was noch lesbar ist, bleibt erhalten. Fehlen danach Namen, stellen Sie eine Sicherung wieder her.</translation>
     </message>
     <message>
@@ -6782,7 +6782,7 @@
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>Whoever has the backup disk can read it: use an encrypted disk.</source>
+        <source>Whoever has the back-up disk can read it: use an encrypted disk.</source>
         <translation>Wer den Datenträger mit den Sicherungen hat, kann sie lesen: einen verschlüsselten Datenträger verwenden.</translation>
     </message>
 </context>

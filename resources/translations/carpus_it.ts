@@ -3620,7 +3620,7 @@
         <translation>Controllare che ogni marcatore sia indicato con il suo nome.</translation>
     </message>
     <message>
-        <source>Check that it is a session of this or an older Carpus, or take it from a backup.</source>
+        <source>Check that it is a session of this or an older Carpus, or take it from a back-up.</source>
         <translation>Controllare che sia una seduta di questo Carpus o di uno precedente, o riprenderla da una copia di sicurezza.</translation>
     </message>
     <message>
@@ -3712,7 +3712,7 @@
         <translation>Chiudere l’altro programma, poi riprovare.</translation>
     </message>
     <message>
-        <source>Compare the log with that of a backup.</source>
+        <source>Compare the log with that of a back-up.</source>
         <translation>Confronti il registro con quello di una copia di sicurezza.</translation>
     </message>
     <message>
@@ -3888,7 +3888,7 @@
         <translation>Guardare le linee nell’immagine, e dare al marcatore il nome giusto.</translation>
     </message>
     <message>
-        <source>Look through the list; restore it from a backup, or enter again what is missing.</source>
+        <source>Look through the list; restore it from a back-up, or enter again what is missing.</source>
         <translation>Controlli l’elenco; lo ripristini da una copia di sicurezza o inserisca di nuovo ciò che manca.</translation>
     </message>
     <message>
@@ -4088,7 +4088,7 @@
         <translation>Registrazione profondità-colore</translation>
     </message>
     <message>
-        <source>Restore the list from a backup, or enter the names again.</source>
+        <source>Restore the list from a back-up, or enter the names again.</source>
         <translation>Ripristinare l’elenco da una copia di sicurezza, o inserire di nuovo i nomi.</translation>
     </message>
     <message>
@@ -4140,7 +4140,7 @@
         <translation>Attivare la registrazione profondità-colore della telecamera, o tracciare senza profondità.</translation>
     </message>
     <message>
-        <source>Take it from a backup, or do not rely on its figures.</source>
+        <source>Take it from a back-up, or do not rely on its figures.</source>
         <translation>Riprenderla da una copia di sicurezza, o non fidarsi dei suoi valori.</translation>
     </message>
     <message>
@@ -4148,7 +4148,7 @@
         <translation>Prendere il punto con il punto interrogativo, se è il dischetto.</translation>
     </message>
     <message>
-        <source>Take them from a backup, or leave them; Carpus does not open them again.</source>
+        <source>Take them from a back-up, or leave them; Carpus does not open them again.</source>
         <translation>Riprenderli da una copia di sicurezza, o lasciarli; Carpus non li apre più.</translation>
     </message>
     <message>
@@ -6456,7 +6456,7 @@
         <translation>Rotazione dell’avambraccio</translation>
     </message>
     <message>
-        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A goal short of thumb up has a minus: supination −25°.</source>
+        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A target short of thumb up has a minus: supination −25°.</source>
         <translation>Gli angoli si contano dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori escono di vista a circa 25° di pronazione. Un obiettivo prima del pollice in alto ha il meno: supinazione −25°.</translation>
     </message>
     <message>
@@ -6476,7 +6476,7 @@
         <translation>Riavviare Carpus. Se non basta, rivolgersi al supporto informatico.</translation>
     </message>
     <message>
-        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a backup.</source>
+        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a back-up.</source>
         <translation>Riavviare Carpus: conserva ciò che è ancora leggibile. Se poi mancano nomi, ripristinare una copia di sicurezza.</translation>
     </message>
     <message>
@@ -6782,7 +6782,7 @@
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>Whoever has the backup disk can read it: use an encrypted disk.</source>
+        <source>Whoever has the back-up disk can read it: use an encrypted disk.</source>
         <translation>Chi ha il disco con le copie di sicurezza può leggerle: usare un disco cifrato.</translation>
     </message>
 </context>

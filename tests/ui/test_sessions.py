@@ -103,3 +103,10 @@ def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: Qt
     metrics = QFontMetricsF(font(14, MEDIUM))
     for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "does not count: simulated")):
         assert metrics.elidedText(text, Qt.TextElideMode.ElideRight, rooms[number].width()) == text
+
+
+def test_a_figure_without_room_loses_letters_of_its_name_but_no_sign(theme: Theme) -> None:
+    metrics = QFontMetricsF(font(16, MEDIUM))
+    shown = listing.cut_figure("Supination −50° ± 1°", metrics, metrics.horizontalAdvance("Supination −50°"))
+    assert shown.startswith("Sup") and shown.endswith("… −50° ± 1°")
+    assert metrics.horizontalAdvance(shown) <= metrics.horizontalAdvance("Supination −50°")

@@ -75,7 +75,7 @@ class BackupCard(Card):
             _row(theme, self.tr("By itself"), self.hours),
             Line(theme),
             _row(theme, self.tr("Keep"), keep),
-            caption(theme, self.tr("Whoever has the backup disk can read it: use an encrypted disk."), wrap=True),
+            caption(theme, self.tr("Whoever has the back-up disk can read it: use an encrypted disk."), wrap=True),
         )
 
     def show_facts(self, facts: BackupFacts) -> None:

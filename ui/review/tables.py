@@ -270,7 +270,8 @@ class FurtherTable(_Table[FurtherRow]):
             top = head + height * (place // columns)
             self._line(painter, top, left, left + width)
             name = QRectF(left, top, self.NAME_SHARE * width - 8, height)
-            today = QRectF(left + self.NAME_SHARE * width, top, self.TODAY_SHARE * width, height)
+            share = self.TODAY_SHARE if row.last else 1 - self.NAME_SHARE  # words may take the place of last time's
+            today = QRectF(left + self.NAME_SHARE * width, top, share * width, height)
             last = QRectF(today.right(), top, left + width - today.right(), height)
             self._write(painter, row.name, name, self._face(14, REGULAR), "text2")
             self._write(painter, row.today, today, self._face(14, SEMIBOLD), "text")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -70,6 +71,16 @@ def cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, st
     day = f"{numbers.short_date(line.when)} {numbers.time_beside(line.when, *(other.when for other in lines))}"
     what = f"{terms.exercise_name(line.exercise)}, {inside(terms.side_name(line.side))}"
     return day, what, line.figure, line.counted, remark(line) or line.corrected.rstrip(".")
+
+
+def cut_figure(figure: str, metrics: QFontMetricsF, width_px: float) -> str:
+    """``Supin… −50° ± 1°``: only the name is cut, for a number that lost its sign is another one."""
+    number = re.search(r"\N{MINUS SIGN}?\d.*", figure)
+    if number is None or metrics.horizontalAdvance(figure) <= width_px:
+        return metrics.elidedText(figure, Qt.TextElideMode.ElideRight, width_px)
+    rest = width_px - metrics.horizontalAdvance(f" {number[0]}")
+    name = metrics.elidedText(figure[: number.start()].rstrip(), Qt.TextElideMode.ElideRight, rest)
+    return f"{name} {number[0]}"
 
 
 class SessionModel(QAbstractListModel):
@@ -156,9 +167,13 @@ class SessionRowPainter(QStyledItemDelegate):
             painter.setFont(face)
             painter.setPen(theme.color("text" if counts and number < 3 else "text2"))
             room = rooms[number]
-            # Of exercise and hand, and of a figure with its name, the end matters as much as the beginning.
-            where = Qt.TextElideMode.ElideMiddle if number in (1, 2) else Qt.TextElideMode.ElideRight
-            shown = QFontMetricsF(face).elidedText(text, where, room.width())
+            # Of exercise and hand the end matters as much as the beginning.
+            where = Qt.TextElideMode.ElideMiddle if number == 1 else Qt.TextElideMode.ElideRight
+            metrics = QFontMetricsF(face)
+            if number == 2:
+                shown = cut_figure(text, metrics, room.width())
+            else:
+                shown = metrics.elidedText(text, where, room.width())
             painter.drawText(room, int(Qt.AlignmentFlag.AlignVCenter), shown)
         painter.restore()
 

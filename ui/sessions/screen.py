@@ -174,7 +174,7 @@ class SessionsScreen(QWidget):
         self.figure.setText(line.figure or ("–" if line.damaged else self.tr("Reading…")))
         facts = (
             cells(line, self.list.rows.lines)[0], terms.hand_name(line.side),
-            numbers.clock(line.duration_s), line.counted_words, line.corrected.rstrip("."),
+            numbers.clock(line.duration_s + 0.5), line.counted_words, line.corrected.rstrip("."),
         )  # fmt: skip
         self.facts.setText(" · ".join(fact for fact in facts if fact))
         self.remark.say(" · ".join(part for part in (remark(line), line.warning) if part))
