@@ -51,9 +51,10 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     loaded, told = load_sound_settings()
     settings = with_data_folder(loaded, data_folder)
     qt = looks.application(["carpus"])
+    usual = loaded.data_folder if loaded.data_folder.is_dir() else None
     is_reopened = False
     while True:
-        opened = _opened(qt, settings, is_demo=is_demo, usual=loaded.data_folder, session=session, told=told)
+        opened = _opened(qt, settings, is_demo=is_demo, usual=usual, session=session, told=told)
         if isinstance(opened, int):
             return opened
         desktop, alone = opened
@@ -66,7 +67,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
                 _take_restored(desktop.library.folder)
         if not desktop.is_to_reopen:
             return code
-        settings, told, session, is_reopened = desktop.keeper.settings, [], None, True
+        settings, told, usual, session, is_reopened = desktop.keeper.settings, [], None, None, True
         del desktop, opened
         _forget_windows(qt)
 
@@ -76,11 +77,12 @@ def _opened(
     settings: Settings,
     *,
     is_demo: bool,
-    usual: Path,
+    usual: Path | None,
     session: Path | None,
     told: Sequence[CarpusFault],
 ) -> tuple[Desktop, Alone] | int:
-    """The window put together, on another folder where a person chose one; or the exit code where there is none."""
+    """The window put together, on another folder where a person chose one; or the exit code where there is none.
+    ``usual`` is the folder that one named for this start stands in for; None where there is nothing to be told."""
     from carpus.app import compose
     from carpus.app.desktop import no_folder
     from carpus.app.desktop.alone import Alone
@@ -102,9 +104,10 @@ def _opened(
                 _take_restored(settings.data_folder)
                 continue
             drop_unfinished(settings.data_folder)
-            before = usual if settings.run_folder is not None else None
-            if before is None and not is_demo:
-                before = note_data_folder(settings.data_folder)
+            if settings.run_folder is not None:
+                before = usual
+            else:
+                before = None if is_demo else note_data_folder(settings.data_folder)
             other = [] if before is None else [DataFolderChanged(settings.data_folder, str(before))]
             desktop = compose.compose(qt, settings, is_demo=is_demo, told=[*other, *told])
             keep_reserve(settings.data_folder)

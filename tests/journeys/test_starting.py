@@ -117,6 +117,9 @@ def test_a_folder_named_for_one_start_is_said_on_the_first_screen(
         compose, "compose", lambda *given, **named: told.extend(named["told"]) or composed(*given, **named)
     )
     assert desktop.open_window(tmp_path / "named", is_demo=is_demo) == 0
+    assert not told, "there was no folder before"
+    load_settings().data_folder.mkdir(parents=True)
+    assert desktop.open_window(tmp_path / "named", is_demo=is_demo) == 0
     assert [(type(one), one.subject) for one in told] == [(DataFolderChanged, str(tmp_path / "named"))]
     assert not settings_folder().exists(), "nothing of it is stored"
 
