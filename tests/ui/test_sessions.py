@@ -108,5 +108,6 @@ def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: Qt
 def test_a_figure_without_room_loses_letters_of_its_name_but_no_sign(theme: Theme) -> None:
     metrics = QFontMetricsF(font(16, MEDIUM))
     shown = listing.cut_figure("Supination −50° ± 1°", metrics, metrics.horizontalAdvance("Supination −50°"))
-    assert shown.startswith("Sup") and shown.endswith("… −50° ± 1°")
+    assert shown.startswith("Sup")
+    assert shown.endswith("… −50° ± 1°")
     assert metrics.horizontalAdvance(shown) <= metrics.horizontalAdvance("Supination −50°")
