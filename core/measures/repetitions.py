@@ -167,8 +167,8 @@ def _between(angle: Signal, start: int, end: int, cut_at: int | None = None) -> 
 
 
 Uncounted = Literal["too_short", "nothing_seen", "small_range", "cut_by_gap", "no_return", "too_quick"]
-"""Why there is none: hardly a recording, hardly a frame seen, less than 10 degrees, each with a piece out of sight,
-never there and back, or each in less than 0.4 s."""
+"""Why there is none: hardly a recording, hardly a frame seen, less than 10 degrees, one with a piece out of
+sight, never there and back, or each in less than 0.4 s."""
 
 
 def what_was_not_counted(angle: Signal, found: FoundRepetitions) -> Uncounted | None:

@@ -6648,12 +6648,12 @@
         <translation>keine Antwort</translation>
     </message>
     <message>
-        <source>the hand went out of sight in each</source>
-        <translation>die Hand war in jeder zeitweise nicht zu sehen</translation>
+        <source>none of the discs by their names, of the other hand, or never seen</source>
+        <translation>dem Namen nach keiner der Punkte, von der anderen Hand oder nie gesehen</translation>
     </message>
     <message>
-        <source>none of the discs by their names, of the other hand, or never seen</source>
-        <translation>dem Namen nach keine der Punkte, von der anderen Hand oder nie gesehen</translation>
+        <source>the hand went out of sight during the movement</source>
+        <translation>die Hand war während der Bewegung zeitweise nicht zu sehen</translation>
     </message>
 </context>
 <context>
@@ -8555,7 +8555,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Go on measuring, or stop: the session is saved and opens in the review.</source>
-        <translation>Weiter messen oder beenden: die Sitzung wird gespeichert und öffnet sich in der Auswertung.</translation>
+        <translation>Weiter messen oder beenden: Die Sitzung wird gespeichert und öffnet sich in der Auswertung.</translation>
     </message>
     <message>
         <source>Stop, save and close</source>

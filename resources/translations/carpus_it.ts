@@ -4005,7 +4005,7 @@
     </message>
     <message>
         <source>Patients and sessions are safe. Lines of the log may have been changed or taken out.</source>
-        <translation>Pazienti e sessioni sono al sicuro. Righe del registro possono essere state modificate o tolte.</translation>
+        <translation>Pazienti e sedute sono al sicuro. Righe del registro possono essere state modificate o tolte.</translation>
     </message>
     <message>
         <source>Plug in the camera named in the settings, or change the settings.</source>
@@ -4181,11 +4181,11 @@
     </message>
     <message>
         <source>All sessions are safe. If there was a list before, its names, notes and comments are gone.</source>
-        <translation>Tutte le sessioni sono al sicuro. Se prima c’era un elenco, i suoi nomi, note e commenti sono perduti.</translation>
+        <translation>Tutte le sedute sono al sicuro. Se prima c’era un elenco, i suoi nomi, note e commenti sono perduti.</translation>
     </message>
     <message>
         <source>All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
-        <translation>Tutte le sessioni sono al sicuro; nomi, note e commenti possono mancare. L’elenco danneggiato è conservato in {subject}.</translation>
+        <translation>Tutte le sedute sono al sicuro; nomi, note e commenti possono mancare. L’elenco danneggiato è conservato in {subject}.</translation>
     </message>
     <message>
         <source>Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.</source>
@@ -4413,7 +4413,7 @@
     </message>
     <message>
         <source>The session and the reference were not changed.</source>
-        <translation>La sessione e il riferimento non sono stati modificati.</translation>
+        <translation>La seduta e il riferimento non sono stati modificati.</translation>
     </message>
     <message>
         <source>The session is unchanged, and its repetitions can be left out.</source>
@@ -4429,7 +4429,7 @@
     </message>
     <message>
         <source>There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.</source>
-        <translation>Ci sono sessioni, ma nessun elenco dei pazienti ({subject}); Carpus ne ha creato uno dalle sessioni.</translation>
+        <translation>Ci sono sedute, ma nessun elenco dei pazienti ({subject}); Carpus ne ha creato uno dalle sedute.</translation>
     </message>
     <message>
         <source>There is a file already at {subject}.</source>
@@ -5977,11 +5977,11 @@
     </message>
     <message>
         <source>not in the folder of the sessions</source>
-        <translation>non nella cartella delle sessioni</translation>
+        <translation>non nella cartella delle sedute</translation>
     </message>
     <message>
         <source>All sessions of both patients are kept apart.</source>
-        <translation>Tutte le sessioni dei due pazienti restano separate.</translation>
+        <translation>Tutte le sedute dei due pazienti restano separate.</translation>
     </message>
     <message>
         <source>Change the name in the patient’s entry if another one is better.</source>
@@ -6301,11 +6301,11 @@
     </message>
     <message>
         <source>discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps</source>
-        <translation>Dischi e marker restano a {apart} mm di distanza, di solito al massimo {most}: altri marker, un’altra mano o salti</translation>
+        <translation>Dischi e marcatori restano a {apart} mm di distanza, di solito al massimo {most}: altri marcatori, un’altra mano o salti</translation>
     </message>
     <message>
         <source>it has no marker {wanted}; it has {names}</source>
-        <translation>nessun marker {wanted}; ci sono {names}</translation>
+        <translation>nessun marcatore {wanted}; ci sono {names}</translation>
     </message>
     <message>
         <source>it has {several} for {wanted}: say which it is</source>
@@ -6593,11 +6593,11 @@
     </message>
     <message>
         <source>Record this exercise again.</source>
-        <translation>Registri di nuovo questo esercizio.</translation>
+        <translation>Registrare di nuovo questo esercizio.</translation>
     </message>
     <message>
         <source>A recording ended before its first second was stored: {subject}. There is nothing to recover.</source>
-        <translation>Una registrazione è terminata prima che il suo primo secondo fosse salvato: {subject}. Non c&apos;è nulla da recuperare.</translation>
+        <translation>Una registrazione è terminata prima che il suo primo secondo fosse salvato: {subject}. Non c’è nulla da recuperare.</translation>
     </message>
     <message>
         <source>A session that waited on this computer is in the folder of the sessions now: {subject}.</source>
@@ -6609,7 +6609,7 @@
     </message>
     <message>
         <source>Go on. Connect the disk or the network again; Carpus then moves the session by itself.</source>
-        <translation>Continui. Ricolleghi il disco o la rete; Carpus sposterà poi la seduta automaticamente.</translation>
+        <translation>Continuare. Ricollegare il disco o la rete: Carpus sposterà poi la seduta automaticamente.</translation>
     </message>
     <message>
         <source>no answer for {seconds} s</source>
@@ -6648,12 +6648,12 @@
         <translation>nessuna risposta</translation>
     </message>
     <message>
-        <source>the hand went out of sight in each</source>
-        <translation>la mano è uscita di vista in ciascuna</translation>
-    </message>
-    <message>
         <source>none of the discs by their names, of the other hand, or never seen</source>
         <translation>dal nome non sono dischi, sono dell’altra mano o non si vedono mai</translation>
+    </message>
+    <message>
+        <source>the hand went out of sight during the movement</source>
+        <translation>la mano è uscita di vista durante il movimento</translation>
     </message>
 </context>
 <context>
@@ -10962,7 +10962,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation>Misurate con il goniometro quanto il polso, come sta ora, è lontano dal dritto, e l’avambraccio dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Carpus aggiunge questi angoli a tutto ciò che misura del polso e il referto lo dice. Le dita flesse vanno bene così: lo zero di un’articolazione delle dita è il dito disteso, qualunque sia l’immagine.</translation>
+        <translation>Misurare con il goniometro quanto il polso, come sta ora, è lontano dal dritto, e l’avambraccio dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Carpus aggiunge questi angoli a tutto ciò che misura del polso e il referto lo dice. Le dita flesse vanno bene così: lo zero di un’articolazione delle dita è il dito disteso, qualunque sia l’immagine.</translation>
     </message>
 </context>
 <context>

@@ -112,7 +112,7 @@ def _why_none(figures: SessionFigures) -> str:
         "too_short": tr("it is too short"),
         "nothing_seen": tr("what is trained was not seen"),
         "small_range": tr("less than 10° of movement"),
-        "cut_by_gap": tr("the hand went out of sight in each"),
+        "cut_by_gap": tr("the hand went out of sight during the movement"),
         "no_return": tr("it never went there and back"),
         "too_quick": tr("each was quicker than 0.4 s"),
         None: "",
