@@ -16,6 +16,7 @@ from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.types import FloatArray, Side
+from tests.suites import few
 
 NAMES = joint_angle_names()
 COUNT = 12
@@ -105,7 +106,7 @@ def _angle_errors_deg(truth: HandAnatomy, found: HandAnatomy) -> FloatArray:
     return np.array(errors)
 
 
-@pytest.mark.parametrize("depth_sd_m", [0.0005, 0.0015])
+@pytest.mark.parametrize("depth_sd_m", few([0.0015, 0.0005]))
 def test_flexion_read_after_one_neutral_pose(depth_sd_m: float) -> None:
     error_deg = np.array(
         [_angle_errors_deg(_person(seed), _calibrated(seed, depth_sd_m).anatomy) for seed in range(0, COUNT, 2)]

@@ -35,6 +35,7 @@ from carpus.core.types import FloatArray, SurfaceSamples
 from tests.kernels.pairs import both
 from tests.kernels.test_filter_kernels import covariances
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
+from tests.suites import few
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 from tests.tracking.sequences import calibrated
 from tests.tracking.test_finger_depth import VIEW, readings, states
@@ -85,7 +86,7 @@ def hand(side: str, seed: int, dip: str = "coupled") -> Hand:
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", few(range(3)))
 def test_points_and_what_the_camera_sees_of_them(side: str, seed: int) -> None:
     it = hand(side, seed)
     points = both(it.points)
@@ -147,7 +148,7 @@ def ahead_of(model: FingerModel, *of: Any) -> tuple[object, ...]:
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", few(range(2)))
 @pytest.mark.parametrize("wide", [0.1, 1.0])
 def test_digits_named_and_updated(side: str, seed: int, wide: float) -> None:
     """``wide``: several discs would have the same blob."""

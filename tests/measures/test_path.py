@@ -13,6 +13,7 @@ from carpus.core.measures.signals import Signal, even_signal
 from carpus.core.measures.speed import speed_peaks
 from carpus.core.types import FloatArray
 from tests.measures.tracked import ONE_PROCESS, tracked
+from tests.suites import few
 
 pytestmark = ONE_PROCESS
 RATE = 30.0
@@ -71,9 +72,7 @@ def test_a_dip_that_noise_makes_parts_no_unit_in_two(parts: int) -> None:
 
 
 @pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
-@pytest.mark.parametrize(
-    ("seed", "speed_hz", "share", "seconds"), [(4, 0.06, 1.0, 20.0), (5, 0.05, 0.25, 24.0)], ids=["slow", "slow, short"]
-)
+@pytest.mark.parametrize(("seed", "speed_hz", "share", "seconds"), few([(4, 0.06, 1.0, 20.0), (5, 0.05, 0.25, 24.0)]))
 def test_slow_reaches_have_the_figures_of_the_movement(
     seed: int, speed_hz: float, share: float, seconds: float, smoothed: bool
 ) -> None:

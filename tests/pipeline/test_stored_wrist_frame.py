@@ -30,7 +30,7 @@ STIFF = TrackSettings(
 )
 
 
-HAND = RecordingSpec(seed=11, protocol="hand21", motion="flexion", seconds=2.2, fps=15.0, speed_hz=0.7)
+HAND = RecordingSpec(seed=11, protocol="hand21", motion="flexion", seconds=1.5, fps=15.0, speed_hz=0.7)
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from carpus.core.simulation.recording import SimulatedPictures, simulate
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import DepthPictures, SimulatedDepth, depth_pictures
 from carpus.core.simulation.spec import RecordingSpec
+from tests.suites import few
 
 SHAPE = (480, 640)
 UNIT_M = 1.0 / 5000.0
@@ -44,7 +45,7 @@ def block() -> np.ndarray:
     return depth
 
 
-@pytest.mark.parametrize("z_m", [0.6, 0.7, 0.9])
+@pytest.mark.parametrize("z_m", few([0.7, 0.6, 0.9]))
 def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
     sensor, wall = SimulatedDepth(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
     error = errors_on(wall, sensor, 12)
@@ -62,7 +63,7 @@ def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
 
 
 @pytest.mark.parametrize("name", ["d415", "d435", "d455", "azure"])
-@pytest.mark.parametrize("z_m", [0.6, 1.0])
+@pytest.mark.parametrize("z_m", few([0.6, 1.0]))
 def test_other_sensors_scatter_by_their_own_law(name: str, z_m: float) -> None:
     """On a wall: what changes from picture to picture, what stays, and how far neighbours are one reading."""
     spec = RecordingSpec(seed=1, depth_scale_error=0.0, sensor=name)
