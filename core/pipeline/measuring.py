@@ -58,7 +58,7 @@ log = logging.getLogger(__name__)
 _AROUND_HAND = 0.6
 """The picture of the markers reaches this share of their box beyond it."""
 LEAST_FREE_BYTES = 100_000_000
-"""A recording does not begin with less: ten minutes of rows, or ten seconds of pictures."""
+"""A recording does not begin with less: five minutes of a whole hand's rows, or ten seconds of pictures."""
 _ANSWERS_WAITING = 16
 
 
@@ -129,7 +129,7 @@ class RecordedSession:
     def __init__(self, journal: RecordingJournal, looking_back: LookingBack | None) -> None:
         self._journal, self._looking_back = journal, looking_back
         self._draft: SessionDraft | None = None
-        self._in_draft = 0
+        self._in_draft = 0.0
         self._times_s: list[float] = []
         self._early: list[tuple[str, str]] = []
         self.path = journal.path.with_suffix(".h5")
@@ -144,8 +144,10 @@ class RecordedSession:
         self._early.clear()
         if len(self._times_s) - self._in_draft >= ROWS_AT_ONCE:
             self._in_draft = len(self._times_s)
-            with suppress(CarpusFault):  # told at the end, if it still holds then: the rows are in the journal
+            try:
                 self._follow()
+            except CarpusFault:  # told at the end, if it still holds then: the rows are in the journal
+                self._in_draft = np.inf  # all over again it would hold up the journal
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:
         """One event; before the first picture there is no time to put it at, so it waits for the first row."""

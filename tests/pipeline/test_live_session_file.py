@@ -8,12 +8,14 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import OutputExists
+from carpus.core.errors import DiskFull, OutputExists
+from carpus.core.pipeline import measuring
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.measuring import RecordedSession
 from carpus.core.session.journal import RecordingJournal
+from carpus.core.session.reader import read_outline
 from tests.pipeline.live_fakes import HeldSource, tracked, wait_until
-from tests.session.samples import CAMERA, make_calibration, make_header
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 
 
 def begin(path: Path) -> RecordedSession:
@@ -47,3 +49,24 @@ def test_journal_that_is_there_is_kept(tmp_path: Path) -> None:
         live.start_recording(lambda: begin(path))
     assert path.read_bytes() == b"mine"
     assert [entry.name for entry in tmp_path.iterdir()] == ["session.journal"]
+
+
+def test_session_file_without_room_is_tried_again_at_the_end_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tries: list[Path] = []
+
+    def fill(*_: object) -> None:
+        tries.append(tmp_path)
+        raise DiskFull(tmp_path)
+
+    monkeypatch.setattr(measuring, "ROWS_AT_ONCE", 5)
+    recording = begin(tmp_path / "session.journal")
+    with monkeypatch.context() as full:
+        full.setattr(measuring.SessionDraft, "read", fill)
+        for row in range(20):
+            recording.append(make_frame(row))
+    recording.close()
+    assert len(tries) == 1
+    assert read_outline(tmp_path / "session.h5").frames == 20
+    assert [entry.name for entry in tmp_path.iterdir()] == ["session.h5"]
