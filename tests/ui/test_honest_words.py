@@ -230,7 +230,7 @@ def test_the_middle_finger_spreads_radially_and_ulnarly() -> None:
     assert "Radial 20°" in [text for _, text in plot.panels(BOX, 8.0)[1][0].scale.labels]
 
 
-@pytest.mark.parametrize("exercise", ["REACH_GRASP", "FINGER_ABAD", "THUMB_OPP", "FIST_HOOK"])
+@pytest.mark.parametrize("exercise", ["THUMB_OPP", "FIST_HOOK"])
 def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None:
     figures = figures_once(hand_session(exercise=exercise))
     assert "TAM" not in " ".join(column_heads(figures, None)) + limits_words(figures) + method(

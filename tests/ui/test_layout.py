@@ -65,6 +65,8 @@ def gallery(qapp: QApplication) -> Iterator[Gallery]:
 
 @pytest.mark.parametrize("state", STATES)
 def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> None:
+    order = [USUAL, LARGE, SMALL] if state in MAIN else [LARGE]
+    gallery.theme.choose(text_scale=order[0][1])  # before there is a screen: it costs nothing
     gallery.show_state(state)
     found = {}
     texts = lettered(gallery.shell)
@@ -72,7 +74,6 @@ def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> No
         shown = [said.get(text, {text}) for text in texts]
         letters = Counter(letter_of(*one) for one in shown if len(one) == 1)  # else it is said otherwise elsewhere
         assert not [letter for letter, count in letters.items() if count > 1], texts
-    order = [USUAL, LARGE, SMALL] if state in MAIN else [LARGE]
     if state in MAIN and state.startswith(SIGNED):
         order.append(LOW)
     for size, scale in order:
@@ -92,7 +93,6 @@ def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> No
             assert screen.card.tables.height() == fitted_px
     gallery.shell.sign.show_lines([])
     gallery.show(QWidget())
-    gallery.theme.choose(text_scale=1.0)
     gallery.shell.resize(1280, 800)
     assert not any(found.values()), found
 
