@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import fcntl
 import gc
+import hashlib
 import itertools
 import multiprocessing
 import os
+import shutil
 import sys
 import threading
 import time
@@ -50,6 +52,8 @@ _GRACE_S = 60.0
 _UNITS = {"agreement", "calibration", "detection", "formats", "hand", "kernels", "measures", "tracking"}
 """Folders of tests that need no window, no process, no server; those of them that ask for a recording are journeys."""
 _WINDOWS = {"ui", "app", "results"}
+_OLD_S = 86_400.0
+"""Recordings of an earlier state of the program may still be in use by another run, after a day they are not."""
 _PATIENCE_MS = 60_000
 """How long a window may take to what a test waits for; what never comes only fails later."""
 
@@ -153,17 +157,31 @@ def own_folders(homes: Iterator[Path], monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture(scope="session")
 def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RecordingSpec], Path]:
-    """The folder with the simulated recording of a spec, rendered once for all tests and processes of the run."""
+    """The folder with the simulated recording of a spec: the run's own copy, of what is rendered once into ``build``
+    for as long as core and the pins stay as they are."""
     from carpus.core.simulation.recording import cached_recording
 
-    run = tmp_path_factory.getbasetemp()
+    root, run = Path(__file__).parents[1], tmp_path_factory.getbasetemp()
+    made_by = [root / "requirements.lock", *sorted((root / "core").rglob("*.[pch]*"))]
+    state = hashlib.sha256(
+        b"".join(path.read_bytes() for path in made_by if path.suffix in (".lock", ".py", ".c", ".h"))
+    )
+    kept = root / "build" / "rendered" / state.hexdigest()[:16]
     folder = (run.parent if "PYTEST_XDIST_WORKER" in os.environ else run) / "rendered"
-    folder.mkdir(exist_ok=True)
+    for place in (kept, folder):
+        place.mkdir(parents=True, exist_ok=True)
+    os.utime(kept)
+    for other in kept.parent.iterdir():
+        if time.time() - other.stat().st_mtime > _OLD_S:
+            shutil.rmtree(other, ignore_errors=True)
 
     def recording(spec: RecordingSpec) -> Path:
+        own = folder / spec.cache_key
         with (folder / f"{spec.cache_key}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)  # another process renders it already
-            return cached_recording(spec, cache=folder)
+            if not own.exists():
+                shutil.copytree(cached_recording(spec, cache=kept), own)
+            return own
 
     return recording
 

@@ -21,6 +21,7 @@ MADE = {
     "dist/apt",
     "dist/",
     "build/fresh/SUITE.log",
+    "build/rendered",
     "build/package-test",
     "parts/PySide6",
     "slim.py",
