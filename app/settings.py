@@ -55,7 +55,12 @@ GONE = {
             "registration", "back",
         )
     ),
-    *(f"tracker.{name}" for name in ("holding", "finding", "readout", "fingers.search", "fingers.limits")),
+    *(
+        f"tracker.{name}"
+        for name in (
+            "holding", "finding", "readout", "doubt", "said", "fingers.search", "fingers.limits", "fingers.depth",
+        )
+    ),
     *(
         f"detection.{name}"
         for name in (

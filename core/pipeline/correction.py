@@ -35,7 +35,7 @@ from carpus.core.pipeline.track import (
 from carpus.core.session.marker_doubts import CORRECTED, SAME_SPOT_PX, Correction, said_of
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Event, Session
-from carpus.core.tracking.operator_hints import HintSettings, RecentSpots
+from carpus.core.tracking.operator_hints import SAME_PX, RecentSpots
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import BoolArray, Detections, FloatArray, Moment, SpotAnswer, TrackedFrame
 
@@ -113,7 +113,7 @@ def _settings(session: Session) -> TrackSettings:
 
 def not_held(session: Session, table: DetectionTable, corrections: Sequence[Correction]) -> tuple[str, ...]:
     """Markers that the new result, with its spots, does not have where the person put them, nor soon after."""
-    markers, followed = list(session.header.protocol.markers), HintSettings(step_px=STEP_PX)
+    markers = list(session.header.protocol.markers)
     out = []
     for correction in corrections:
         begin = correction.row
@@ -123,11 +123,11 @@ def not_held(session: Session, table: DetectionTable, corrections: Sequence[Corr
             if place is None:
                 held = not np.isfinite(at[0]).all()
             else:
-                spots, held = RecentSpots(followed), False
+                spots, held = RecentSpots(STEP_PX), False
                 for row, measured_px in enumerate(at, begin):
                     spots.keep(row, table.of_frame(row).pixel)
                     spot_px = spots.now_px(begin, np.array(place))
-                    held |= spot_px is not None and bool(np.linalg.norm(measured_px - spot_px) < followed.same_px)
+                    held |= spot_px is not None and bool(np.linalg.norm(measured_px - spot_px) < SAME_PX)
             if not held:
                 out.append(name)
     return tuple(dict.fromkeys(out))

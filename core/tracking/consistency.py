@@ -15,19 +15,16 @@ from numpy.typing import NDArray
 from carpus.core.camera import Camera
 from carpus.core.types import Detections, FloatArray
 
-
-@dataclass(frozen=True, slots=True)
-class ConsistencySettings:
-    """``unused_s``: for how long a disc may go unused while a blob lies within ``near_m`` of its place and
-    ``near_depth_m`` of its depth; ``average_s`` over which innovations are averaged, and ``most_nis``, how large they
-    may be on average for each component; ``unused_widens`` the standard deviations by this factor."""
-
-    unused_s: float = 0.3
-    near_m: float = 0.010
-    near_depth_m: float = 0.015
-    average_s: float = 0.3
-    most_nis: float = 2.5
-    unused_widens: float = 1.5
+UNUSED_S = 0.3
+"""For so long a disc may go unused while a blob lies at its place,"""
+NEAR_M, NEAR_DEPTH_M = 0.010, 0.015
+"""within so much across the line of sight and in depth: what skin and sensor stray by at most."""
+AVERAGE_S = 0.3
+"""Over which innovations are averaged,"""
+MAX_NIS = 2.5
+"""and how large they may be on average for each component."""
+UNUSED_WIDENS = 1.5
+"""The standard deviations, by this factor."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +42,7 @@ class Inconsistency:
 class ConsistencyTest:
     """Remembers for how long each disc has gone unused, and how large the innovations have been lately."""
 
-    def __init__(self, markers: int, settings: ConsistencySettings) -> None:
-        self._settings = settings
+    def __init__(self, markers: int) -> None:
         self._unused_s = np.zeros(markers)
         self._mean_nis = 1.0
 
@@ -58,14 +54,13 @@ class ConsistencyTest:
     def watch(self, dt_s: float, unused: NDArray[np.bool_], nis: float, dof: int, worst: int) -> Inconsistency:
         """The doubt after one more frame. ``unused`` (M,) discs passed over while a blob lies there, ``nis`` with
         ``dof`` of all that was measured, ``worst`` the marker that contributes most."""
-        settings = self._settings
         self._unused_s = np.where(unused, self._unused_s + dt_s, 0.0)
         if dof and math.isfinite(nis):
-            weight = 1.0 - math.exp(-dt_s / settings.average_s)
+            weight = 1.0 - math.exp(-dt_s / AVERAGE_S)
             self._mean_nis += weight * (nis / dof - self._mean_nis)
-        doubted = self._unused_s > settings.unused_s
-        widens = settings.unused_widens if doubted.any() else 1.0
-        if self._mean_nis > settings.most_nis:
+        doubted = self._unused_s > UNUSED_S
+        widens = UNUSED_WIDENS if doubted.any() else 1.0
+        if self._mean_nis > MAX_NIS:
             widens = max(widens, math.sqrt(self._mean_nis))
             doubted = doubted.copy()
             doubted[worst] = True
@@ -77,7 +72,6 @@ def passed_over(
     assigned: NDArray[np.int64],
     blobs: Detections,
     camera: Camera,
-    settings: ConsistencySettings,
 ) -> NDArray[np.bool_]:
     """Markers (M,) without a blob although one that is nobody's lies at their place ``disc_cam_m`` (M, 3).
 
@@ -91,7 +85,7 @@ def passed_over(
     missing, unassigned = np.flatnonzero(~is_named), np.delete(np.arange(len(blobs)), named)
     apart_px = blobs.pixel[unassigned] - camera.project(disc_cam_m[missing])[:, None]
     depth_m, blob_depth_m = disc_cam_m[missing, 2, None], blobs.depth_m[unassigned]
-    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < settings.near_m * camera.fx_px / depth_m
-    deep = np.abs(blob_depth_m - depth_m) < settings.near_depth_m
+    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < NEAR_M * camera.fx_px / depth_m
+    deep = np.abs(blob_depth_m - depth_m) < NEAR_DEPTH_M
     out[missing] = (near & (deep | ~np.isfinite(blob_depth_m))).any(axis=1)
     return out

@@ -203,8 +203,7 @@ class DigitNaming:
         if samples is None or not hidden:
             return trial
         mean = trial.named.update.mixture.merged()[0]
-        own = self._settings.fingers.depth
-        bends = knuckle_bends(hidden, mean, self._memory.palm.disc_m[1:], trial.seat.view, samples, own)
+        bends = knuckle_bends(hidden, mean, self._memory.palm.disc_m[1:], trial.seat.view, samples)
         if not bends.is_any:
             return trial
         update = replace(trial.named.update, mixture=with_bends(trial.named.update.mixture, bends))

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -25,28 +24,20 @@ _LENGTH, _FAN, _START, _HEIGHT = SLOTS, SLOTS + 3, slice(SLOTS + 5, SLOTS + 8), 
 _DOWN = np.array([1.0, 1.0, -1.0])
 
 
-@dataclass(frozen=True, slots=True)
-class FingerDepthSettings:
-    """``near_m``: how far a reading strays from the surface it lies on, ``steep_m`` where that is steep; a reading past
-    the finger costs up to ``most_past``, one before it, which may be another finger, up to ``most_before``, none
-    ``nothing``. ``least_sd_rad`` of what one picture says, ``most_sd_rad`` beyond which it is not asked; ``alike``
-    frames err as one. The back of the proximal phalanx is looked for at ``along``, shares of its length, for bends
-    from ``straightest_deg`` to ``most_bent_deg`` in steps of ``step_deg``; it is steep where less than
-    ``facing_share`` of it faces the camera."""
-
-    near_m: float = 0.005
-    steep_m: float = 0.010
-    most_past: float = 6.0
-    most_before: float = 2.5
-    nothing: float = 1.2
-    least_sd_rad: float = 0.14
-    most_sd_rad: float = 0.45
-    alike: float = 8.0
-    along: tuple[float, ...] = (0.35, 0.6, 0.85, 1.05)
-    straightest_deg: float = -20.0
-    most_bent_deg: float = 110.0
-    step_deg: float = 5.0
-    facing_share: float = 0.5
+NEAR_M, STEEP_M = 0.005, 0.010
+"""So far a reading strays from the surface it lies on, and where that is steep:"""
+FACING_SHARE = 0.5
+"""where less of it faces the camera."""
+MAX_PAST, MAX_BEFORE, NOTHING = 6.0, 2.5, 1.2
+"""A reading past the finger costs most, one before it may be another finger, and none says least."""
+MIN_SD_RAD, MAX_SD_RAD = 0.14, 0.45
+"""Of what one picture says; beyond the second it is not asked."""
+ALIKE = 8.0
+"""So many frames err as one."""
+ALONG = (0.35, 0.6, 0.85, 1.05)
+"""Shares of the proximal phalanx's length, at which its back is looked for."""
+BENDS_RAD = np.radians(np.arange(-20.0, 112.5, 5.0))
+"""The bends (Q,) that are weighed: all that a knuckle can do, in steps far below what one picture tells."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,19 +63,18 @@ def knuckle_bends(
     root_m: FloatArray,
     view: DigitView,
     samples: SurfaceSamples,
-    settings: FingerDepthSettings,
 ) -> KnuckleBends:
     """What the readings say of the digits ``asked`` (fingers), means (5, n), that begin under ``root_m`` (5, 3)."""
     out = KnuckleBends.none()
-    bend_rad, share = _grid_rad(settings), np.array(settings.along)
+    bend_rad, share = BENDS_RAD, np.array(ALONG)
     if (kernels := in_c()) is not None:
         camera = view.camera
         kernels.knuckles_bent(
             len(asked), np.array(asked), mean, root_m, view.rotation, view.translation_m, camera.fx_px, camera.fy_px,
             camera.cx_px, camera.cy_px, len(samples.depth_m), samples.pixel, samples.depth_m, FINGER_STEP_PX,
-            bend_rad.size, bend_rad, share.size, share, settings.near_m, settings.steep_m, settings.facing_share,
-            settings.most_past, settings.most_before, settings.nothing, settings.most_sd_rad, settings.least_sd_rad,
-            settings.alike, out.value_rad, out.variance_rad2,
+            bend_rad.size, bend_rad, share.size, share, NEAR_M, STEEP_M, FACING_SHARE,
+            MAX_PAST, MAX_BEFORE, NOTHING, MAX_SD_RAD, MIN_SD_RAD,
+            ALIKE, out.value_rad, out.variance_rad2,
         )  # fmt: skip
         return out
     depth_at = _lattice(samples)
@@ -102,25 +92,18 @@ def knuckle_bends(
         seen = view.observe(place)
         past_m = depth_at(seen[..., :2]) - seen[..., 2]
         facing = -(normal @ view.rotation.T)[:, 2]
-        near_m = np.where(facing > settings.facing_share, settings.near_m, settings.steep_m)[:, None]
+        near_m = np.where(facing > FACING_SHARE, NEAR_M, STEEP_M)[:, None]
         cost = 0.5 * (past_m / near_m) ** 2
-        cost = np.where(past_m > 0.0, np.minimum(cost, settings.most_past), np.minimum(cost, settings.most_before))
-        total = np.where(np.isfinite(past_m), cost, settings.nothing).sum(axis=1)
+        cost = np.where(past_m > 0.0, np.minimum(cost, MAX_PAST), np.minimum(cost, MAX_BEFORE))
+        total = np.where(np.isfinite(past_m), cost, NOTHING).sum(axis=1)
         weight = np.exp(total.min() - total)
         weight /= weight.sum()
         value = float(weight @ bend_rad)
         variance = float(weight @ (bend_rad - value) ** 2)
-        if variance < settings.most_sd_rad**2:
+        if variance < MAX_SD_RAD**2:
             out.value_rad[chain] = value
-            out.variance_rad2[chain] = settings.alike * max(variance, settings.least_sd_rad**2)
+            out.variance_rad2[chain] = ALIKE * max(variance, MIN_SD_RAD**2)
     return out
-
-
-@lru_cache(maxsize=2)
-def _grid_rad(settings: FingerDepthSettings) -> FloatArray:
-    """The bends (Q,) that are weighed."""
-    end_deg = settings.most_bent_deg + 0.5 * settings.step_deg
-    return np.asarray(np.radians(np.arange(settings.straightest_deg, end_deg, settings.step_deg)))
 
 
 def with_bends(mixture: ModeMixture, bends: KnuckleBends) -> ModeMixture:

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, field
 
 from carpus.core.hand.anatomy_prior import AnatomyPrior
-from carpus.core.tracking.finger_depth import FingerDepthSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +23,7 @@ class FingerSettings:
     stays hidden or seen on average; ``steepest_rad``: tilt at which discs vanish, give or take ``steepest_sd_rad``.
     ``clutter``: other blobs expected in a picture. ``skin_sd_rad``: how far discs
     that ride on gliding skin mislead about a joint, however long it is seen. ``anatomy``: how far a hand may
-    differ from the average one. ``depth``: what depth says where discs are hidden.
+    differ from the average one.
 
     ``dip_slack_rad``: how far end joints that follow the middle ones stray from two thirds of them;
     ``thumb_aside_rad``: how far the thumb's MCP joint, which hardly moves sideways, strays from straight; both return
@@ -65,7 +64,6 @@ class FingerSettings:
     clutter: float = 3.0
     skin_sd_rad: float = 0.022
     anatomy: AnatomyPrior = field(default_factory=AnatomyPrior)
-    depth: FingerDepthSettings = field(default_factory=FingerDepthSettings)
     dip_slack_rad: float = math.radians(6.0)
     thumb_aside_rad: float = math.radians(6.0)
     settles_s: float = 1.0

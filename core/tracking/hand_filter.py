@@ -88,7 +88,7 @@ def disc_anew(
     shape, skin = (np.arange(part.start + 3 * disc, part.start + 3 * disc + 3) for part in (SHAPE, SKIN))
     own = np.concatenate((shape, skin))
     fresh = np.zeros((6, 6))
-    fresh[:3, :3] = settings.said.anywhere_m**2 * np.eye(3)
+    fresh[:3, :3] = ANYWHERE_M**2 * np.eye(3)
     fresh[3:, 3:] = stationary_covariance(settings.tissue)[skin[:, None], skin]
     value = estimate.value.copy()
     value[shape], value[skin] = on_palm_m - view.palm_m[disc], 0.0
@@ -128,6 +128,8 @@ def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArr
 
 _TURN_VARIANCES = tuple((SIZE + 1) * row for row in range(TURN.start, TURN.stop))
 """Where they stand in the covariance, counted row by row."""
+ANYWHERE_M = 0.02
+"""So far from where the one picture shows it a disc shown elsewhere may be: more than any depth errs."""
 _NEAREST_M = 0.1
 """No camera sees a hand nearer: keeps the size of a disc finite."""
 

@@ -16,36 +16,28 @@ import numpy as np
 
 from carpus.core.types import BoolArray, Detections, FloatArray, SpotAnswer
 
-
-@dataclass(frozen=True, slots=True)
-class HintSettings:
-    """What becomes of what a person says of spots.
-
-    A spot is followed from picture to picture no further than ``step_px``; so near as ``back_within_px`` to where it
-    was, in the picture or beside its marker, one that comes back is the same. One that is no disc stays so for
-    ``holds_s``: then it is asked about again, if there is still something to ask. Where nobody will ask, it stays so
-    until it is out of sight for ``gone_after_s``: what comes out there later may be a disc. ``kept_pictures`` in which
-    a spot that was spoken of is looked for; what was said waits ``answer_holds_s`` for a picture that shows it. A disc
-    shown elsewhere may be as far as ``anywhere_m`` from where the one picture shows it: more than any depth errs. A
-    blob within ``same_px`` of the spot that was followed is that spot.
-    """
-
-    step_px: float = 8.0
-    back_within_px: float = 12.0
-    holds_s: float = 60.0
-    gone_after_s: float = 0.5
-    kept_pictures: int = 60
-    answer_holds_s: float = 0.5
-    anywhere_m: float = 0.02
-    same_px: float = 0.5
+STEP_PX = 8.0
+"""No further a spot is followed from picture to picture."""
+BACK_WITHIN_PX = 12.0
+"""So near to where it was, in the picture or beside its marker, a spot that comes back is the same."""
+HOLDS_S = 60.0
+"""After that a spot that is no disc is asked about again, if there is still something to ask."""
+GONE_AFTER_S = 0.5
+"""Where nobody will ask: out of sight for so long, what comes out there later may be a disc."""
+KEPT_PICTURES = 60
+"""In which a spot that was spoken of is looked for."""
+ANSWER_HOLDS_S = 0.5
+"""So long an answer waits for a picture that shows its spot."""
+SAME_PX = 0.5
+"""A blob so near to the spot that was followed is that spot."""
 
 
 class RecentSpots:
     """The spots of the last pictures: what was said of one, a moment ago, is found in the newest."""
 
-    def __init__(self, settings: HintSettings) -> None:
-        self._step_px = settings.step_px
-        self._pictures: deque[tuple[int, FloatArray]] = deque(maxlen=settings.kept_pictures)
+    def __init__(self, step_px: float = STEP_PX) -> None:
+        self._step_px = step_px
+        self._pictures: deque[tuple[int, FloatArray]] = deque(maxlen=KEPT_PICTURES)
 
     def keep(self, index: int, pixel: FloatArray) -> None:
         """Remember the spots (D, 2) of a picture."""
@@ -75,11 +67,10 @@ class NoDisc:
         place_px: FloatArray,
         beside_px: FloatArray,
         time_s: float,
-        settings: HintSettings,
         *,
         is_asked_again: bool,
     ) -> None:
-        self.marker, self._settings = marker, settings
+        self.marker = marker
         self._place_px, self._beside_px, self._is_asked_again = place_px, beside_px, is_asked_again
         self._said_s = self._seen_s = time_s
         self._was_seen = True
@@ -87,8 +78,8 @@ class NoDisc:
     def holds(self, time_s: float) -> bool:
         """Whether what was said of it still counts."""
         if self._is_asked_again:
-            return time_s - self._said_s <= self._settings.holds_s
-        return time_s - self._seen_s <= self._settings.gone_after_s
+            return time_s - self._said_s <= HOLDS_S
+        return time_s - self._seen_s <= GONE_AFTER_S
 
     def find(self, time_s: float, pixel: FloatArray, expected_px: FloatArray, held: BoolArray) -> int:
         """Which of the spots (D, 2) it is, -1 for none. ``expected_px`` (M, 2) where the markers should be; those
@@ -100,7 +91,7 @@ class NoDisc:
             return -1
         marker_px = expected_px[self.marker]
         guesses = [self._place_px] if self._was_seen else [self._place_px, marker_px + self._beside_px]
-        reach_px = self._settings.step_px if self._was_seen else self._settings.back_within_px
+        reach_px = STEP_PX if self._was_seen else BACK_WITHIN_PX
         away = np.min([np.linalg.norm(pixel - guess, axis=1) for guess in guesses if np.isfinite(guess).all()], axis=0)
         claims = expected_px[held & np.isfinite(expected_px).all(axis=1)]
         if len(claims):
@@ -147,9 +138,9 @@ class Hinted:
 class OperatorHints:
     """Remembers what a person said, and finds the spots again in every picture."""
 
-    def __init__(self, markers: Sequence[str], settings: HintSettings) -> None:
-        self._markers, self._settings = markers, settings
-        self._spots = RecentSpots(settings)
+    def __init__(self, markers: Sequence[str]) -> None:
+        self._markers = markers
+        self._spots = RecentSpots()
         self._answers: list[_Waiting] = []
         self._taken_up: list[SpotAnswer] = []
         self._no_discs: list[NoDisc] = []
@@ -193,7 +184,7 @@ class OperatorHints:
             now = self._now(one.answer)
             if now is None:
                 since_s = timestamp_s if math.isnan(one.since_s) else one.since_s
-                if timestamp_s - since_s < self._settings.answer_holds_s and one.answer.marker in self._markers:
+                if timestamp_s - since_s < ANSWER_HOLDS_S and one.answer.marker in self._markers:
                     self._answers.append(replace(one, since_s=since_s))
                 continue
             now = replace(now, index=index)
@@ -227,9 +218,7 @@ class OperatorHints:
         for place in answer.not_px:
             place_px = np.array(place)
             beside_px = place_px - expected_px()[marker]
-            self._no_discs.append(
-                NoDisc(marker, place_px, beside_px, time_s, self._settings, is_asked_again=said.is_asked_again)
-            )
+            self._no_discs.append(NoDisc(marker, place_px, beside_px, time_s, is_asked_again=said.is_asked_again))
         self._held[marker] = False
         if answer.place_px is None:
             self._taken_up.append(answer)
@@ -250,8 +239,4 @@ class OperatorHints:
             return None
         away_px = np.linalg.norm(pixel - heard.place_px, axis=1)
         blob = int(away_px.argmin())
-        return (
-            NamedSpot(heard, self._markers.index(heard.marker), blob)
-            if away_px[blob] <= self._settings.same_px
-            else None
-        )
+        return NamedSpot(heard, self._markers.index(heard.marker), blob) if away_px[blob] <= SAME_PX else None

@@ -7,10 +7,8 @@ from typing import Literal
 
 from carpus.core.names import Limits, check_limits
 from carpus.core.tracking.association import AssociationSettings
-from carpus.core.tracking.consistency import ConsistencySettings
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.motion import MotionNoise
-from carpus.core.tracking.operator_hints import HintSettings
 from carpus.core.tracking.palm_state import InitialSd
 from carpus.core.tracking.soft_tissue import SoftTissue
 from carpus.core.tracking.surface_fit import SurfaceSettings
@@ -86,7 +84,6 @@ class TrackerSettings:
     frame says of it taken for new, of a hand that moves; ``shape_stale`` what is left of that while it is still.
     ``tissue``: how skin and relief move; ``use_surface``: measure the back of the hand by its depth, as ``surface``
     says. ``unseen_scale``: the factor on the noise of turns that no disc shows.
-    ``said``: what becomes of what a person says of spots.
     ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost;
     ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
     """
@@ -109,8 +106,6 @@ class TrackerSettings:
     tissue: SoftTissue = field(default_factory=SoftTissue)
     use_surface: bool = True
     surface: SurfaceSettings = field(default_factory=SurfaceSettings)
-    doubt: ConsistencySettings = field(default_factory=ConsistencySettings)
-    said: HintSettings = field(default_factory=HintSettings)
     marker_radius_m: float = 0.006
     lost_after_s: float = 1.5
     rate_memory_s: float = 0.2

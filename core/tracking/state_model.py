@@ -114,6 +114,6 @@ DIGIT_MEASUREMENTS = (
     ),
     MeasurementPart(
         "knuckle", 1, "rad: flexion at a knuckle whose discs are hidden, by depth",
-        ("finger_depth.knuckle_bends",), ("FingerDepthSettings",),
+        ("finger_depth.knuckle_bends",), ("finger_depth.MIN_SD_RAD", "finger_depth.ALIKE"),
     ),
 )  # fmt: skip

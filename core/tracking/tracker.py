@@ -71,7 +71,7 @@ class FrameResults:
         self._markers = len(protocol.markers)
         joint_count = 0 if model is None else model.readout.reading.chain.size
         self.lost_moment: Moment = lost_moment(joint_count, self._markers)
-        self._doubt = ConsistencyTest(self._markers, settings.doubt)
+        self._doubt = ConsistencyTest(self._markers)
         self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
         self._nothing = np.zeros(joint_count or 3, dtype=np.int64)
         self._recently_measured = self._nothing
@@ -100,7 +100,7 @@ class FrameResults:
         nis, dof = posterior.palm.nis, posterior.palm.dof
         if fingers is not None:
             nis, dof = sum(part for part in (nis, fingers.nis) if not math.isnan(part)), dof + fingers.dof
-        over = passed_over(row.disc_cam_m, row.blob, scan.ideal, view.camera, self._settings.doubt)
+        over = passed_over(row.disc_cam_m, row.blob, scan.ideal, view.camera)
         doubt = self._doubt.watch(scan.dt_s, over, nis, dof, row.worst)
         if doubt.is_any and status is TrackStatus.TRACKED:
             status, moment = TrackStatus.DOUBTFUL, _widened(moment, doubt.widens)
@@ -199,7 +199,7 @@ class Tracker:
         """Names of the discs, in the order of every row."""
         self._filter = HandFilter(calibration, camera, settings)
         self._manager = TrackManager(MIN_FOUND_DISCS, settings.lost_after_s, amid_digits=protocol.has_fingers)
-        self._hints = OperatorHints(self.markers, settings.said)
+        self._hints = OperatorHints(self.markers)
         model = None if self._filter.fingers is None else self._filter.fingers.model
         self._results = FrameResults(protocol, self._filter.order, model, self._filter.readout, settings)
         palm = palm_of(calibration)

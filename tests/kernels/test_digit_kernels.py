@@ -17,7 +17,7 @@ from carpus.core.tracking.digit_filter import DigitPoints, DigitsLinearisation, 
 from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
 from carpus.core.tracking.digit_readout import Seat, seat_of
 from carpus.core.tracking.digit_search import _best_posture
-from carpus.core.tracking.finger_depth import FingerDepthSettings, knuckle_bends
+from carpus.core.tracking.finger_depth import knuckle_bends
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.hand_filter import HandFilter
@@ -274,8 +274,8 @@ def test_the_posture_that_explains_most(count: int) -> None:
 @pytest.mark.parametrize("flexion_deg", [10.0, 70.0])
 def test_bends_told_by_depth(flexion_deg: float) -> None:
     samples, root, asked = readings(flexion_deg), RIGHT_PALM_M[1:], [1, 2, 3, 4]
-    found = both(lambda: knuckle_bends(asked, states(), root, VIEW, samples, FingerDepthSettings()))
+    found = both(lambda: knuckle_bends(asked, states(), root, VIEW, samples))
     assert found.is_any
-    both(lambda: knuckle_bends(asked, states() + 0.3, root, VIEW, samples, FingerDepthSettings()))
+    both(lambda: knuckle_bends(asked, states() + 0.3, root, VIEW, samples))
     one = SurfaceSamples(samples.pixel[:1], samples.depth_m[:1])
-    both(lambda: knuckle_bends([2], states(), root, VIEW, one, FingerDepthSettings()))
+    both(lambda: knuckle_bends([2], states(), root, VIEW, one))

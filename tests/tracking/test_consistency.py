@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.tracking.consistency import ConsistencySettings, ConsistencyTest, passed_over
+from carpus.core.tracking.consistency import ConsistencyTest, passed_over
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Detections, SpotAnswer, TrackedFrame
@@ -18,7 +18,7 @@ NONE = np.zeros(3, dtype=bool)
 
 
 def test_a_disc_passed_over_for_long_is_doubted_by_name() -> None:
-    watch = ConsistencyTest(3, ConsistencySettings(unused_s=0.3))
+    watch = ConsistencyTest(3)
     over = np.array([False, True, False])
     said = [watch.watch(DT_S, over, 10.0, 10, 0) for _ in range(12)]
     assert not any(doubt.is_any for doubt in said[:9])
@@ -28,7 +28,7 @@ def test_a_disc_passed_over_for_long_is_doubted_by_name() -> None:
 
 
 def test_innovations_outside_their_bounds_widen_what_is_stated() -> None:
-    watch = ConsistencyTest(3, ConsistencySettings())
+    watch = ConsistencyTest(3)
     one = watch.watch(DT_S, NONE, 200.0, 10, 2)
     assert not one.is_any or one.widens < 3.0, "one surprise is not enough"
     for _ in range(30):
@@ -40,7 +40,7 @@ def test_innovations_outside_their_bounds_widen_what_is_stated() -> None:
 
 
 def test_nothing_measured_is_no_contradiction() -> None:
-    watch = ConsistencyTest(3, ConsistencySettings())
+    watch = ConsistencyTest(3)
     for _ in range(60):
         doubt = watch.watch(DT_S, NONE, float("nan"), 0, 0)
     assert not doubt.is_any
@@ -52,7 +52,7 @@ def test_only_a_free_blob_at_the_place_and_depth_is_passed_over() -> None:
     def over(assigned: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
         seen, some = Detections.none(), np.array(blob_px).reshape(-1, 2)
         seen = replace(seen, pixel=some, depth_m=np.array(blob_m))
-        return passed_over(disc_m, np.array(assigned), seen, CAMERA, ConsistencySettings()).tolist()
+        return passed_over(disc_m, np.array(assigned), seen, CAMERA).tolist()
 
     assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.7]) == [True, False]
     assert over([-1, 0], [[200.0, 100.0]], [0.7]) == [False, False]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from carpus.core.tracking import finger_depth
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitView
-from carpus.core.tracking.finger_depth import FLEXION, FingerDepthSettings, KnuckleBends, knuckle_bends, with_bends
+from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FINGER_STEP_PX, FloatArray, SurfaceSamples
@@ -45,9 +45,9 @@ def readings(flexion_deg: float, breadth_m: float = 0.008) -> SurfaceSamples:
     return SurfaceSamples(pixel, MIDDLE_M[2] - height)
 
 
-def bends(samples: SurfaceSamples, settings: FingerDepthSettings | None = None) -> KnuckleBends:
+def bends(samples: SurfaceSamples) -> KnuckleBends:
     """What the readings say of the index finger."""
-    return knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, samples, settings or FingerDepthSettings())
+    return knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, samples)
 
 
 @pytest.mark.parametrize("flexion_deg", [10.0, 30.0, 50.0, 70.0])
@@ -79,12 +79,14 @@ def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
     assert np.allclose(once.covariance[others], mixture.covariance[others])
 
 
-def test_what_is_said_is_never_surer_than_frames_that_err_alike() -> None:
-    usual = FingerDepthSettings()
-    found = bends(readings(50.0), usual)
-    single = bends(readings(50.0), replace(usual, alike=1.0, least_sd_rad=0.0))
-    assert found.variance_rad2[INDEX] >= 0.99 * usual.alike * usual.least_sd_rad**2
-    assert single.variance_rad2[INDEX] < usual.least_sd_rad**2
+def test_what_is_said_is_never_surer_than_frames_that_err_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    alike, least_sd_rad = finger_depth.ALIKE, finger_depth.MIN_SD_RAD
+    found = bends(readings(50.0))
+    monkeypatch.setattr(finger_depth, "ALIKE", 1.0)
+    monkeypatch.setattr(finger_depth, "MIN_SD_RAD", 0.0)
+    single = bends(readings(50.0))
+    assert found.variance_rad2[INDEX] >= 0.99 * alike * least_sd_rad**2
+    assert single.variance_rad2[INDEX] < least_sd_rad**2
 
 
 def covered(at: float, off_m: float) -> SurfaceSamples:

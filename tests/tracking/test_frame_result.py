@@ -8,6 +8,7 @@ import numpy as np
 
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.consistency import UNUSED_S
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import FrameResults
@@ -32,7 +33,7 @@ def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> 
         assert posterior.palm.assigned[MCP3] < 0
         return results.told(index, TrackStatus.TRACKED, posterior, scan, None, beside, 0)
 
-    patient = int(settings.doubt.unused_s / DT_S) + 1
+    patient = int(UNUSED_S / DT_S) + 1
     rows = [row(index) for index in range(patient + 3)]
     assert rows[0].status is TrackStatus.TRACKED
     assert rows[-1].status is TrackStatus.DOUBTFUL

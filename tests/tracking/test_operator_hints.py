@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.tracking.operator_hints import Hinted, HintSettings, OperatorHints
+from carpus.core.tracking.operator_hints import ANSWER_HOLDS_S, HOLDS_S, Hinted, OperatorHints
 from carpus.core.types import Detections, FloatArray, SpotAnswer
 
-OWN = HintSettings()
 MARKERS = ("WRIST", "MCP3")
 EXPECTED_PX = np.array([[100.0, 100.0], [200.0, 100.0]])
 
@@ -23,7 +22,7 @@ def shown(hints: OperatorHints, index: int, time_s: float, seen: Detections, at:
 
 
 def test_a_spot_that_is_named_is_followed_to_the_picture_that_hears_it() -> None:
-    hints = OperatorHints(MARKERS, OWN)
+    hints = OperatorHints(MARKERS)
     shown(hints, 0, 0.0, spots((50.0, 50.0), (199.0, 100.0)))
     hints.hear(SpotAnswer(0, "MCP3", (200.0, 101.0)))
     heard = shown(hints, 1, 0.1, spots((203.0, 104.0), (50.0, 50.0)))
@@ -38,11 +37,11 @@ def test_a_spot_that_is_named_is_followed_to_the_picture_that_hears_it() -> None
 
 @pytest.mark.parametrize(("after_s", "is_heard"), [(0.9, True), (1.1, False)])
 def test_an_answer_waits_for_its_spot_and_no_longer(after_s: float, is_heard: bool) -> None:
-    hints = OperatorHints(MARKERS, OWN)
+    hints = OperatorHints(MARKERS)
     shown(hints, 0, 0.0, spots((200.0, 100.0)))
     hints.hear(SpotAnswer(0, "MCP3", (200.0, 100.0)))
     hints.hear(SpotAnswer(0, "NOBODY", (200.0, 100.0)))
-    later_s = after_s * OWN.answer_holds_s
+    later_s = after_s * ANSWER_HOLDS_S
     for index, at_s in ((1, 0.0), (2, later_s)):
         assert shown(hints, index, at_s, spots((20.0, 20.0))).named is None
     assert (shown(hints, 3, later_s, spots((200.0, 100.0))).named is not None) == is_heard
@@ -50,7 +49,7 @@ def test_an_answer_waits_for_its_spot_and_no_longer(after_s: float, is_heard: bo
 
 @pytest.mark.parametrize(("after_s", "is_out"), [(0.99, True), (1.01, False)])
 def test_a_spot_that_is_no_disc_stays_left_out_for_its_time(after_s: float, is_out: bool) -> None:
-    hints = OperatorHints(MARKERS, OWN)
+    hints = OperatorHints(MARKERS)
     both = spots((200.0, 100.0), (230.0, 100.0))
     shown(hints, 0, 0.0, both)
     hints.hear(SpotAnswer(0, "MCP3", None, ((230.0, 100.0),)))
@@ -58,13 +57,13 @@ def test_a_spot_that_is_no_disc_stays_left_out_for_its_time(after_s: float, is_o
     assert first.no_disc.tolist() == [False, True]
     assert first.detections.pixel.tolist() == [[200.0, 100.0]]
     assert len(hints.taken_up()) == 1
-    assert shown(hints, 2, after_s * OWN.holds_s, both).no_disc.tolist() == [False, is_out]
+    assert shown(hints, 2, after_s * HOLDS_S, both).no_disc.tolist() == [False, is_out]
 
 
 def test_a_marker_that_was_held_keeps_the_spot_nearer_to_it() -> None:
     """What was no disc went out of sight beside its marker; what comes back nearer to a held one is that one's."""
     for is_held in (False, True):
-        hints = OperatorHints(MARKERS, OWN)
+        hints = OperatorHints(MARKERS)
         near = EXPECTED_PX[0] + [10.0, 0.0]
         seen = spots((float(near[0]), float(near[1])))
         shown(hints, 0, 0.0, seen)
@@ -77,7 +76,7 @@ def test_a_marker_that_was_held_keeps_the_spot_nearer_to_it() -> None:
 
 
 def test_of_a_lost_hand_a_spot_is_known_by_its_place_alone() -> None:
-    hints, nowhere = OperatorHints(MARKERS, OWN), np.full((2, 2), np.nan)
+    hints, nowhere = OperatorHints(MARKERS), np.full((2, 2), np.nan)
     seen = spots((230.0, 100.0))
     shown(hints, 0, 0.0, seen, nowhere)
     hints.hear(SpotAnswer(0, "MCP3", None, ((230.0, 100.0),)))

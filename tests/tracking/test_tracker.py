@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.tracking.consistency import ConsistencySettings
+from carpus.core.tracking import consistency
 from carpus.core.tracking.palm_state import SHAPE
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -575,11 +575,14 @@ def lost_and_found(shown_after: int) -> list[TrackStatus]:
     return statuses(track((k * DT_S, blobs(Pose(), rng, hidden=some)) for k, some in enumerate(hidden)))[back:]
 
 
-def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes() -> None:
+def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(i), pixel_sd_px=0.6)) for i, t in enumerate(times(20))]
-    sure, doubted = (
-        track(frames, replace(TrackerSettings(), doubt=ConsistencySettings(most_nis=most)))[-1] for most in (1e9, 0.0)
-    )
+    monkeypatch.setattr(consistency, "MAX_NIS", 1e9)
+    sure = track(frames)[-1]
+    monkeypatch.setattr(consistency, "MAX_NIS", 0.0)
+    doubted = track(frames)[-1]
     assert (sure.status, doubted.status) == (TrackStatus.TRACKED, TrackStatus.DOUBTFUL)
     assert np.array_equal(sure.moment.angles_rad, doubted.moment.angles_rad)
     widened = doubted.moment.angles_sd_rad / sure.moment.angles_sd_rad
