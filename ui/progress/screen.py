@@ -43,7 +43,7 @@ if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.library import Library
 
 LEAST_LETTERS = 14
-LEAST_CHART_PX = 360
+LEAST_CHART_PX, SIDE_PX = 360, 380
 FILTERS_PX = 1180
 """What the row above the sentence needs with everything in it."""
 
@@ -129,8 +129,8 @@ class ProgressScreen(Fitted):
         self._filters.setDirection(direction)
         self._columns.setDirection(direction)
         self._side.unroll(on=narrow)
-        self._side.setMinimumWidth(0 if narrow else self._theme.px(352))
-        self._side.setMaximumWidth(NO_LIMIT_PX if narrow else self._theme.px(352))
+        self._side.setMinimumWidth(0 if narrow else self._theme.px(SIDE_PX))
+        self._side.setMaximumWidth(NO_LIMIT_PX if narrow else self._theme.px(SIDE_PX))
         self.chart.setMinimumHeight(self._theme.px(LEAST_CHART_PX) if narrow else 0)
         self.span.setVisible(not narrow)
         self.report_button.set_face(self.report_button.text(), hint="" if narrow else "Ctrl+P")
@@ -286,6 +286,7 @@ class _Row(QWidget):
         column = in_column(gap=0, margins=(0, 3, 0, 3), within=self)
         top, below = QHBoxLayout(), QHBoxLayout()
         top.addWidget(Text(theme, name, 14, REGULAR, "text2"))
+        top.addSpacing(8)
         top.addStretch(1)
         word = StateText(theme, 14, SEMIBOLD, 16)
         state = {"improved": "good", "worse": "bad"}.get(verdict, "none")

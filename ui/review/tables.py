@@ -262,7 +262,7 @@ class FurtherTable(_Table[FurtherRow]):
         width = (self.width() - self.BETWEEN_PX * (columns - 1)) / columns
         head, height = self.HEAD_PX * scale, self.ROW_PX * scale
         self._write(painter, self._title, QRectF(0, 0, self.width(), head), self._face(14, SEMIBOLD), "text")
-        for column in range(columns):
+        for column in range(min(columns, len(self.rows))):
             box = QRectF(column * (width + self.BETWEEN_PX), 0, width, head)
             self._write(painter, self._day, box, self._face(12, MEDIUM), "text2", RIGHT)
         for place, row in enumerate(self.rows):

@@ -45,4 +45,5 @@ class CameraCard(Card):
         """No camera is there to be calibrated or checked."""
         for button in (self.check_button, self.calibrate_button):
             button.hide()
-        self.show_status("none", self.tr("In the demo the camera is simulated: there is nothing to calibrate."))
+        self._sign.hide()  # an empty sign would set the words in
+        self._state.setText(self.tr("In the demo the camera is simulated: there is nothing to calibrate."))
