@@ -45,6 +45,9 @@ from carpus.core.records.values import entry_of, unless_away
 from carpus.core.results.progress import NAMES_DOUBTED
 from carpus.core.session.reader import read_outline, read_session
 
+_MOVING = threading.Lock()
+"""Held by who moves sessions from this computer: what Stop is publishing is not brought home as well, as when the
+server comes back at that moment."""
 MOST_TOLD = 3
 """Files that are told one by one when the program starts; more are told together."""
 
@@ -74,7 +77,12 @@ def recover(library: Library) -> tuple[Sequence[Recovered], Sequence[CarpusFault
         look_for_share(library.store)
     except FolderMissing as fault:
         return [], [*faults, fault]
-    recovered, told = bring_home(library.folder, partial(_folder_of, library))
+    recovered, told = list[Path](), list[CarpusFault]()
+    if _MOVING.acquire(blocking=False):  # else another thread is at it
+        try:
+            recovered, told = bring_home(library.folder, partial(_folder_of, library))
+        finally:
+            _MOVING.release()
     faults += [*told, *([WaitingErased()] * delete_left_behind(library.store))]
     files = FilesOfSessions(library.store)
     of_before = recover_recordings(library.store.sessions_folder, given_up=files.given_up())
@@ -124,13 +132,18 @@ def _published(path: Path, folder_for: Callable[[], Path]) -> Path:
             done.append(write_fault(path, cause))
 
     thread = threading.Thread(target=work, name="publishing", daemon=True)
-    thread.start()
-    thread.join(PUBLISHED_WITHIN_S)
+    if _MOVING.acquire(timeout=PUBLISHED_WITHIN_S):
+        try:
+            thread.start()
+            thread.join(PUBLISHED_WITHIN_S)
+            if done and isinstance(done[0], Path):
+                remove_published(path)
+        finally:
+            _MOVING.release()
     if not done:
         raise OutputNotWritable(path, phrase("no answer for {seconds} s", seconds=f"{PUBLISHED_WITHIN_S:.0f}"))
     if isinstance(done[0], CarpusFault):
         raise done[0]
-    remove_published(path)
     return done[0]
 
 

@@ -62,6 +62,23 @@ def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, libra
         assert list(recordings_folder(tmp_path / "data").iterdir()) == []
 
 
+def test_session_that_is_being_published_is_not_brought_home_as_well(
+    library: Library, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    found: list[object] = []
+    copy = new_sessions.copy_session
+
+    def copied(path: Path, folder: Path) -> Path:
+        found.append(recover(library))  # the server is back at this moment
+        return copy(path, folder)
+
+    monkeypatch.setattr(new_sessions, "copy_session", copied)
+    NewSessions(library).entered(set_up(key, "Linden 42"), recorded(library, key))
+    assert found == [([], [])]
+    assert len(library.sessions(key)) == 1
+
+
 def test_share_that_hangs_is_not_waited_for(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
     key = library.patients.add(PatientEntry("Linden 42", "left"))
     told: list[CarpusFault] = []
