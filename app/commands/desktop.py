@@ -104,9 +104,8 @@ def _opened(
                 _take_restored(settings.data_folder)
                 continue
             drop_unfinished(settings.data_folder)
-            if settings.run_folder is not None:
-                before = usual
-            else:
+            before = usual
+            if settings.run_folder is None:
                 before = None if is_demo else note_data_folder(settings.data_folder)
             other = [] if before is None else [DataFolderChanged(settings.data_folder, str(before))]
             desktop = compose.compose(qt, settings, is_demo=is_demo, told=[*other, *told])

@@ -21,7 +21,6 @@ from carpus.ui.translate import inside, tr
 ROW_PX = 58
 TICK_PX, TICK_LEFT_PX = 20, 18
 MOST_TICKED = 2
-SIGN_PX = 16
 COLUMNS = (0.062, 0.242, 0.490, 0.680, 0.760, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
 TWO_LINES_BELOW_PX, TWO_LINES = 720, (0.42, 0.84, 1.0)
