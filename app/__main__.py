@@ -24,12 +24,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import NoReturn
 
-from carpus import __version__
 from carpus.app.command_line import CommandParser, flushed, on_stop, open_closed, say
 from carpus.app.commands import COMMANDS
 from carpus.core.durable import FULL
 from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.purpose import PURPOSE
+from carpus.core.version import __version__
 
 EXIT_DONE, EXIT_COULD_NOT = 0, 1
 

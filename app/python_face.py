@@ -17,7 +17,6 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from carpus import __version__
 from carpus.app.of_file import note, note_exported, read_choices
 from carpus.app.sources import open_recording
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared
@@ -155,7 +154,7 @@ class OpenedSession(Session):
 
     def provenance(self) -> Mapping[str, Any]:
         """Of what, by what and with what it was made."""
-        return provenance(self, __version__)
+        return provenance(self)
 
 
 def track(
@@ -211,7 +210,7 @@ def write_session(
     source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_warn)
     try:
         track_recording(
-            source, told, out, replace(chosen, smooth=smooth and chosen.smooth), software_version=__version__,
+            source, told, out, replace(chosen, smooth=smooth and chosen.smooth),
             subject_id=subject_id, exercise=exercise, path=recorded,
         )  # fmt: skip
     finally:
@@ -459,7 +458,7 @@ def export(
         form = FOR_PROGRAMS if region is None else form_of(region)
     except ValueError as cause:
         raise SettingsInvalid(where, str(cause)) from cause
-    done = export_sessions(wanted, into, chosen, software_version=__version__, deidentified=deidentified, form=form)
+    done = export_sessions(wanted, into, chosen, deidentified=deidentified, form=form)
     note_exported(done, deidentified=deidentified)
     return done
 

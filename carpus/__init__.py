@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from carpus.core.version import __version__
+
 if TYPE_CHECKING:
     from carpus.app.python_face import compare, export, open_session, propose_clicks, simulate, track, write_session
-
-__version__ = "0.2.0"
 
 __all__ = [
     "__version__", "compare", "export", "open_session", "propose_clicks", "simulate", "track", "write_session",

@@ -10,6 +10,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from carpus.core.version import __version__
+
 _REVISION_LENGTH = 40
 REVISION_FILE = "revision.txt"
 """Beside the other resources of an installed program; a checkout knows its revision itself."""
@@ -30,10 +32,10 @@ def revision() -> str:
     return ""
 
 
-def with_revision(software_version: str) -> str:
+def version_with_revision() -> str:
     """``0.1.0 (1a2b3c4)``; the version alone where nobody knows the revision."""
     known = revision()
-    return f"{software_version} ({known[:7]})" if known else software_version
+    return f"{__version__} ({known[:7]})" if known else __version__
 
 
 def said_in(parameters: str, part: str) -> dict[str, Any]:

@@ -30,10 +30,10 @@ class NotReleasableError(Exception):
 
 
 def version_of(text: str) -> str:
-    """Of ``carpus/__init__.py``, the one place where it stands."""
+    """Of ``core/version.py``, the one place where it stands."""
     found = re.search(r'^__version__ = "(.+)"', text, re.MULTILINE)
     if found is None:
-        raise NotReleasableError("carpus/__init__.py names no version")
+        raise NotReleasableError("core/version.py names no version")
     return found[1]
 
 
@@ -60,7 +60,7 @@ def check_tree(status: str, tags: str, version: str) -> None:
     if status.strip():
         raise NotReleasableError(f"something is not committed: {status.split()[1]}")
     if f"v{version}" in tags.split():
-        raise NotReleasableError(f"v{version} was released already: raise __version__ in carpus/__init__.py")
+        raise NotReleasableError(f"v{version} was released already: raise __version__ in core/version.py")
 
 
 def checksums(paths: list[Path]) -> str:
@@ -112,7 +112,7 @@ def write_apt(folder: Path, packages: list[Path], key: str) -> None:
 
 def release(key: str, *, with_tests: bool) -> list[Path]:
     """All of it; the files."""
-    version = version_of((ROOT / "carpus" / "__init__.py").read_text(encoding="utf-8"))
+    version = version_of((ROOT / "core" / "version.py").read_text(encoding="utf-8"))
     changes_of((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), version)
     check_tree(asked("git", "status", "--porcelain"), asked("git", "tag"), version)
     if with_tests:

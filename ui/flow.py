@@ -54,7 +54,6 @@ class ScreenContext:
     """As chosen now."""
     today: Callable[[], date]
     """The day now: the program may stand open for days."""
-    version: str
     """Of Carpus, for what is written."""
     is_demo: bool = False
     patient_sound: bool = False

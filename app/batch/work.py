@@ -11,7 +11,6 @@ from typing import Literal
 
 from threadpoolctl import threadpool_limits
 
-from carpus import __version__
 from carpus.app.settings import load_settings
 from carpus.app.sources import TrackingInput, open_recording, tell_assumed
 from carpus.core.calibration.clicks import read_clicks
@@ -26,6 +25,7 @@ from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import SessionFigure, measure_rows
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
+from carpus.core.version import __version__
 from carpus.core.words import one_sentence
 
 Result = Literal["tracked", "kept", "fault"]
@@ -119,7 +119,7 @@ def _tracked(task: Task, said: list[str]) -> None:
             said.append("the recording does not say when the hand moved")
 
     if place.clicks is None:
-        retrack_session(place.recording, place.session, task.settings, software_version=__version__, on_verdict=doubt)
+        retrack_session(place.recording, place.session, task.settings, on_verdict=doubt)
         return
 
     def tell(fault: CarpusFault) -> None:
@@ -139,7 +139,6 @@ def _tracked(task: Task, said: list[str]) -> None:
             read_clicks(place.clicks, camera.width_px, camera.height_px),
             place.session,
             task.settings,
-            software_version=__version__,
             subject_id=task.subject_id,
             exercise=task.exercise,
             on_verdict=doubt,

@@ -7,7 +7,6 @@ import os
 from datetime import datetime
 from pathlib import Path
 
-from carpus import __version__
 from carpus.app.command_line import bar, tell
 from carpus.app.of_file import copy_of_server, initials, open_store
 from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
@@ -54,7 +53,6 @@ def run(arguments: argparse.Namespace) -> int:
         made = back_up(
             folder,
             place,
-            software_version=__version__,
             sessions=share,
             copy=copy_of_server(folder),
             settings_folder=settings_folder(),

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from carpus import __version__
 from carpus.app.command_line import add_region, misused, number
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S
 from carpus.core.hand.protocols import SITES
@@ -109,7 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
     for line in [*lines(result.compared), *limit_lines(result.compared.pairs, arguments.limit)]:
         print(line)
     if arguments.output is not None:
-        for path in write_files(result, arguments.output, __version__, arguments.form):
+        for path in write_files(result, arguments.output, arguments.form):
             print(f"Written: {path}")
         from carpus.ui.report.agreement_plot import write_plots
 
@@ -140,7 +139,7 @@ def _study(arguments: argparse.Namespace) -> int:
     if arguments.output is not None:
         from carpus.ui.report.agreement_plot import write_plots
 
-        files = write_study(study, arguments.output, __version__, arguments.form)
+        files = write_study(study, arguments.output, arguments.form)
         picture = replace(study.as_compared(), pairs=tuple(known))
         if known:
             files += write_plots(picture, arguments.output, arguments.study.stem, arguments.limit)

@@ -7,12 +7,12 @@ from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
 
-from carpus import __version__
 from carpus.app.command_line import CAMERA_HELP, camera_address
 from carpus.app.settings import Settings, load_settings
 from carpus.core.calibration.card.checks import examine_cameras
 from carpus.core.capture.doctor import examine
 from carpus.core.errors import CarpusFault
+from carpus.core.version import __version__
 from carpus.core.words import one_sentence
 
 EXAMPLE = "carpus doctor --camera realsense"

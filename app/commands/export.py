@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus import __version__
 from carpus.app.command_line import add_region, bar, tell
 from carpus.app.of_file import note_exported
 from carpus.core.errors import SessionsMissing
@@ -54,7 +53,6 @@ def run(arguments: argparse.Namespace) -> int:
             [Wanted.stored(path, read_choices) for path in paths],
             arguments.output,
             arguments.format,
-            software_version=__version__,
             deidentified=arguments.deidentified,
             form=arguments.form,
             progress=progress,

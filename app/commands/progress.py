@@ -10,7 +10,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus import __version__
 from carpus.app.command_line import add_region, misused, tell
 from carpus.core.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.measures.change import ErrorLimits
@@ -71,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
             application = ensure_application()
             write_progress_report(
                 figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
-                software_version=__version__, form=form_of(settings.data_folder),
+                form=form_of(settings.data_folder),
             )  # fmt: skip
             del application
         else:

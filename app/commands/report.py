@@ -6,7 +6,6 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from carpus import __version__
 from carpus.app.command_line import say
 from carpus.app.of_file import made
 from carpus.app.settings import ANGLE_ORDERS, load_settings
@@ -70,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
         figures = [session_figures(*one, limits) for one in zip(sessions, choices, strict=True)]
         for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
             say(f"session {older} is left out: a newer result of its recording counts.")
-        write_progress_report(figures, arguments.output, software_version=__version__, **look)
+        write_progress_report(figures, arguments.output, **look)
     del application
     made([(one.path, one.header.session_id) for one in sessions], [arguments.output], "report")
     print(f"Report: {arguments.output}")

@@ -10,7 +10,6 @@ from typing import get_args
 
 import numpy as np
 
-from carpus import __version__
 from carpus.app.command_line import bar, count, misused, number, say, tell
 from carpus.app.of_file import note
 from carpus.app.settings import load_settings
@@ -31,6 +30,7 @@ from carpus.core.research.papers.chain import PaperSettings
 from carpus.core.research.papers.track import PaperTrackSettings, settings_told
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.tracking.settings import Profile
+from carpus.core.version import __version__
 
 EXAMPLE = """carpus track out/demo --calibration out/demo/calibration.json --output out/demo.h5
 carpus track recordings --output sessions"""
@@ -285,7 +285,6 @@ def _recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
                 clicks,
                 arguments.output,
                 settings,
-                software_version=__version__,
                 subject_id=arguments.subject or "",
                 exercise=arguments.exercise,
                 start_angles_rad=start,
@@ -345,7 +344,6 @@ def _again(arguments: argparse.Namespace, *, was_told: bool) -> int:
             arguments.recording,
             arguments.output,
             settings,
-            software_version=__version__,
             progress=progress,
             on_verdict=warn,
         )

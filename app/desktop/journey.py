@@ -11,7 +11,6 @@ from datetime import date, datetime
 from functools import partial
 from pathlib import Path
 
-from carpus import __version__
 from carpus.app.desktop.bar import Bar
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.screens import PLACES, Screens, flow_class
@@ -68,7 +67,7 @@ class Journey(Screens):
         self.context = ScreenContext(
             shell, theme, parts.library, self.background, messages, self.way, self.now, self.opener,
             self.camera_state, parts.cameras, LastPlaces(parts.library.folder), parts.settings.report, parts.today,
-            __version__, parts.is_demo, parts.settings.patient.sound,
+            parts.is_demo, parts.settings.patient.sound,
             parts.settings.recording.keep_pictures, MB_PER_MINUTE,
         )  # fmt: skip
         for place in PLACES:

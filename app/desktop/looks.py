@@ -6,8 +6,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QApplication
 
-from carpus import __version__
 from carpus.app.settings import Settings
+from carpus.core.version import __version__
 from carpus.ui import language
 from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon

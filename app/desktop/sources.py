@@ -9,7 +9,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from carpus import __version__
 from carpus.app.desktop.hand_calibrator import HandCalibrator, Pictures
 from carpus.app.desktop.practice import TakesDrawn, practice_times
 from carpus.app.settings import Settings
@@ -151,7 +150,7 @@ class Sources:
         """What is opened, with what else :class:`SourceMeasuring` is ``told`` of it."""
         track = self._track(set_up)
         measuring = SourceMeasuring(
-            session, source.info, set_up, track, self._places, software_version=__version__,
+            session, source.info, set_up, track, self._places,
             listener=self._listener(session, set_up), **told,
         )  # fmt: skip
         calibrator = HandCalibrator(

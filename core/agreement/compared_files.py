@@ -66,9 +66,9 @@ def compare_files(
     return Result(compared, session, reference_path)
 
 
-def write_files(result: Result, folder: Path, software_version: str, form: TableForm = FOR_PROGRAMS) -> list[Path]:
+def write_files(result: Result, folder: Path, form: TableForm = FOR_PROGRAMS) -> list[Path]:
     """Write the tables into a folder; the files. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
-    said = provenance(result.session, software_version)
+    said = provenance(result.session)
     said["reference"] = {"file": result.reference.name, "sha256": sha256_of_file(result.reference)}
     return write_tables(result.compared, folder, result.stem, said, result.reference.name, form)
 

@@ -25,6 +25,7 @@ from carpus.core.phrase import phrase
 from carpus.core.provenance import sha256_of_file
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.rounding import written
+from carpus.core.version import __version__
 from carpus.core.words import one_sentence
 
 NEEDED = ("person", "session", "reference")
@@ -200,9 +201,7 @@ def _few(one: OfPeople) -> list[str]:
     return [str(words) for words in out]
 
 
-def write_study(
-    study: AgreementStudy, folder: Path, software_version: str, form: TableForm = FOR_PROGRAMS
-) -> list[Path]:
+def write_study(study: AgreementStudy, folder: Path, form: TableForm = FOR_PROGRAMS) -> list[Path]:
     """Write ``STEM.study.csv`` (first all people, then each session) and ``STEM.study.json``; the files."""
     stem = study.table.stem
     rows = [
@@ -221,7 +220,7 @@ def write_study(
         for line, why in study.left_out
     ]  # fmt: skip
     said: dict[str, Any] = {
-        "software": "Carpus", "software_version": software_version, "table": study.table.name,
+        "software": "Carpus", "software_version": __version__, "table": study.table.name,
         "table_sha256": sha256_of_file(study.table), "differences": "Carpus less reference",
         "limits": "Bland and Altman 2007, the true value varies, people's means unweighted; intervals by Zou 2013",
         "angles": [

@@ -119,7 +119,6 @@ def export_sessions(
     folder: Path,
     formats: Sequence[str],
     *,
-    software_version: str,
     deidentified: bool = False,
     form: TableForm = FOR_PROGRAMS,
     progress: Callable[[int, int], None] | None = None,
@@ -150,7 +149,7 @@ def export_sessions(
     names: set[str] = set()
     for one in sessions:
         try:
-            take = replace(_take(one, nobody, names, software_version), form=form)
+            take = replace(_take(one, nobody, names), form=form)
             for writer in writers:
                 stopped = stopped or cancelled()
                 if stopped:
@@ -183,7 +182,7 @@ def _nobody(sessions: Iterable[Wanted]) -> Deidentification:
     return nobody
 
 
-def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version: str) -> Take:
+def _take(one: Wanted, nobody: Deidentification | None, names: set[str]) -> Take:
     session, choices = one.read()
     camera = session.camera
     # Before anybody's days are moved.
@@ -200,7 +199,7 @@ def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version
         number += 1
         name = f"{base}-{number}"
     names.add(name)
-    said = provenance(session, version, deidentified=nobody is not None)
+    said = provenance(session, deidentified=nobody is not None)
     figures = session_figures(session, choices)
     by_hand = of_session(one.by_hand, figures.side, day)
     if nobody is not None:  # day, place and initials are a person's own

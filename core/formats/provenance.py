@@ -17,6 +17,7 @@ from carpus.core.camera import Camera
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.session.values import SET_UP, Event, Session, SessionHeader, SessionOutline
 from carpus.core.types import FloatArray
+from carpus.core.version import __version__
 
 LEGAL = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
@@ -31,15 +32,12 @@ FOCAL_STEP = 25.0 / 640.0
 """Of the picture's width: units of one kind differ by less."""
 
 
-def provenance(session: Session, software_version: str, deidentified: bool = False) -> dict[str, Any]:
-    """As plain values for JSON; ``software_version`` of the program that runs.
-
-    De-identified: no hash, name or date leads back.
-    """
+def provenance(session: Session, deidentified: bool = False) -> dict[str, Any]:
+    """As plain values for JSON. De-identified: no hash, name or date leads back."""
     header = session.header
     source, settings = (made_by.said_in(header.parameters, part) for part in ("source", "settings"))
     out: dict[str, Any] = {
-        "made_by": {"program": "Carpus", "version": software_version, "revision": made_by.revision()},
+        "made_by": {"program": "Carpus", "version": __version__, "revision": made_by.revision()},
         "of": {
             "subject_id": header.subject_id,
             "session_id": header.session_id,

@@ -51,13 +51,10 @@ class CorrectionTask:
     table: DetectionTable
     output: Path
     corrections: tuple[Correction, ...]
-    software_version: str
     by: str = ""
 
 
-def task_of(
-    origin: Path, output: Path, corrections: Sequence[Correction], software_version: str, by: str = ""
-) -> CorrectionTask:
+def task_of(origin: Path, output: Path, corrections: Sequence[Correction], by: str = "") -> CorrectionTask:
     """Read what is needed. Raises :class:`NotCorrectable` for a session without stored blobs, or tracked by another
     filter."""
     session, table = read_session(origin), read_detections(origin)
@@ -65,7 +62,7 @@ def task_of(
         raise NotCorrectable(origin, phrase("it stored no blue spots"))
     if is_of_other_filter(session.header.parameters):
         raise NotCorrectable(origin, phrase("another filter than Carpus’ own tracked it"))
-    return CorrectionTask(session, table, output, tuple(corrections), software_version, by)
+    return CorrectionTask(session, table, output, tuple(corrections), by)
 
 
 def correct(task: CorrectionTask, progress: Progress | None = None) -> None:
@@ -76,8 +73,7 @@ def correct(task: CorrectionTask, progress: Progress | None = None) -> None:
     ordered = _by_picture(task)
     retracking = _Retracking(session, task.table, settings, ordered)
     writer = writer_again(
-        session, task.output, settings, retracking.learnt, session.calibration, task.software_version,
-        {"corrected": "yes"},
+        session, task.output, settings, retracking.learnt, session.calibration, {"corrected": "yes"},
     )  # fmt: skip
     said = [Event(float(session.timestamp_s[one.row]), CORRECTED, said_of(one, task.by)) for one in ordered]
     write_tracked(

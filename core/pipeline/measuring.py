@@ -237,7 +237,6 @@ class SourceMeasuring:
         settings: TrackSettings,
         places: NewSessions,
         *,
-        software_version: str,
         recording: Path | None = None,
         on_begin: Callable[[], None] = lambda: None,
         on_recording: Callable[[], None] = lambda: None,
@@ -246,7 +245,6 @@ class SourceMeasuring:
     ) -> None:
         self._listener = listener
         self._session, self._info, self._set_up, self._settings = session, info, set_up, settings
-        self._software_version = software_version
         self._places, self._recording, self._starts_with_recording = places, recording, recording is not None
         self._on_begin, self._on_recording, self._on_chosen = on_begin, on_recording, on_chosen
         self._played = False
@@ -326,7 +324,6 @@ class SourceMeasuring:
         header = new_header(
             hand=calibration.clicks.side,
             protocol=calibration.clicks.protocol,
-            software_version=self._software_version,
             subject_id=self._set_up.subject_id,
             exercise=self._set_up.exercise.id,
             parameters=self._parameters(learnt),

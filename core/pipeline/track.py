@@ -359,7 +359,6 @@ def track_recording(
     output: Path,
     settings: TrackSettings,
     *,
-    software_version: str,
     subject_id: str = "",
     exercise: str = "",
     start_angles_rad: FloatArray | None = None,
@@ -391,7 +390,6 @@ def track_recording(
     header = new_header(
         hand=clicks.side,
         protocol=clicks.protocol,
-        software_version=software_version,
         subject_id=subject_id,
         exercise=exercise,
         parameters=parameters_json(settings, _recording_facts(source.info, recorded, path), begun.learnt, set_up),
@@ -426,7 +424,6 @@ def retrack_session(
     output: Path,
     settings: TrackSettings,
     *,
-    software_version: str,
     progress: Progress | None = None,
     on_verdict: Callable[[Verdict], None] | None = None,
 ) -> TrackReport:
@@ -446,7 +443,6 @@ def retrack_session(
             session.calibration.clicks,
             output,
             settings,
-            software_version=software_version,
             subject_id=old.subject_id,
             exercise=old.exercise,
             start_angles_rad=session.calibration.start_angles_rad,
@@ -458,7 +454,7 @@ def retrack_session(
             path=origin,
             said=session,
         )
-    return _retrack_detections(origin, session, output, settings, software_version, progress)
+    return _retrack_detections(origin, session, output, settings, progress)
 
 
 def _retrack_detections(
@@ -466,7 +462,6 @@ def _retrack_detections(
     session: Session,
     output: Path,
     settings: TrackSettings,
-    software_version: str,
     progress: Progress | None,
 ) -> TrackReport:
     table = read_detections(origin)
@@ -476,7 +471,7 @@ def _retrack_detections(
     tracker, look_back = settings.follow(calibration, session.camera, learnt)
     tracked = tracked_again(session, tracker, learnt, table.of_frame)
     facts = {"sha256": sha256_of_file(origin)}
-    writer = writer_again(session, output, settings, learnt, calibration, software_version, facts)
+    writer = writer_again(session, output, settings, learnt, calibration, facts)
     return write_tracked(writer, tracked, look_back, calibration.verdict, len(session), progress, notes_in(session))
 
 
@@ -503,7 +498,6 @@ def writer_again(
     settings: TrackSettings,
     learnt: Learnt,
     calibration: Calibration,
-    software_version: str,
     facts: Mapping[str, str],
 ) -> SessionWriter:
     """The file of another result of the recording that a session is of, from its blobs."""
@@ -513,7 +507,6 @@ def writer_again(
     header = new_header(
         hand=old.hand,
         protocol=old.protocol,
-        software_version=software_version,
         subject_id=old.subject_id,
         exercise=old.exercise,
         parameters=parameters_json(settings, source, learnt, old.set_up),

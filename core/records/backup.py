@@ -38,6 +38,7 @@ from carpus.core.records.reserve import RESERVE_FILE
 from carpus.core.records.session_list import COPY_SUFFIX
 from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
 from carpus.core.session.disk import TEMPORARY, free_name
+from carpus.core.version import __version__
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
@@ -95,7 +96,6 @@ def back_up(
     data_folder: Path,
     place: Path,
     *,
-    software_version: str,
     sessions: Path | None = None,
     settings_folder: Path | None = None,
     copy: Callable[[], sqlite3.Connection] | None = None,
@@ -115,12 +115,10 @@ def back_up(
     for folder in (place, place / OBJECTS, place / BACKUPS):
         make_private(folder)
     with _alone(place):
-        return _back_up(data_folder, sources, place, software_version, now or datetime.now().astimezone(), progress)
+        return _back_up(data_folder, sources, place, now or datetime.now().astimezone(), progress)
 
 
-def _back_up(
-    data_folder: Path, sources: BackupSources, place: Path, software_version: str, now: datetime, progress: Progress
-) -> Backup:
+def _back_up(data_folder: Path, sources: BackupSources, place: Path, now: datetime, progress: Progress) -> Backup:
     before = backups(place)
     known = {one.path: one for one in before[0].files} if before else {}
     done, total = 0, 2 * sources.size_bytes or 1
@@ -152,7 +150,7 @@ def _back_up(
     name = free_name(place / BACKUPS / f"{when:%Y-%m-%dT%H%M%S}.json").stem  # two of one second are two all the same
     made = Backup(
         name, when, tuple(files), sum(one.path.endswith(".h5") for one in files), sum(one.size for one in files),
-        len(lacking), software_version, str(data_folder.absolute()),
+        len(lacking), __version__, str(data_folder.absolute()),
     )  # fmt: skip
     replace_text(place / BACKUPS / f"{made.name}.json", json.dumps(told(made), indent=1))
     if lacking:

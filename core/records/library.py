@@ -304,7 +304,6 @@ class Library:
         progress: Callable[[int, int], None] | None = None,
         cancelled: Callable[[], bool] = lambda: False,
         deidentified: bool = False,
-        software_version: str = "",
         form: TableForm = FOR_PROGRAMS,
     ) -> Sequence[str]:
         """Write a session as open formats into a folder, as it is listed and with a person's choices; the names of the
@@ -316,7 +315,6 @@ class Library:
             [wanted],
             Path(folder),
             formats,
-            software_version=software_version,
             deidentified=deidentified,
             form=form,
             progress=progress,

@@ -20,6 +20,7 @@ from carpus.core.dates import is_moment
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.names import name_of
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, Side, SurfaceSamples, TrackedFrame
+from carpus.core.version import __version__
 
 IntArray = NDArray[np.integer]
 
@@ -98,7 +99,6 @@ def new_header(
     *,
     hand: Side,
     protocol: MarkerProtocol,
-    software_version: str,
     subject_id: str = "",
     exercise: str = "",
     parameters: str = "{}",
@@ -122,7 +122,7 @@ def new_header(
         hand=hand,
         protocol=protocol,
         exercise=exercise,
-        software_version=software_version,
+        software_version=__version__,
         parameters=parameters,
         origin=origin,
         joint_names=protocol.joint_names(dip_free),

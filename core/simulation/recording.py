@@ -11,7 +11,6 @@ import signal
 import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
-from importlib.metadata import PackageNotFoundError, version
 from itertools import islice
 from pathlib import Path
 
@@ -43,14 +42,6 @@ _PNG_LEVEL = [cv2.IMWRITE_PNG_COMPRESSION, 1]
 
 Progress = Callable[[int, int], None]
 """Called with frames done and frames in all."""
-
-
-def version_of_program() -> str:
-    """The installed version, as written into files."""
-    try:
-        return version("carpus")
-    except PackageNotFoundError:
-        return "unknown"
 
 
 class SimulatedPictures:
@@ -177,7 +168,7 @@ def _filled(pictures: SimulatedPictures, folder: Path, progress: Progress | None
     clicks = clicks_of(truth)
     try:
         (folder / CLICKS_FILE).write_text(clicks_json(clicks), encoding="utf-8")
-        write_truth(folder / TRUTH_FILE, truth, clicks, version_of_program())
+        write_truth(folder / TRUTH_FILE, truth, clicks)
         _write_lists(folder, lists)
     except OSError as cause:
         raise write_fault(folder, cause) from cause

@@ -132,14 +132,13 @@ VISIBLE_SHARE_PATH = "/simulation/visible_share"
 _PALM_NEEDED = 3
 
 
-def write_truth(path: Path, truth: Truth, clicks: Clicks, software_version: str) -> None:
+def write_truth(path: Path, truth: Truth, clicks: Clicks) -> None:
     """Write the true values; ``parameters`` is the JSON of the spec, standard deviations are zero, and measured
     is what the camera can see of the discs. The same truth gives the same file, byte for byte."""
     spec = truth.spec
     header = new_header(
         hand=spec.hand,
         protocol=spec.marker_protocol,
-        software_version=software_version,
         exercise=spec.motion,
         parameters=spec.to_json(),
         dip_free=spec.dip == "free",

@@ -76,7 +76,6 @@ def run_one(row: str, seed: int) -> BadRun:
                 clicks,
                 output,
                 TrackSettings(),
-                software_version="accuracy",
                 on_verdict=verdicts.append,
             )
         except CarpusFault as fault:

@@ -84,7 +84,7 @@ def measured_session(folder: Path, settings: TrackSettings | None = None) -> Mea
     with tempfile.TemporaryDirectory() as place:
         output = Path(place) / "session.h5"
         begin = time.process_time()
-        track_recording(source, clicks, output, settings or TrackSettings(), software_version="accuracy")
+        track_recording(source, clicks, output, settings or TrackSettings())
         ms = 1e3 * (time.process_time() - begin)
         session, table = read_session(output), read_detections(output)
     learnt = learnt_in(session.header.parameters)

@@ -100,7 +100,7 @@ def test_people_measured_once_and_unknown_values_take_no_part() -> None:
 def written(folder: Path, person: int, time: int, when: datetime, reach_deg: float) -> Path:
     """Flexion to and fro by ``reach_deg`` to both sides, four times."""
     header = new_header(
-        hand="right", protocol=make_calibration().clicks.protocol, software_version="0", subject_id=f"P{person:02d}",
+        hand="right", protocol=make_calibration().clicks.protocol, subject_id=f"P{person:02d}",
         exercise="WRIST_FE", now=when, session_id=uuid.uuid4(),
     )  # fmt: skip
     path = folder / f"P{person:02d}-{time}.h5"

@@ -50,7 +50,7 @@ def recording(rendered: Rendered) -> Path:
 @pytest.fixture
 def session(tmp_path: Path) -> Path:
     path = tmp_path / "session.h5"
-    header = new_header(hand="right", protocol=WRIST6, software_version="0")
+    header = new_header(hand="right", protocol=WRIST6)
     SessionWriter.create(path, header, CAMERA, make_calibration(WRIST6)).close()
     return path
 

@@ -59,7 +59,6 @@ def store(
     header = new_header(
         hand="right",
         protocol=make_calibration().clicks.protocol,
-        software_version="0",
         subject_id=wanted.pseudonym,
         exercise=wanted.exercise.id,
         parameters=parameters,

@@ -174,7 +174,7 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
     tracker = Tracker(wrong, CAMERA, learnt.applied(settings.tracker))
     pipeline = LivePipeline(FramePipeline(Blobs(), tracker), -np.inf)  # type: ignore[arg-type]
     header = new_header(
-        hand="right", protocol=right.clicks.protocol, software_version="0.1", subject_id="Linden 42",
+        hand="right", protocol=right.clicks.protocol, subject_id="Linden 42",
         exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), dip_free=False,
     )  # fmt: skip
     said: list[SpotAnswer] = []
@@ -213,7 +213,7 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
     assert event.kind == SPOT_SAID
     assert event.time_s == measured.timestamp_s[said_at - begun_at]
     correct(task_of(path, tmp_path / "corrected.h5", (), "0.2"))
-    retrack_session(path, tmp_path / "again.h5", TrackSettings(), software_version="0.2")
+    retrack_session(path, tmp_path / "again.h5", TrackSettings())
     for anew in ("corrected.h5", "again.h5"):
         again = read_session(tmp_path / anew)
         np.testing.assert_array_equal(np.isfinite(again.markers.measured_px[:, MCP3, 0]), used)

@@ -55,7 +55,7 @@ def sessions(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     folder, out = tmp_path_factory.mktemp("sessions"), []
     for day in (0, 7):
         header = new_header(
-            hand="right", protocol=make_calibration().clicks.protocol, software_version="0", subject_id="Linden 42",
+            hand="right", protocol=make_calibration().clicks.protocol, subject_id="Linden 42",
             exercise="WRIST_FE", now=DAY + timedelta(days=day), session_id=uuid.uuid4(),
         )  # fmt: skip
         out.append(folder / f"day{day}.h5")
@@ -110,7 +110,7 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path, 
     path.parent.mkdir(parents=True)
     calibration = replace(make_calibration(), rotation_w0_cam=np.diag([1.0, -1.0, -1.0]))
     header = new_header(
-        hand="right", protocol=calibration.clicks.protocol, software_version="0", exercise="WRIST_FE", now=DAY,
+        hand="right", protocol=calibration.clicks.protocol, exercise="WRIST_FE", now=DAY,
         session_id=uuid.uuid4(),
     )  # fmt: skip
     still = {"rotation_w2_w0": np.eye(3), "position_m": np.zeros(3), "w0_turn_rad": np.zeros(3)}

@@ -41,7 +41,7 @@ def test_colour_alone_is_warned_of(option: str, warned: bool, tmp_path: Path, co
 
 def stored(path: Path, protocol: MarkerProtocol = WRIST6, version: str = __version__, **header: Any) -> Path:
     """A session without a frame."""
-    made = new_header(hand="right", protocol=protocol, software_version=version, **header)
+    made = replace(new_header(hand="right", protocol=protocol, **header), software_version=version)
     SessionWriter.create(path, made, CAMERA, make_calibration(protocol)).close()
     return path
 

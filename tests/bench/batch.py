@@ -28,7 +28,7 @@ WANTED = 300.0
 def _tracked(path: Path, clicks: Clicks, number: int) -> int:
     output = path.with_name(f"{number}.h5")
     settings = TrackSettings()
-    return track_recording(RawRecording(path), clicks, output, settings, software_version="bench", path=path).frames
+    return track_recording(RawRecording(path), clicks, output, settings, path=path).frames
 
 
 def of_raw() -> Iterator[str]:

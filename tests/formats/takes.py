@@ -90,7 +90,7 @@ def _stopping(path: Path) -> Path:
 
 
 def take_of(session: Session, name: str = "one") -> Take:
-    return Take(session, session_figures(session), name, provenance(session, "0.1.0"))
+    return Take(session, session_figures(session), name, provenance(session))
 
 
 def wrist_take(folder: Path) -> Take:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import uuid
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,7 @@ from carpus.core.session.writer import SessionWriter
 from tests.formats.takes import stored
 from tests.session.samples import begun, make_header
 
-export_sessions = partial(formats.export_sessions, software_version="0.1.0")
+export_sessions = formats.export_sessions
 
 
 @pytest.mark.parametrize("deidentified", [False, True])

@@ -148,7 +148,7 @@ def test_the_measures_are_json_that_every_reader_takes(tmp_path: Path) -> None:
 
 def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -> None:
     one, two = stored(tmp_path), stored(tmp_path, HAND21, name="two")
-    export_sessions([Wanted.stored(one), Wanted.stored(two)], tmp_path / "set", ["bids"], software_version="0")
+    export_sessions([Wanted.stored(one), Wanted.stored(two)], tmp_path / "set", ["bids"])
     command = [sys.executable, "-c", "import sys, bids_validator_deno as b; sys.exit(b.cli())"]
     done = subprocess.run(
         [*command, str(tmp_path / "set"), "--format", "json"], capture_output=True, text=True, check=False, timeout=120
@@ -157,7 +157,7 @@ def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -
     assert [issue for issue in issues if issue["severity"] == "error"] == []
     for _ in range(2):
         with pytest.raises(OutputExists):
-            export_sessions([Wanted.stored(one)], tmp_path / "set", ["bids"], software_version="0")
+            export_sessions([Wanted.stored(one)], tmp_path / "set", ["bids"])
         (tmp_path / "set" / "dataset_description.json").unlink(missing_ok=True)  # of a killed export there is none yet
     assert not list((tmp_path / "set").rglob("*_run-2_*"))
 
@@ -165,7 +165,7 @@ def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -
 def test_what_is_no_data_set_of_carpus_stays_beside_one(tmp_path: Path) -> None:
     (tmp_path / "sub-notes.txt").touch()
     (tmp_path / "sub-other" / "ses-1" / "anat").mkdir(parents=True)
-    done = export_sessions([Wanted.stored(stored(tmp_path))], tmp_path, ["bids"], software_version="0")
+    done = export_sessions([Wanted.stored(stored(tmp_path))], tmp_path, ["bids"])
     assert (bool(done.files), done.refused) == (True, ())
 
 

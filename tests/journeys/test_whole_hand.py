@@ -82,7 +82,7 @@ def is_the_movement(path: Path, hand_take: Path) -> None:
 
 def looked_back_as_tracking_it_again(path: Path, again: Path) -> None:
     """What the running session was looked back at is what ``carpus track SESSION.h5`` makes of its detections."""
-    retrack_session(path, again, Settings().track, software_version="test")
+    retrack_session(path, again, Settings().track)
     live, offline = read_session(path), read_session(again)
     assert live.complete
     assert not live.events

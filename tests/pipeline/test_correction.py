@@ -62,7 +62,7 @@ def wrongly_tracked(folder: Path) -> Stored:
     path = folder / "session.h5"
     learnt = Learnt(0.15, 1.0, -np.inf)
     header = new_header(
-        hand="right", protocol=calibrated.clicks.protocol, software_version="0.1", subject_id="Linden 42",
+        hand="right", protocol=calibrated.clicks.protocol, subject_id="Linden 42",
         exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), now=LONG_AGO,
     )  # fmt: skip
     tracker = Tracker(calibrated, CAMERA, learnt.applied(settings.tracker))
@@ -248,7 +248,7 @@ def hand(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path, settings, truth = tmp_path_factory.mktemp("hand") / "hand.h5", TrackSettings(), seen.truth
     learnt = learnt_from(measured.noise, neutral_ends_s, settings.tracker)
     header = new_header(
-        hand="right", protocol=measured.calibration.clicks.protocol, software_version="0.1", subject_id="Linden 42",
+        hand="right", protocol=measured.calibration.clicks.protocol, subject_id="Linden 42",
         exercise="FINGER_ABDUCTION", parameters=parameters_json(settings, {}, learnt), dip_free=False,
     )  # fmt: skip
     tracker = Tracker(measured.calibration, truth.camera, learnt.applied(settings.tracker))

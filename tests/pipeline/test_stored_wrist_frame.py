@@ -50,7 +50,7 @@ def test_stored_pose_of_w0_takes_the_wrist_to_where_its_disc_is(
     clicks = read_clicks(recording / CLICKS_FILE, 640, 480)
     source = TumFolder(recording)
     start = np.radians(start_deg)
-    track_recording(source, clicks, tmp_path / "s.h5", settings, software_version="1", start_angles_rad=start)
+    track_recording(source, clicks, tmp_path / "s.h5", settings, start_angles_rad=start)
     source.close()
     with h5py.File(tmp_path / "s.h5") as file:
         to_cam, origin = file["calibration/rotation"][()], file["calibration/translation"][()]

@@ -36,10 +36,9 @@ from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, Frame
+from carpus.core.version import __version__
 from tests.rendered import LEFT_DEVIATION, Rendered, truth_in
 from tests.session.samples import make_frame
-
-VERSION = "1.2.3-test"
 
 
 @dataclass(frozen=True)
@@ -71,13 +70,13 @@ def made(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Made:
 def track(folder: Path, clicks: Clicks, output: Path, settings: TrackSettings | None = None, **kwargs) -> TrackReport:  # type: ignore[no-untyped-def]
     source = TumFolder(folder)
     try:
-        return track_recording(source, clicks, output, settings or TrackSettings(), software_version=VERSION, **kwargs)
+        return track_recording(source, clicks, output, settings or TrackSettings(), **kwargs)
     finally:
         source.close()
 
 
 def again(made: Made, output: Path, settings: TrackSettings | None = None) -> TrackReport:
-    return retrack_session(made.session, output, settings or TrackSettings(), software_version=VERSION)
+    return retrack_session(made.session, output, settings or TrackSettings())
 
 
 def angles(path: Path, group: str = "wrist") -> FloatArray:
@@ -100,7 +99,7 @@ def test_recording_becomes_a_complete_session(made: Made) -> None:
         assert file.attrs["protocol"] == "wrist6"
         assert file.attrs["subject_id"] == "P-7"
         assert file.attrs["exercise"] == "radial and ulnar"
-        assert file.attrs["software_version"] == VERSION
+        assert file.attrs["software_version"] == __version__
         assert np.array_equal(file["frames/timestamp"], made.truth.timestamp_s), "times as in the recording"
         assert set(np.asarray(file["frames/status"])) == {0}
         for name in ("wrist/position", "wrist/velocity", "wrist/rotation", "wrist/angular_velocity", "wrist/angles"):
@@ -140,7 +139,7 @@ def test_tracking_again_from_detections_gives_the_same_angles(made: Made, tmp_pa
             assert new.attrs[name] == old.attrs[name]
         assert np.array_equal(new["markers/measured"], old["markers/measured"], equal_nan=True)
         assert np.array_equal(new["detections/pixel"], old["detections/pixel"])
-    retrack_session(tmp_path / "again.h5", tmp_path / "third.h5", TrackSettings(), software_version=VERSION)
+    retrack_session(tmp_path / "again.h5", tmp_path / "third.h5", TrackSettings())
     assert np.array_equal(angles(tmp_path / "third.h5"), angles(made.session)), "and again from that"
 
 
@@ -150,7 +149,7 @@ def test_pictures_unpacked_only_where_they_are_looked_at_give_the_same(made: Mad
         for frame in source.frames():
             writer.append_frame(frame)
     raw = RawRecording(tmp_path / "r.carpusraw")
-    track_recording(raw, made.clicks, tmp_path / "new.h5", TrackSettings(), software_version=VERSION)
+    track_recording(raw, made.clicks, tmp_path / "new.h5", TrackSettings())
     with h5py.File(made.session) as old, h5py.File(tmp_path / "new.h5") as new:
         for name in ("wrist/angles", "smoothed/wrist/angles", "detections/pixel", "detections/depth", "surface/depth"):
             np.testing.assert_array_equal(new[name], old[name])
@@ -257,7 +256,7 @@ def test_a_recording_without_pictures_is_empty_not_a_session(made: Made, tmp_pat
     info = source.info
     source.close()
     with pytest.raises(RecordingEmpty):
-        track_recording(NoFrames(info), made.clicks, tmp_path / "s.h5", TrackSettings(), software_version=VERSION)
+        track_recording(NoFrames(info), made.clicks, tmp_path / "s.h5", TrackSettings())
     assert list(tmp_path.iterdir()) == []
 
 
@@ -278,7 +277,7 @@ def test_what_is_told_with_a_recording_stays_when_it_is_tracked_again(made: Made
     keep_pictures(made.folder, first, with_pictures)
     for origin, form in ((first, None), (with_pictures, "session")):
         again = origin.with_suffix(".again.h5")
-        retrack_session(origin, again, settings, software_version="1")
+        retrack_session(origin, again, settings)
         session = read_session(again)
         header = session.header
         assert json.loads(header.parameters)["source"].get("format") == form
@@ -309,7 +308,7 @@ def test_a_session_without_a_row_can_be_tracked_again(made: Made, tmp_path: Path
     with SessionWriter.create(empty, whole.header, whole.camera, whole.calibration):
         pass
     again = tmp_path / "again.h5"
-    retrack_session(empty, again, TrackSettings(), software_version="test")
+    retrack_session(empty, again, TrackSettings())
     assert len(read_session(again)) == 0
 
 
@@ -333,5 +332,5 @@ def test_a_session_whose_calibration_or_blobs_make_no_sense_is_refused(
         values.flat[values.size // 2] = value
         file[place][...] = values
     with pytest.raises(SessionUnreadable, match="damaged"):
-        retrack_session(damaged, tmp_path / "again.h5", TrackSettings(), software_version=VERSION)
+        retrack_session(damaged, tmp_path / "again.h5", TrackSettings())
     assert not list(tmp_path.glob("again*"))

@@ -96,7 +96,6 @@ def record(
     header = new_header(
         hand="right" if hand == "right" else "left",
         protocol=WRIST6,
-        software_version="0",
         subject_id=subject,
         exercise="WRIST_FE",
         now=when,

@@ -77,7 +77,7 @@ def place(tmp_path: Path) -> Path:
 
 
 def backed_up(data: Path, place: Path, now: datetime = NOW, **options: Any) -> Backup:
-    return back_up(data, place, software_version="1", now=now, **options)
+    return back_up(data, place, now=now, **options)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -246,7 +246,7 @@ def test_a_folder_that_holds_nothing_of_the_program_is_no_data_folder(place: Pat
     (tmp_path / "pictures").mkdir()
     (tmp_path / "pictures" / "holiday.txt").write_text("x")
     with pytest.raises(NoDataFolder):
-        back_up(tmp_path / "pictures", place, software_version="1")
+        back_up(tmp_path / "pictures", place)
     assert not place.exists()
 
 
@@ -333,7 +333,7 @@ def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
 
 
 def test_a_newer_or_foreign_list_is_refused(data: Path, place: Path) -> None:
-    path = place / BACKUPS / f"{back_up(data, place, software_version='1', now=NOW).name}.json"
+    path = place / BACKUPS / f"{back_up(data, place, now=NOW).name}.json"
     told = json.loads(path.read_text())
     for change in (
         {"format_version": 2},
@@ -399,7 +399,7 @@ def test_the_sessions_of_a_share_are_in_it(data: Path, place: Path, tmp_path: Pa
     restored(place, made, tmp_path / "new")
     assert contents(tmp_path / "new" / "sessions") == contents(share)
     with pytest.raises(BackupPlaceUnsuited):
-        back_up(data, share / "backup", software_version="1", sessions=share)
+        back_up(data, share / "backup", sessions=share)
     share.rename(tmp_path / "away")
     with pytest.raises(BackupIncomplete):
         backed_up(data, place, sessions=share)

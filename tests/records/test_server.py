@@ -299,7 +299,7 @@ def test_a_back_up_holds_what_the_server_has(tmp_path: Path, there: str) -> None
     with opened(tmp_path / "data", there) as house:
         linden = house.patients.add(LINDEN)
         fill(house, linden)
-        back_up(tmp_path / "data", tmp_path / "place", software_version="1", copy=house.store.copied)
+        back_up(tmp_path / "data", tmp_path / "place", copy=house.store.copied)
         wanted = {name: house.store.rows(select(table).order_by(table.c.id)) for name, table in TABLES.items()}
     restore(backups(tmp_path / "place")[0], tmp_path / "place", tmp_path / "alone", Past())
     put_in_place(tmp_path / "alone", T0)

@@ -331,7 +331,7 @@ def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
     assert np.allclose(wrist, stored.markers.position_cam_m[:, 0], atol=1e-4)
     output = tmp_path / "session.h5"
     source = TumFolder(folder)
-    track_recording(source, read_clicks(folder / CLICKS_FILE), output, TrackSettings(), software_version="test")
+    track_recording(source, read_clicks(folder / CLICKS_FILE), output, TrackSettings())
     session = read_session(output)
     assert np.mean(session.status == 0) > 0.9
     assert np.allclose(session.timestamp_s, truth.timestamp_s)

@@ -157,7 +157,6 @@ def write_truth(path: Path, truth: Truth, clicks_px: FloatArray, told: dict[str,
     header = new_header(
         hand=truth.side,
         protocol=truth.protocol,
-        software_version="second patient",
         exercise=str(told["row"]),
         parameters=parameters,
         dip_free=True,

@@ -33,7 +33,6 @@ def make_header(
     return new_header(
         hand="left",
         protocol=protocol,
-        software_version="0.1.0",
         subject_id=subject,
         exercise="wrist flexion",
         parameters='{"profile": "standard"}',

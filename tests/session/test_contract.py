@@ -14,6 +14,7 @@ import pytest
 
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.values import motion_of
+from carpus.core.version import __version__
 from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once
 
 N = 40
@@ -146,7 +147,7 @@ def test_attributes(tmp_path: Path) -> None:
         assert created.utcoffset() is not None
         assert created.timestamp() == datetime.fromisoformat("2026-11-13T16:30:00+01:00").timestamp()
         assert (said["hand"], said["protocol"], said["exercise"]) == ("left", "wrist6", "wrist flexion")
-        assert said["software_version"] == "0.1.0"
+        assert said["software_version"] == __version__
         assert json.loads(said["parameters"]) == {"profile": "standard"}
         assert bool(said["complete"]) is True
         assert said["origin"] == "earlier.h5"

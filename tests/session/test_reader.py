@@ -155,7 +155,7 @@ def test_a_header_without_zone_or_with_wrong_joints_is_not_made() -> None:
         dataclasses.replace(header, joint_names=("CMC1_extension",))
     with pytest.raises(ValueError):
         dataclasses.replace(header, parameters="not JSON")
-    first, second = (new_header(hand="right", protocol=HAND21, software_version="0.1.0") for _ in range(2))
+    first, second = (new_header(hand="right", protocol=HAND21) for _ in range(2))
     assert first.session_id != second.session_id
 
 

@@ -25,7 +25,6 @@ def write(path: Path, tracked: datetime = TRACKED, recorded: datetime = MOVED, r
     header = new_header(
         hand="right",
         protocol=WRIST6,
-        software_version="0.1.0",
         subject_id="Linden 42",
         exercise="WRIST_FE",
         now=tracked,

@@ -62,7 +62,7 @@ class Kills:
         folder.mkdir(parents=True)
         self._data, self._place = data_folder(folder / "data"), folder / "disk"
         begin_s = time.monotonic()
-        self._made = back_up(self._data, self._place, software_version="1", now=NOW)
+        self._made = back_up(self._data, self._place, now=NOW)
         if kind != "back-up":
             begin_s = time.monotonic()
             restore(self._made, self._place, folder / "first", Past())
@@ -80,12 +80,12 @@ class Kills:
             (self._data / f"kept{one}.carpusraw").write_bytes(random.Random(f"{number} {one}").randbytes(PICTURE_BYTES))
         before = backups(self._place)
         when = NOW + timedelta(minutes=number + 1)
-        ended = killed_after(lambda: back_up(self._data, self._place, software_version="1", now=when), after_s)
+        ended = killed_after(lambda: back_up(self._data, self._place, now=when), after_s)
         after = backups(self._place)
         assert len(after) - len(before) in ((1,) if ended else (0, 1))
         for one in after[:2]:
             compare(self._place, one)
-        made = back_up(self._data, self._place, software_version="1", now=when + timedelta(seconds=30))
+        made = back_up(self._data, self._place, now=when + timedelta(seconds=30))
         thin_out(self._place, 1, 0, made.made)
         assert [one.name for one in backups(self._place)] == [made.name]
         needed = {one.sha256 for one in made.files}

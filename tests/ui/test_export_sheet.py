@@ -33,7 +33,7 @@ class Stored:
 
     def export(
         self, session_id: str, folder: str, formats: Sequence[str], progress: Callable[[int, int], None],
-        cancelled: Callable[[], bool], deidentified: bool, software_version: str, form: TableForm,
+        cancelled: Callable[[], bool], deidentified: bool, form: TableForm,
     ) -> Sequence[str]:  # fmt: skip
         self.calls.append((formats, deidentified))
         self.forms.append(form)

@@ -315,7 +315,7 @@ def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
     assert words in method(figures_once(session(), None, ErrorLimits((STUDY,))), 6, compared=True)
     few = replace(STUDY, limits=(replace(ARC, people=9),))
     assert limit_words() in method(figures_once(session(), None, ErrorLimits((few,))), 6, compared=True)
-    shown = said(SettingsScreen(theme, Preferences(), "1", ErrorLimits((STUDY,))))
+    shown = said(SettingsScreen(theme, Preferences(), ErrorLimits((STUDY,))))
     for piece in (
         "On 27 Nov 2026 with 12 people in 24 sessions",
         "In force",
@@ -324,7 +324,7 @@ def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
         "Extension",
     ):
         assert piece in shown
-    assert "Not in force: 10 people" in said(SettingsScreen(theme, Preferences(), "1", ErrorLimits((few,))))
+    assert "Not in force: 10 people" in said(SettingsScreen(theme, Preferences(), ErrorLimits((few,))))
     assert "Measured by this clinic" not in said(SettingsScreen(theme, Preferences()))
 
 

@@ -260,7 +260,7 @@ def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path)
 
 def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
     sessions = FakeSessions().history("linden")
-    report = progress_report(sessions, software_version=carpus.__version__)
+    report = progress_report(sessions)
     said = made_of(report.made_by, report.sessions)
     right = [one for one in sessions if one.side == "right"]
     assert said.startswith(f"Made by Carpus {carpus.__version__}")

@@ -93,7 +93,7 @@ class CorrectFlow(Flow):
         def work() -> bool:
             trial.append(self._stored.trial_path(session_id))
             origin = self.context.library.entry(session_id).path
-            task = task_of(origin, trial[0], corrections, self.context.version, self.context.report.therapist)
+            task = task_of(origin, trial[0], corrections, self.context.report.therapist)
             return correct_in_process(task, self._tell_progress, self._stopping)
 
         def done(finished: bool) -> None:

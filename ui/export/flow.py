@@ -47,7 +47,7 @@ class Exporting(QObject):
 
         def write() -> Sequence[str]:
             return context.library.export(
-                session_id, folder, formats, self._stepped.emit, self._stop.is_set, deidentified, context.version, form
+                session_id, folder, formats, self._stepped.emit, self._stop.is_set, deidentified, form
             )
 
         def written(names: Sequence[str]) -> None:

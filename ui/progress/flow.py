@@ -55,7 +55,6 @@ class ProgressFlow(Flow):
             pseudonym=self.context.now.name,
             therapist=self.context.report.therapist,
             what=followed if isinstance(followed, str) else None,
-            software_version=self.context.version,
             by_hand=self.screen.progress.by_hand,
             other_hand=self.screen.progress.other_hand,
         )

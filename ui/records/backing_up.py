@@ -144,7 +144,6 @@ class BackingUp(QObject):
         made = back_up(
             self._library.folder,
             place,
-            software_version=self._context.version,
             sessions=store.sessions_folder,
             copy=store.copied if store.server is not None else None,
             settings_folder=self._settings_folder,

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.core.measures.by_hand import HandValue, of_session
-from carpus.core.provenance import said_in, with_revision
+from carpus.core.provenance import said_in, version_with_revision
 from carpus.core.results.figures import SessionFigures, data_digest, session_figures
 from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.progress import limits_of, newest_results, other_hand_of, previous_of, progress
@@ -92,7 +92,6 @@ def progress_report(
     pseudonym: str = "",
     therapist: str = "",
     what: str | None = None,
-    software_version: str = "",
     by_hand: Sequence[HandValue] = (),
     form: ReportForm | None = None,
     language: str = "",
@@ -102,15 +101,13 @@ def progress_report(
     ``other_hand`` where that is none of the ``sessions``.
 
     ``what`` of the whole hand is followed, as of :func:`followed_kinds`; the first of them by itself.
-    ``software_version`` is of the program that makes it, the newest session's where it is not given; ``by_hand`` what
-    counts of what was measured by hand of this hand and person.
+    ``by_hand`` is what counts of what was measured by hand of this hand and person.
     """
     newest = max(sessions, key=lambda figures: figures.when)
     alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
     kinds = followed_kinds(newest)
     followed = followed_keys(what if what is not None else kinds[0][0]) if kinds else ()
     course = progress(alike, other_hand or other_hand_of(sessions, newest), followed)
-    made_by = with_revision(software_version) if software_version else newest.software_version
     course = replace(course, by_hand=tuple(by_hand))
     name = pseudonym or newest.subject_id or "–"
-    return ProgressReport(course, name, therapist, made_by, form or ReportForm(), language)
+    return ProgressReport(course, name, therapist, version_with_revision(), form or ReportForm(), language)

@@ -34,7 +34,7 @@ class SettingsFlow(Flow):
 
     def __init__(self, context: ScreenContext, chosen: Preferences, updates: str, read_figures: ReadFigures) -> None:
         measured = context.library.error_limits
-        super().__init__(context, SettingsScreen(context.theme, chosen, context.version, measured))
+        super().__init__(context, SettingsScreen(context.theme, chosen, measured))
         self.screen.of_demo.setVisible(context.is_demo)
         self._updates, self._background, self._read_figures = updates, Background(), read_figures
         self.retest = RetestSheet(context.shell, context.theme)

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from carpus.core.about import is_newer
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.rounding import written
+from carpus.core.version import __version__
 from carpus.ui import terms
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.card import Card
@@ -38,11 +39,9 @@ class SettingsScreen(QWidget):
 
     changed = Signal(Preferences)
 
-    def __init__(
-        self, theme: Theme, preferences: Preferences, version: str = "", measured: ErrorLimits = DEFAULT_LIMITS
-    ) -> None:
+    def __init__(self, theme: Theme, preferences: Preferences, measured: ErrorLimits = DEFAULT_LIMITS) -> None:
         super().__init__()
-        self._theme, self.preferences, self._version, self._measured = theme, preferences, version, measured
+        self._theme, self.preferences, self._measured = theme, preferences, measured
         self.looks = Choices(
             theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), ("system", self.tr("As the computer"))],
             preferences.theme,
@@ -194,7 +193,7 @@ class SettingsScreen(QWidget):
         return self._card(
             self.tr("About Carpus"),
             "",
-            Text(theme, self.tr("Version {version}, MIT licence.").format(version=self._version), 14),
+            Text(theme, self.tr("Version {version}, MIT licence.").format(version=__version__), 14),
             Text(theme, terms.legal_notice(), 14, SEMIBOLD, wrap=True),
             self.newer,
             (self.licences, 0, Qt.AlignmentFlag.AlignLeft),
@@ -298,7 +297,7 @@ class SettingsScreen(QWidget):
         read."""
         if newest is None:
             words = self.tr("The folder of the clinic’s packages cannot be read: {folder}.")
-        elif is_newer(newest, self._version):
+        elif is_newer(newest, __version__):
             words = self.tr(
                 "Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions "
                 "and settings stay. Make a back-up before."
