@@ -74,8 +74,8 @@ def _told() -> int:
 
 def _say(plan: ErasurePlan) -> None:
     print(f"This goes: {plan.sessions} sessions, {len(plan.files)} files, {written(plan.size_bytes / 1e6, 1)} MB")
-    for one in plan.made:
-        print(f"This stays, delete it yourself: {one.kind} {one.path}")
+    for path in plan.made:
+        print(f"This stays, delete it yourself: {path}")
     for path in plan.outside:
         print(f"This stays, look at it yourself, it lies in no patient's folder: {path}")
     print("This stays: back-ups and files copied elsewhere; Carpus cannot reach them.")

@@ -25,7 +25,7 @@ from carpus.core.records.changes import ERASED, RowChange, changed, dropped, fin
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_clinic import forget_places
-from carpus.core.records.of_sessions import MadeFile, made_from
+from carpus.core.records.of_sessions import made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import DIAGNOSIS, PATIENT, RECIPIENT, SEEN, SESSION
@@ -47,8 +47,7 @@ from carpus.core.session.disk import below
 @dataclass(frozen=True, slots=True)
 class ErasurePlan:
     """What would go. ``sessions`` counts recordings; ``files`` lie in the data folder; ``made`` are files that Carpus
-    made elsewhere and does not touch; ``outside`` lies in no patient's folder, and a person has to look at it;
-    ``others`` counts the patient's recordings that stay."""
+    made elsewhere and does not touch; ``outside`` lies in no patient's folder, and a person has to look at it."""
 
     kind: Kind
     identity: str
@@ -58,9 +57,8 @@ class ErasurePlan:
     sessions: int
     files: tuple[Path, ...]
     size_bytes: int
-    made: tuple[MadeFile, ...]
+    made: tuple[Path, ...]
     outside: tuple[Path, ...]
-    others: int = 0
 
 
 def plan_session(store: Store, session_id: str) -> ErasurePlan:
@@ -68,9 +66,7 @@ def plan_session(store: Store, session_id: str) -> ErasurePlan:
     is not in the store, :class:`ErasureLeadsOut`, :class:`FolderMissing` for a share that is away."""
     FilesOfSessions(store).take_in(tells=False)
     sessions = ListedSessions(store)
-    results, patient_id = sessions.results_of(session_id), sessions.owner(session_id)
-    mine = {one.recording_id for one in sessions.of_patient(patient_id, archived=True)} if patient_id else set()
-    return _plan(store, "session", session_id, patient_id, results, len(mine - {results[0].recording_id}))
+    return _plan(store, "session", session_id, sessions.owner(session_id), sessions.results_of(session_id))
 
 
 def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
@@ -79,12 +75,10 @@ def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
     FilesOfSessions(store).take_in(tells=False)
     Patients(store).one(patient_id)
     results = ListedSessions(store).of_patient(patient_id, archived=True)
-    return _plan(store, "patient", patient_id, patient_id, results, 0)
+    return _plan(store, "patient", patient_id, patient_id, results)
 
 
-def _plan(
-    store: Store, kind: Kind, identity: str, patient_id: str, results: Sequence[SessionEntry], others: int
-) -> ErasurePlan:
+def _plan(store: Store, kind: Kind, identity: str, patient_id: str, results: Sequence[SessionEntry]) -> ErasurePlan:
     going, sessions = [patient_id] if kind == "patient" else [], [one.session_id for one in results]
     if results:
         look_for_share(store)
@@ -96,7 +90,7 @@ def _plan(
         kind, identity, patient_id, Patients(store).one(patient_id).entry.pseudonym if patient_id else "",
         tuple(results), len({one.recording_id for one in results}), tuple(files),
         sum(path.lstat().st_size for path in files), tuple(made_from(store, sessions)),
-        _outside(store, patient_id) if kind == "patient" else (), others,
+        _outside(store, patient_id) if kind == "patient" else (),
     )  # fmt: skip
 
 

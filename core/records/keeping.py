@@ -108,10 +108,6 @@ class Records:
         except KeyError:
             raise SessionUnreadable(patient_id, phrase("not in the list of patients")) from None
 
-    def values_by_hand(self, patient_id: str) -> int:
-        """How many values a person has measured go with a patient."""
-        return len(self._library.by_hand(patient_id))
-
     def erase(self, plan: ErasurePlan) -> int:
         """Do what a plan says. Raises what :func:`erasure.erase` does."""
         for one in plan.results:

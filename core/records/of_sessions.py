@@ -84,14 +84,6 @@ def change_of(session_id: str, kept: RepetitionChoices, version: int = 0) -> Row
     return changed(CORRECTION, session_id, version, **values)
 
 
-@dataclass(frozen=True, slots=True)
-class MadeFile:
-    """A file outside the data folder."""
-
-    path: Path
-    kind: MadeKind
-
-
 def remember_made(store: Store, paths: Iterable[Path], kind: MadeKind, session_ids: Sequence[str]) -> None:
     """Take down files that were just made from these sessions, so that they can be named when one is erased."""
     store.do(
@@ -103,8 +95,7 @@ def remember_made(store: Store, paths: Iterable[Path], kind: MadeKind, session_i
     )
 
 
-def made_from(store: Store, session_ids: Iterable[str]) -> list[MadeFile]:
+def made_from(store: Store, session_ids: Iterable[str]) -> list[Path]:
     """What was made from any of these sessions, alone or with others, and is still there."""
-    rows = store.rows(select(MADE.c.path, MADE.c.kind).where(MADE.c.session_id.in_(list(session_ids))))
-    kinds = {row.path: row.kind for row in rows}
-    return [MadeFile(Path(path), kinds[path]) for path in sorted(kinds) if os.path.isfile(path)]  # noqa: PTH113  # also where nobody may look
+    rows = store.rows(select(MADE.c.path).where(MADE.c.session_id.in_(list(session_ids))).distinct())
+    return [Path(path) for path in sorted(row.path for row in rows) if os.path.isfile(path)]  # noqa: PTH113  # also where nobody may look

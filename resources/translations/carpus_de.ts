@@ -7791,40 +7791,12 @@
         <translation>Zum Löschen geben Sie hier „{name}“ ein</translation>
     </message>
     <message>
-        <source>1 file</source>
-        <translation>1 Datei</translation>
-    </message>
-    <message>
-        <source>{count} files</source>
-        <translation>{count} Dateien</translation>
-    </message>
-    <message>
-        <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes ({files}, {size} MB).</source>
-        <translation>Der Eintrag des Patienten, echter Name und Notizen, und {count} Sitzungen mit allen Winkeln, Bildern und Notizen ({files}, {size} MB).</translation>
-    </message>
-    <message>
-        <source>The patient’s entry, real name and notes, and 1 session with all angles, pictures and notes ({files}, {size} MB).</source>
-        <translation>Der Eintrag des Patienten mit echtem Namen und Notizen und 1 Sitzung mit allen Winkeln, Bildern und Notizen ({files}, {size} MB).</translation>
-    </message>
-    <message>
         <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}.</source>
         <translation>Anderswo gespeicherte Berichte und Exporte löschen Sie selbst ({n}): {path}.</translation>
     </message>
     <message>
         <source>Files outside the patient’s folder, look at them yourself ({n}): {path}.</source>
         <translation>Dateien außerhalb des Patientenordners, bitte selbst ansehen ({n}): {path}.</translation>
-    </message>
-    <message>
-        <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
-        <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({files}, {size} MB).</translation>
-    </message>
-    <message>
-        <source>The other session.</source>
-        <translation>Die andere Sitzung.</translation>
-    </message>
-    <message>
-        <source>The other {count} sessions.</source>
-        <translation>Die anderen {count} Sitzungen.</translation>
     </message>
     <message>
         <source>Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.</source>
@@ -7843,28 +7815,24 @@
         <translation>Niemand kann es zurückholen.</translation>
     </message>
     <message>
-        <source>({years} years, as set in Settings)</source>
-        <translation>({years} Jahre, wie in den Einstellungen)</translation>
-    </message>
-    <message>
-        <source>Your records must be kept until {day} {years}: erasing comes before that day.</source>
-        <translation>Ihre Unterlagen sind bis {day} aufzubewahren {years}: Das Löschen käme vor diesem Tag.</translation>
-    </message>
-    <message>
-        <source>1 value measured by hand.</source>
-        <translation>1 von Hand gemessener Wert.</translation>
-    </message>
-    <message>
-        <source>They had to be kept until {day} {years}.</source>
-        <translation>Sie waren bis {day} aufzubewahren {years}.</translation>
-    </message>
-    <message>
-        <source>{count} values measured by hand.</source>
-        <translation>{count} von Hand gemessene Werte.</translation>
-    </message>
-    <message>
         <source>Carpus cannot bring it back: a restored back-up leaves it out.</source>
         <translation>Carpus kann es nicht zurückholen: Eine wiederhergestellte Sicherung lässt es aus.</translation>
+    </message>
+    <message>
+        <source>Angles, pictures, notes and pain scores of this session ({size} MB; files: {files}).</source>
+        <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({size} MB; Dateien: {files}).</translation>
+    </message>
+    <message>
+        <source>The patient’s other sessions.</source>
+        <translation>Die anderen Sitzungen des Patienten.</translation>
+    </message>
+    <message>
+        <source>Your records must be kept until {day} ({years} years, as set in Settings): erasing comes before that day.</source>
+        <translation>Ihre Unterlagen sind bis {day} aufzubewahren ({years} Jahre, wie in den Einstellungen): Das Löschen käme vor diesem Tag.</translation>
+    </message>
+    <message>
+        <source>The patient’s entry with real name, notes and values measured by hand, and all sessions ({count}) with their angles, pictures and notes ({size} MB; files: {files}).</source>
+        <translation>Der Eintrag des Patienten mit echtem Namen, Notizen und von Hand gemessenen Werten und alle Sitzungen ({count}) mit ihren Winkeln, Bildern und Notizen ({size} MB; Dateien: {files}).</translation>
     </message>
 </context>
 <context>
@@ -7876,14 +7844,6 @@
     <message>
         <source>The patient is erased.</source>
         <translation>Der Patient ist gelöscht.</translation>
-    </message>
-    <message>
-        <source>1 file went.</source>
-        <translation>1 Datei ist weg.</translation>
-    </message>
-    <message>
-        <source>{count} files went.</source>
-        <translation>{count} Dateien sind weg.</translation>
     </message>
     <message>
         <source>The session is now one of {name}.</source>
@@ -7908,6 +7868,10 @@
     <message>
         <source>Close</source>
         <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Files deleted: {count}.</source>
+        <translation>Gelöschte Dateien: {count}.</translation>
     </message>
 </context>
 <context>

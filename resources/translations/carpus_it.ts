@@ -7791,40 +7791,12 @@
         <translation>Per cancellare, scrivere qui “{name}”</translation>
     </message>
     <message>
-        <source>1 file</source>
-        <translation>1 file</translation>
-    </message>
-    <message>
-        <source>{count} files</source>
-        <translation>{count} file</translation>
-    </message>
-    <message>
-        <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes ({files}, {size} MB).</source>
-        <translation>La scheda del paziente, nome vero e note, e {count} sedute con tutti gli angoli, le immagini e le note ({files}, {size} MB).</translation>
-    </message>
-    <message>
-        <source>The patient’s entry, real name and notes, and 1 session with all angles, pictures and notes ({files}, {size} MB).</source>
-        <translation>La scheda del paziente con nome vero e note, e 1 seduta con tutti gli angoli, le immagini e le note ({files}, {size} MB).</translation>
-    </message>
-    <message>
         <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}.</source>
         <translation>Relazioni ed esportazioni salvate altrove, da cancellare di persona ({n}): {path}.</translation>
     </message>
     <message>
         <source>Files outside the patient’s folder, look at them yourself ({n}): {path}.</source>
         <translation>File fuori dalla cartella del paziente, da controllare di persona ({n}): {path}.</translation>
-    </message>
-    <message>
-        <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
-        <translation>Angoli, immagini, note e punteggi del dolore di questa seduta ({files}, {size} MB).</translation>
-    </message>
-    <message>
-        <source>The other session.</source>
-        <translation>L’altra seduta.</translation>
-    </message>
-    <message>
-        <source>The other {count} sessions.</source>
-        <translation>Le altre {count} sedute.</translation>
     </message>
     <message>
         <source>Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.</source>
@@ -7843,28 +7815,24 @@
         <translation>Nessuno può riportarla indietro.</translation>
     </message>
     <message>
-        <source>({years} years, as set in Settings)</source>
-        <translation>({years} anni, come nelle Impostazioni)</translation>
-    </message>
-    <message>
-        <source>Your records must be kept until {day} {years}: erasing comes before that day.</source>
-        <translation>La documentazione va conservata fino al {day} {years}: la cancellazione avviene prima di quel giorno.</translation>
-    </message>
-    <message>
-        <source>1 value measured by hand.</source>
-        <translation>1 valore misurato a mano.</translation>
-    </message>
-    <message>
-        <source>They had to be kept until {day} {years}.</source>
-        <translation>Andavano conservate fino al {day} {years}.</translation>
-    </message>
-    <message>
-        <source>{count} values measured by hand.</source>
-        <translation>{count} valori misurati a mano.</translation>
-    </message>
-    <message>
         <source>Carpus cannot bring it back: a restored back-up leaves it out.</source>
         <translation>Carpus non può recuperarlo: il ripristino di una copia di sicurezza lo tralascia.</translation>
+    </message>
+    <message>
+        <source>Angles, pictures, notes and pain scores of this session ({size} MB; files: {files}).</source>
+        <translation>Angoli, immagini, note e punteggi del dolore di questa seduta ({size} MB; file: {files}).</translation>
+    </message>
+    <message>
+        <source>The patient’s other sessions.</source>
+        <translation>Le altre sedute del paziente.</translation>
+    </message>
+    <message>
+        <source>Your records must be kept until {day} ({years} years, as set in Settings): erasing comes before that day.</source>
+        <translation>La documentazione va conservata fino al {day} ({years} anni, come nelle Impostazioni): la cancellazione avviene prima di quel giorno.</translation>
+    </message>
+    <message>
+        <source>The patient’s entry with real name, notes and values measured by hand, and all sessions ({count}) with their angles, pictures and notes ({size} MB; files: {files}).</source>
+        <translation>La scheda del paziente con nome vero, note e valori misurati a mano, e tutte le sedute ({count}) con angoli, immagini e note ({size} MB; file: {files}).</translation>
     </message>
 </context>
 <context>
@@ -7876,14 +7844,6 @@
     <message>
         <source>The patient is erased.</source>
         <translation>Il paziente è cancellato.</translation>
-    </message>
-    <message>
-        <source>1 file went.</source>
-        <translation>1 file è andato via.</translation>
-    </message>
-    <message>
-        <source>{count} files went.</source>
-        <translation>{count} file sono andati via.</translation>
     </message>
     <message>
         <source>The session is now one of {name}.</source>
@@ -7908,6 +7868,10 @@
     <message>
         <source>Close</source>
         <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>Files deleted: {count}.</source>
+        <translation>File cancellati: {count}.</translation>
     </message>
 </context>
 <context>

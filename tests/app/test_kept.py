@@ -81,7 +81,7 @@ def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path
     content = repr(read_log(library.store))
     assert not any(word in content for word in ("Linden", "Erika", "pain", "a note", linden, session))
     plan = records.plan_patient(linden)
-    assert {one.path.parent for one in plan.made} == {out}
+    assert {path.parent for path in plan.made} == {out}
     assert last_set_up(library.store, linden) is not None
     records.erase(plan)
     assert list(out.iterdir()) != [], "no file outside of the data folder is touched"
@@ -104,7 +104,7 @@ def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_pat
     assert "6 lines." in command("log", "--data-folder", library.folder).out
     asked = command("erase", path)
     assert (asked.code, path.exists()) == (0, True)
-    assert f"This stays, delete it yourself: report {out / 'r.pdf'}" in asked.out
+    assert f"This stays, delete it yourself: {out / 'r.pdf'}" in asked.out
     assert (command("erase", path, "--for-good", "Heron 17").code, path.exists()) == (1, True)
     assert (command("erase", path, "--for-good", "linden 42").code, path.exists()) == (0, False)
     assert (out / "r.pdf").exists()
@@ -224,7 +224,7 @@ def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -
     did = [(did, by) for did, by, _ in deeds(library.folder)[before:]]
     assert did == [("opened", "command"), ("exported", "command"), ("exported", "command")]
     plan = Records(library).plan_session(session)
-    assert {one.path.parent for one in plan.made} == {tmp_path / "out"}, "what was made is named"
+    assert {path.parent for path in plan.made} == {tmp_path / "out"}, "what was made is named"
 
 
 def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(

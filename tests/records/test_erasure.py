@@ -102,7 +102,7 @@ def test_a_session_goes_with_its_files_and_rows_and_the_others_stay(folder: Path
     path = house.index.one(second).path
     kept = set(path.parent.glob(path.stem + ".*"))
     plan = erasure.plan_session(house.store, first)
-    assert (plan.sessions, len(plan.files), plan.others, plan.pseudonym) == (1, 3, 1, "Linden 42")
+    assert (plan.sessions, len(plan.files), plan.pseudonym) == (1, 3, "Linden 42")
     assert plan.size_bytes == sum(path.stat().st_size for path in plan.files)
     assert erasure.erase(house.store, plan, house.log) == 3
     assert [entry.session_id for entry in house.index.of_patient(linden)] == [second]
@@ -205,7 +205,7 @@ def test_files_made_elsewhere_are_named_and_never_touched(tmp_path: Path, folder
     paths["edited.csv"].write_text("with the therapist's own notes")
     paths["gone.csv"].unlink()
     plan = erasure.plan_session(house.store, mine)
-    assert [one.path.name for one in plan.made] == ["edited.csv", "report.pdf"]
+    assert [path.name for path in plan.made] == ["edited.csv", "report.pdf"]
     erasure.erase(house.store, plan, house.log)
     assert sorted(path.name for path in out.iterdir()) == ["edited.csv", "report.pdf"]
     assert traces(folder, "edited.csv", "gone.csv") == []
@@ -521,7 +521,7 @@ def test_each_command_calls_a_full_disk_full(tmp_path: Path, folder: Path) -> No
     with opened(folder) as house:
         linden = house.patients.add(LINDEN)
         session = house.index.one(measure(house, linden, T0)).path
-    back_up(folder, tmp_path / "place", software_version="1")
+    back_up(folder, tmp_path / "place")
     commands = (
         ("erase", "Linden 42", "--data-folder", folder, "--for-good", "Linden 42"),
         ("backup", tmp_path / "full", "--data-folder", folder),

@@ -22,7 +22,9 @@ from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
 from carpus.core.records.corrections import Difference
+from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.set_up import USUAL_SETS
+from carpus.core.records.values import SessionEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.report_form import Letterhead, ReportForm
@@ -51,7 +53,7 @@ from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import Preferences
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
-from carpus.ui.records.erasing import EraseSheet, ErasureFacts
+from carpus.ui.records.erasing import EraseSheet
 from carpus.ui.records.lists import DeedLine, ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
 from carpus.ui.report.gather import progress_report, session_report
@@ -113,14 +115,17 @@ RECOVERED = Words(
     " The file is marked “recovered”.",
     "Review it now, or leave it for later: it stays in the patient’s list.",
 )
-ERASED_SESSION = ErasureFacts(
-    "Linden 42", datetime(2026, 10, 9, 9, 51), "WRIST_FE", "right", 1, 4, 38.2, ("/home/clinic/Reports/L.pdf",), 8,
-    datetime(2026, 11, 15, 18, 4), date(2036, 10, 9), 10, TODAY,
+ERASED_DAY = datetime(2026, 10, 9, 9, 51)
+ERASED_SESSION = ErasurePlan(
+    "session", "s", "p", "Linden 42",
+    (SessionEntry("s", Path("s.h5"), ERASED_DAY, ERASED_DAY, "s", "WRIST_FE", "right", 900, 30.0, True),),
+    1, tuple(map(Path, "abcd")), 38_200_000, (Path("/home/clinic/Reports/L.pdf"),), (),
 )  # fmt: skip
 ERASED_PATIENT = replace(
-    ERASED_SESSION, when=None, sessions=9, files=31, size_mb=412.0, others=0,
-    made=("/home/clinic/Reports/L.pdf", "/home/clinic/Reports/L.csv"), last_backup=None, kept_until=date(2026, 10, 9),
+    ERASED_SESSION, kind="patient", sessions=9, files=tuple(Path(str(n)) for n in range(31)), size_bytes=412_000_000,
+    made=(Path("/home/clinic/Reports/L.pdf"), Path("/home/clinic/Reports/L.csv")),
 )  # fmt: skip
+LAST_BACKUP = datetime(2026, 11, 15, 18, 4)
 KEPT = "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025"
 DEEDS = [
     DeedLine(number, datetime(2026, 11, 20, 9, number), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
@@ -361,8 +366,8 @@ class Gallery(GalleryWindow):
         self.show(SessionsScreen(self.theme, self.background, sessions), tab=0).begin("linden", "Linden 42", "s1")
         self.settle()
 
-    sessions_erase = _under("sessions_list", EraseSheet, ERASED_SESSION)
-    patient_erase = _under("patients", EraseSheet, ERASED_PATIENT)
+    sessions_erase = _under("sessions_list", EraseSheet, ERASED_SESSION, 10, LAST_BACKUP, TODAY)
+    patient_erase = _under("patients", EraseSheet, ERASED_PATIENT, 0, None, TODAY)
 
     def _live(
         self, feed: FakeFeed | None = None, seconds: float = 25.0, *, hidden: Sequence[tuple[float, float, str]] = (),
@@ -689,7 +694,7 @@ class Gallery(GalleryWindow):
         chosen = Preferences(
             theme=self.theme.name, text_scale=self.theme.text_scale, data_folder="~/.local/share/carpus"
         )
-        return self.show(SettingsScreen(self.theme, chosen, "1.0.0"), where="")
+        return self.show(SettingsScreen(self.theme, chosen), where="")
 
     settings_measuring = _then("settings", lambda screen: screen.choose("measuring"))
 

@@ -54,7 +54,7 @@ from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
-from tests.ui.gallery import ERASED_SESSION
+from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY
 
 FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
 Opened = tuple[Sheet, str]
@@ -100,7 +100,7 @@ SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     NoteSheet: _opened(NoteSheet, "Keep note"),
     PainSheet: _opened(PainSheet, "Close"),
     StartAngleSheet: _opened(StartAngleSheet, "Use these angles", np.zeros(3)),
-    EraseSheet: _opened(EraseSheet, "Archive instead", ERASED_SESSION),
+    EraseSheet: _opened(EraseSheet, "Archive instead", ERASED_SESSION, 10, LAST_BACKUP, TODAY),
     RecordsSheet: _opened(RecordsSheet, "Done", "Archive", "", [ListedRecord("a", "Heron 17", "1 session", True)]),
     LogSheet: _opened(LogSheet, "Done", []),
     LockSheet: _opened(LockSheet, "Unlock", "", stored=True),

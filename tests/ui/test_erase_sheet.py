@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import date
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -14,13 +15,13 @@ from pytestqt.qtbot import QtBot
 
 from carpus.ui.records.erasing import EraseSheet, Erasing
 from carpus.ui.theme import Theme
-from tests.ui.gallery import ERASED_SESSION
+from tests.ui.gallery import ERASED_PATIENT, ERASED_SESSION, LAST_BACKUP, TODAY
 
 
 @pytest.fixture
 def sheet(host: QWidget, theme: Theme) -> EraseSheet:
     sheet = EraseSheet(host, theme)
-    sheet.begin(ERASED_SESSION)
+    sheet.begin(ERASED_SESSION, 10, LAST_BACKUP, TODAY)
     return sheet
 
 
@@ -63,7 +64,7 @@ def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(qtbot: QtBot, shee
     assert done == []
     sheet.for_good.click()
     assert done == ["erase"]
-    sheet.begin(ERASED_SESSION)
+    sheet.begin(ERASED_SESSION, 10, LAST_BACKUP, TODAY)
     assert not sheet.for_good.isEnabled(), "the next one is asked anew"
 
 
@@ -74,19 +75,20 @@ def test_esc_does_nothing(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> N
 
 
 def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: EraseSheet) -> None:
-    assert "4 files, 38 MB" in sheet.goes.text()
+    assert "38 MB; files: 4" in sheet.goes.text()
     assert "delete them yourself (1): /home/clinic/Reports/L.pdf" in sheet.stays.text()
-    assert "The other 8 sessions." in sheet.stays.text()
+    assert "The patient’s other sessions." in sheet.stays.text()
     assert "15 Nov" in sheet.stays.text()
     assert "before that day" in sheet.ends.text()
-    sheet.begin(replace(ERASED_SESSION, kept_until=date(2026, 11, 19), made=tuple(map(str, range(5)))))
-    assert "before that day" not in sheet.ends.text()
-    assert "(5): 0, 1, 2, …" in sheet.stays.text()
-    for sessions, said in ((1, "1 session with"), (9, "9 sessions"), (9, "real name")):
-        sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=sessions, files=31))
-        assert said in sheet.goes.text()
+    many = replace(ERASED_SESSION, made=tuple(Path(str(number)) for number in range(5)))
+    sheet.begin(many, 10, LAST_BACKUP, date(2036, 10, 10))
     assert sheet.ends.text() == "Carpus cannot bring it back: a restored back-up leaves it out."
-    sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, last_backup=None))
+    assert "(5): 0, 1, 2, …" in sheet.stays.text()
+    sheet.begin(ERASED_PATIENT, 0, None, TODAY)
+    assert "notes (412 MB; files: 31)" in sheet.goes.text()
+    assert "real name" in sheet.goes.text()
+    assert "all sessions (9)" in sheet.goes.text()
+    assert "other sessions" not in sheet.stays.text()
     assert sheet.ends.text() == "Nobody can bring it back."
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from datetime import date, datetime
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -63,30 +63,10 @@ class Erasing(QObject):
         self._context.background.run(work, self._show, self._context.messages.fault, self)
 
     def _show(self, plan: ErasurePlan) -> None:
-        self._plan = plan
-        years = self._years()
-        last = max((entry.recorded for entry in plan.results), default=None)
-        single = plan.kind == "session" and last is not None
-        patient = self._context.now.patient
-        self.sheet.begin(
-            ErasureFacts(
-                pseudonym=patient.pseudonym if patient is not None and single else plan.pseudonym,
-                when=last if single else None,
-                exercise=plan.results[0].exercise if plan.results else "",
-                side=plan.results[0].hand if plan.results else "",
-                sessions=plan.sessions,
-                files=len(plan.files),
-                size_mb=plan.size_bytes / 1e6,
-                made=tuple(str(one.path) for one in plan.made),
-                outside=tuple(map(str, plan.outside)),
-                others=plan.others,
-                by_hand=self._records.values_by_hand(plan.patient_id) if plan.kind == "patient" else 0,
-                last_backup=self._last_backup(),
-                kept_until=kept_until(last, years) if last is not None else None,
-                retention_years=years,
-                today=self._context.today(),
-            )
-        )
+        self._plan, patient = plan, self._context.now.patient
+        if patient is not None and not plan.patient_id:  # a recording of nobody is listed under a name of its own
+            plan = replace(plan, pseudonym=patient.pseudonym)
+        self.sheet.begin(plan, self._years(), self._last_backup(), self._context.today())
 
     def _erase(self) -> None:
         plan, self._plan = self._plan, None
@@ -102,7 +82,7 @@ class Erasing(QObject):
         single = plan.kind == "session"
         self._gone(plan)
         what = self.tr("The session is erased.") if single else self.tr("The patient is erased.")
-        count = self.tr("1 file went.") if files == 1 else self.tr("{count} files went.").format(count=files)
+        count = self.tr("Files deleted: {count}.").format(count=files)
         place = self._sessions().notice_place if single else self._patients.notice_place
         self._say(place, Words(what, count, ""), "trash-2")
 
@@ -182,32 +162,6 @@ ICON_PX, COLUMN_PX = 26, 72
 MOST_PATHS = 3
 
 
-@dataclass(frozen=True, slots=True)
-class ErasureFacts:
-    """What is said before a session, or with ``when`` None a patient, is erased.
-
-    ``made``: reports and exports that Carpus saved elsewhere; they stay, and so does what lies ``outside`` of patients'
-    folders. ``others`` counts the patient's sessions that stay. ``kept_until`` None where no years are set,
-    ``last_backup`` None before the first. ``by_hand``: values that a person measured, which go with a patient.
-    """
-
-    pseudonym: str
-    when: datetime | None
-    exercise: str
-    side: str
-    sessions: int
-    files: int
-    size_mb: float
-    made: tuple[str, ...]
-    others: int
-    last_backup: datetime | None
-    kept_until: date | None
-    retention_years: int
-    today: date
-    by_hand: int = 0
-    outside: tuple[str, ...] = ()
-
-
 class EraseSheet(Sheet):
     """``erase`` only after the pseudonym was typed, and never by Enter; ``archive`` is the primary, which Enter takes,
     also from the line to type in: what is typed presses nothing."""
@@ -270,17 +224,18 @@ class EraseSheet(Sheet):
         fill(body, self._scroll, in_line((self.label, 1), (self.line, 1), gap=16), 8)
         body.addLayout(in_line(self.for_good, STRETCH, self.cancel, self.instead))
 
-    def begin(self, facts: ErasureFacts) -> None:
-        self._pseudonym = facts.pseudonym
-        single = facts.when is not None
+    def begin(self, plan: ErasurePlan, years: int, last_backup: datetime | None, today: date) -> None:
+        """Say what a plan would do, with the ``years`` of retention (0: none are set) and the ``last_backup``."""
+        self._pseudonym = plan.pseudonym
+        single = plan.kind == "session"
         self.title.setText(
             self.tr("Erase this session for good?") if single else self.tr("Erase this patient for good?")
         )
-        self.about.setText(self._about(facts))
-        self.goes.setText(self._goes(facts))
-        self.stays.setText(self._stays(facts))
-        self.ends.setText(self._ends(facts))
-        self.label.setText(self.tr("To erase, type “{name}” here").format(name=facts.pseudonym))
+        self.about.setText(_name_what_goes(plan))
+        self.goes.setText(self._goes(plan))
+        self.stays.setText(self._stays(plan, last_backup))
+        self.ends.setText(self._ends(plan, years, last_backup, today))
+        self.label.setText(self.tr("To erase, type “{name}” here").format(name=plan.pseudonym))
         self.line.clear()
         self.line.setAccessibleName(self.label.text())
         self._check()
@@ -300,70 +255,47 @@ class EraseSheet(Sheet):
         if self.isVisible():
             self._fit()
 
-    def _about(self, facts: ErasureFacts) -> str:
-        if facts.when is None:
-            return facts.pseudonym
-        what = f"{terms.exercise_name(facts.exercise)}, {inside(terms.hand_name(facts.side))}"
-        return " · ".join((facts.pseudonym, numbers.report_date(facts.when), what))
-
-    def _goes(self, facts: ErasureFacts) -> str:
-        files = self.tr("1 file") if facts.files == 1 else self.tr("{count} files").format(count=facts.files)
-        size = written(facts.size_mb) if facts.size_mb >= 10 else numbers.fixed(facts.size_mb, 1)
-        if facts.when is None:
-            what = self.tr(
-                "The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes "
-                "({files}, {size} MB)."
+    def _goes(self, plan: ErasurePlan) -> str:
+        words = self.tr("Angles, pictures, notes and pain scores of this session ({size} MB; files: {files}).")
+        if plan.kind == "patient":
+            words = self.tr(
+                "The patient’s entry with real name, notes and values measured by hand, and all sessions ({count}) "
+                "with their angles, pictures and notes ({size} MB; files: {files})."
             )
-            if facts.sessions == 1:
-                what = self.tr(
-                    "The patient’s entry, real name and notes, and 1 session with all angles, pictures and notes "
-                    "({files}, {size} MB)."
-                )
-            words = what.format(count=facts.sessions, files=files, size=size)
-            if facts.by_hand == 1:
-                words = f"{words} {self.tr('1 value measured by hand.')}"
-            elif facts.by_hand:
-                words = f"{words} {self.tr('{count} values measured by hand.').format(count=facts.by_hand)}"
-        else:
-            what = self.tr("Angles, pictures, notes and pain scores of this session ({files}, {size} MB).")
-            words = what.format(files=files, size=size)
-        return words
+        size_mb = plan.size_bytes / 1e6
+        size = written(size_mb) if size_mb >= 10 else numbers.fixed(size_mb, 1)
+        return words.format(count=plan.sessions, files=len(plan.files), size=size)
 
-    def _stays(self, facts: ErasureFacts) -> str:
-        parts = []
-        if facts.others:
-            other = self.tr("The other session.") if facts.others == 1 else self.tr("The other {count} sessions.")
-            parts.append(other.format(count=facts.others))
-        if facts.last_backup is not None:
-            day = numbers.day_of_year(facts.last_backup)
+    def _stays(self, plan: ErasurePlan, last_backup: datetime | None) -> str:
+        parts = [self.tr("The patient’s other sessions.")] if plan.kind == "session" else []
+        if last_backup is not None:
+            day = numbers.day_of_year(last_backup)
             parts.append(
                 self.tr("Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.").format(day=day)
             )
         else:
             parts.append(self.tr("Files copied elsewhere: Carpus cannot reach them."))
         for words, found in (
-            (self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}."), facts.made),
-            (self.tr("Files outside the patient’s folder, look at them yourself ({n}): {path}."), facts.outside),
+            (self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}."), plan.made),
+            (self.tr("Files outside the patient’s folder, look at them yourself ({n}): {path}."), plan.outside),
         ):
             if found:
-                paths = ", ".join(found[:MOST_PATHS]) + (", …" if len(found) > MOST_PATHS else "")
+                paths = ", ".join(map(str, found[:MOST_PATHS])) + (", …" if len(found) > MOST_PATHS else "")
                 parts.append(words.format(n=len(found), path=paths))
         parts.append(self.tr("The log keeps that it was erased, no name."))
         return " ".join(parts)
 
-    def _ends(self, facts: ErasureFacts) -> str:
+    def _ends(self, plan: ErasurePlan, years: int, last_backup: datetime | None, today: date) -> str:
         words = self.tr("Nobody can bring it back.")
-        if facts.last_backup is not None:
+        if last_backup is not None:
             words = self.tr("Carpus cannot bring it back: a restored back-up leaves it out.")
-        if facts.kept_until is not None:
-            until = facts.kept_until
-            day = numbers.day_of_year(until)
-            years = self.tr("({years} years, as set in Settings)").format(years=facts.retention_years)
-            if facts.today <= until:
-                early = self.tr("Your records must be kept until {day} {years}: erasing comes before that day.")
-                return f"{words} {early.format(day=day, years=years)}"
-            return f"{words} {self.tr('They had to be kept until {day} {years}.').format(day=day, years=years)}"
-        return words
+        until = kept_until(max(one.recorded for one in plan.results), years) if plan.results else None
+        if until is None or until < today:
+            return words
+        early = self.tr(
+            "Your records must be kept until {day} ({years} years, as set in Settings): erasing comes before that day."
+        )
+        return f"{words} {early.format(day=numbers.day_of_year(until), years=years)}"
 
     def _check(self) -> None:
         typed = " ".join(self.line.text().split())
@@ -376,6 +308,14 @@ class EraseSheet(Sheet):
     def _archive(self) -> None:
         self.close_sheet()
         self.archive.emit()
+
+
+def _name_what_goes(plan: ErasurePlan) -> str:
+    if plan.kind == "patient":
+        return plan.pseudonym
+    one = plan.results[0]
+    what = f"{terms.exercise_name(one.exercise)}, {inside(terms.hand_name(one.hand))}"
+    return " · ".join((plan.pseudonym, numbers.report_date(one.recorded), what))
 
 
 def _sign(theme: Theme, name: str, token: str = "accent") -> Sign:
