@@ -55,10 +55,17 @@ GONE = {
             "registration", "back",
         )
     ),
+    *(f"tracker.{name}" for name in ("holding", "finding", "readout", "doubt", "said")),
     *(
-        f"tracker.{name}"
+        f"tracker.fingers.{name}"
         for name in (
-            "holding", "finding", "readout", "doubt", "said", "fingers.search", "fingers.limits", "fingers.depth",
+            "abduction_share", "range_after_s", "learning", "drift_per_s", "skin_px", "depth_stays_m", "hidden_s",
+            "shown_s", "steepest_rad", "steepest_sd_rad", "clutter", "skin_sd_rad", "dip_slack_rad",
+            "thumb_aside_rad", "settles_s", "patience_frames", "posture_sd_rad", "posture_rate_sd",
+            "begins_rate_sd", "far_rad", "was_seen", "surely_sd", "size_grows", "size_shrinks", "flat_rad",
+            "least_facing", "crowded_px", "crowded_radii", "merged_from", "merged_share", "click_px", "across_m",
+            "sure_turn_rad", "gap_s", "most_beyond_rad", "least_seen", "most_seen", "seen_anew", "missed",
+            "candidates", "without_depth2", "pinnings", "inherited", "search", "limits", "depth",
         )
     ),
     *(

@@ -19,8 +19,16 @@ from carpus.core.kernels.choice import in_c
 from carpus.core.tracking import association
 from carpus.core.tracking.association import is_jointly_compatible
 from carpus.core.tracking.digit_filter import ANATOMY, DIGIT_SIZE, SEEN, DigitsLinearisation, DigitView
-from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, digit_frames, is_crowded
+from carpus.core.tracking.hand_geometry import (
+    CHAINS,
+    CROWDED_PX,
+    CROWDED_RADII,
+    DISCS,
+    SHOWS,
+    SLOTS,
+    digit_frames,
+    is_crowded,
+)
 from carpus.core.tracking.joint_limits import SOFT_RAD, outside_limits
 from carpus.core.tracking.kernel import ModeMixture, Update, corrected, partial_update
 from carpus.core.tracking.palm_association import Measurements
@@ -31,6 +39,32 @@ _SLOT = np.arange(SLOTS)
 BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 """Slots (5, 5) that tilt the discs past them."""
 _LOG_2_PI = float(np.log(2.0 * np.pi))
+
+
+SKIN_PX = 0.1
+"""So far a disc on a finger strays from where the model has it, besides the noise of its centre."""
+HIDDEN_S, SHOWN_S = 0.4, 3.0
+"""So long a disc stays hidden or seen on average."""
+STEEPEST_RAD, STEEPEST_SD_RAD = 1.22, 0.15
+"""The tilt at which discs vanish, give or take."""
+MIN_SEEN, MAX_SEEN = 1e-4, 0.98
+"""Between these the chance stays that a disc is to be seen."""
+WAS_SEEN = 0.5
+"""With less than this chance a disc was hidden a moment ago."""
+CLUTTER = 3.0
+"""Other blobs expected in a picture."""
+FAR_RAD = math.radians(10.0)
+"""A joint expected less surely may be far from where h was linearised."""
+SURELY_SD = 1.5
+"""So many standard deviations beyond its reach a joint surely is not."""
+MERGED_FROM = 1.25
+"""So many times as large as its disc seen square a blob holds a neighbour's too: of single ones 99.9 % are smaller."""
+MERGED_SHARE = 0.5
+"""Where along such a blob either disc lies is unsure by this share of what lies between them and its centre."""
+CANDIDATES = 4
+"""Blobs that each disc may be, where a digit's names are weighed jointly."""
+WITHOUT_DEPTH2 = 14.0
+"""So much further off, in squared standard deviations, one counts there without its depth."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +134,7 @@ def jointly_checked(
             assigned[chain], with_depth[chain] = _digit_jointly(chain, scene, others, settings)
         names = DigitAssignment(assigned, with_depth)
         found = updated_as_associated(estimates, scene, names, settings)
-    impossible = _impossible(found, scene, settings.fingers) | _lone(names, scene, settings.fingers)
+    impossible = _impossible(found, scene) | _lone(names, scene)
     return without(impossible, found, estimates, scene, settings) if impossible.any() else found
 
 
@@ -112,36 +146,36 @@ def without(
     return updated_as_associated(estimates, scene, names, settings)
 
 
-def _lone(names: DigitAssignment, scene: DigitScene, own: FingerSettings) -> NDArray[np.bool_]:
+def _lone(names: DigitAssignment, scene: DigitScene) -> NDArray[np.bool_]:
     """Discs (5, 3) further out than the first that stand without the one before them on a digit that may be far from
     where it is expected: those that come back alone, and the end of the thumb, whose joints can bring it anywhere. Any
     blob would do for them."""
     is_named = names.assigned >= 0
-    lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < own.was_seen)
+    lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < WAS_SEEN)
     lone[:, 0] = False
     lone[0, 2] |= is_named[0, 2] & ~is_named[0, 1]
     if not lone.any():
         return np.asarray(lone)
-    return np.asarray(lone & far_digits(scene.covariance, is_named, own)[:, None])
+    return np.asarray(lone & far_digits(scene.covariance, is_named)[:, None])
 
 
-def far_digits(covariance: FloatArray, named: NDArray[np.bool_], own: FingerSettings) -> NDArray[np.bool_]:
+def far_digits(covariance: FloatArray, named: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Digits (5,) whose discs (5, 3) that are seen may find their joints far from where they were expected, with
     covariances (5, n, n)."""
     shown = (SHOWS & named[:, None, :]).any(axis=-1)
-    return np.asarray((shown & (covariance[:, _SLOT, _SLOT] > own.far_rad**2)).any(axis=1))
+    return np.asarray((shown & (covariance[:, _SLOT, _SLOT] > FAR_RAD**2)).any(axis=1))
 
 
-def beyond_reach(mean: FloatArray, covariance: FloatArray, own: FingerSettings) -> NDArray[np.bool_]:
+def beyond_reach(mean: FloatArray, covariance: FloatArray) -> NDArray[np.bool_]:
     """Digits (5,) bent surely beyond their limits, by means (5, n) and covariances (5, n, n)."""
     sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + SOFT_RAD**2)
-    return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > own.surely_sd * sd).any(axis=1))
+    return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > SURELY_SD * sd).any(axis=1))
 
 
-def _impossible(found: UpdatedDigits, scene: DigitScene, own: FingerSettings) -> NDArray[np.bool_]:
+def _impossible(found: UpdatedDigits, scene: DigitScene) -> NDArray[np.bool_]:
     """Discs (5, 3) that were hidden a moment ago and are where, if they were there, they could not be seen, or where
     no finger can reach."""
-    back = (found.names.assigned >= 0) & (scene.visible < own.was_seen)
+    back = (found.names.assigned >= 0) & (scene.visible < WAS_SEEN)
     chains = np.flatnonzero(back.any(axis=1))
     if not chains.size:
         return back
@@ -149,8 +183,8 @@ def _impossible(found: UpdatedDigits, scene: DigitScene, own: FingerSettings) ->
     frames = digit_frames(mean[:, SEEN])
     tilt = tilt_to(scene.view, frames.normal, scene.linearised.centre_m)
     bend = tilt_variance(covariance)
-    hidden = tilt - own.steepest_rad > own.surely_sd * np.sqrt(bend + own.steepest_sd_rad**2)
-    return back & (hidden | beyond_reach(mean, covariance, own)[:, None])
+    hidden = tilt - STEEPEST_RAD > SURELY_SD * np.sqrt(bend + STEEPEST_SD_RAD**2)
+    return back & (hidden | beyond_reach(mean, covariance)[:, None])
 
 
 def tilt_to(view: DigitView, normal: FloatArray, centre_m: FloatArray) -> FloatArray:
@@ -176,7 +210,7 @@ def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssign
         own,
         scene.blobs.value[free],
         scene.blobs.variance[free],
-        scene.resolution_px2 / settings.fingers.clutter,
+        scene.resolution_px2 / CLUTTER,
         settings.noise.depth_outlier,
         settings.association,
     )
@@ -194,15 +228,15 @@ def measured_as_named(
     scene: DigitScene, names: DigitAssignment, settings: TrackerSettings
 ) -> tuple[FloatArray, FloatArray]:
     """What the blobs as named measure (5, 9), NaN where there is none, and its variance (5, 9)."""
-    noise, fingers = settings.noise, settings.fingers
+    noise = settings.noise
     if (kernels := in_c()) is not None:
         measured, variance = np.empty((CHAINS, 9)), np.empty((CHAINS, 9))
         kernels.digits_measured(
             len(scene.blobs), names.assigned, names.with_depth, scene.blobs.value, scene.blobs.variance, scene.area_px,
             scene.whole_px, scene.disc_m2, scene.has_discs, scene.visible, scene.linearised.value, scene.spread,
             scene.noise_factor, noise.whole_from, noise.shade_share, settings.marker_radius_m,
-            scene.view.camera.fx_px, fingers.crowded_radii, fingers.crowded_px, fingers.was_seen, fingers.merged_from,
-            fingers.merged_share, noise.pixel_sd_px, fingers.skin_px, measured, variance,
+            scene.view.camera.fx_px, CROWDED_RADII, CROWDED_PX, WAS_SEEN, MERGED_FROM,
+            MERGED_SHARE, noise.pixel_sd_px, SKIN_PX, measured, variance,
         )  # fmt: skip
         return measured, variance
     blob = np.maximum(names.assigned, 0)
@@ -216,17 +250,17 @@ def measured_as_named(
         wander_px = noise.shade_share * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
         expected = scene.linearised.value.reshape(CHAINS, DISCS, 3)
         radius_px = settings.marker_radius_m * scene.view.camera.fx_px / expected[..., 2]
-        crowded_px = np.where(is_crowded(expected[..., :2], radius_px, fingers.crowded_radii), fingers.crowded_px, 0.0)
-        own = (noise.pixel_sd_px**2 + fingers.skin_px**2 + wander_px**2 + crowded_px**2)[..., None]
+        crowded_px = np.where(is_crowded(expected[..., :2], radius_px, CROWDED_RADII), CROWDED_PX, 0.0)
+        own = (noise.pixel_sd_px**2 + SKIN_PX**2 + wander_px**2 + crowded_px**2)[..., None]
         variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
-        _measure_unresolved(scene, names.assigned, fingers, measured, variance)
+        _measure_unresolved(scene, names.assigned, measured, variance)
     else:
         measured, variance = np.full((CHAINS, DISCS, 3), np.nan), np.ones((CHAINS, DISCS, 3))
     return measured.reshape(CHAINS, 9), variance.reshape(CHAINS, 9) * scene.noise_factor
 
 
 def _measure_unresolved(
-    scene: DigitScene, assigned: NDArray[np.int64], own: FingerSettings, measured: FloatArray, variance: FloatArray
+    scene: DigitScene, assigned: NDArray[np.int64], measured: FloatArray, variance: FloatArray
 ) -> None:
     """Blobs larger than their discs measure a neighbour without a blob of its own as well (unresolved measurements,
     Koch and van Keuk 1997): ``measured`` and ``variance`` (5, 3, 3) are changed in place.
@@ -239,8 +273,8 @@ def _measure_unresolved(
     face_px = scene.disc_m2 * (scene.view.camera.fx_px / expected[..., 2]) ** 2
     area_px = scene.area_px[np.maximum(assigned, 0)]
     alone = (assigned < 0) & scene.has_discs[:, None]
-    known = (assigned >= 0) & (scene.visible >= own.was_seen)
-    for chain, disc in np.argwhere(known & (area_px > own.merged_from * face_px)).tolist():
+    known = (assigned >= 0) & (scene.visible >= WAS_SEEN)
+    for chain, disc in np.argwhere(known & (area_px > MERGED_FROM * face_px)).tolist():
         other = next((d for d in (disc + 1, disc - 1) if 0 <= d < DISCS and alone[chain, d]), None)
         if other is None:
             continue
@@ -254,7 +288,7 @@ def _measure_unresolved(
             for i, j in ((3 * disc, 3 * other), (3 * disc + 1, 3 * other + 1))
         )
         shift = gap * (half_px / math.sqrt(gap @ gap + unsure2))
-        stray2 = half_px**2 * (1.0 + own.merged_share**2) - shift @ shift
+        stray2 = half_px**2 * (1.0 + MERGED_SHARE**2) - shift @ shift
         measured[chain, other, :2] = measured[chain, disc, :2] + shift
         variance[chain, other, :2] = variance[chain, disc, :2] + stray2
         measured[chain, disc, :2] -= shift
@@ -294,11 +328,11 @@ def _digit_jointly(
         pixel2 = (off[:, :2] ** 2 / sd2[:, :2]).sum(axis=1)
         whole2 = pixel2 + off[:, 2] ** 2 / sd2[:, 2]
         gate2 = settings.association.gate_sd**2
-        flat2 = pixel2 + settings.fingers.without_depth2
+        flat2 = pixel2 + WITHOUT_DEPTH2
         near = blobs[np.argsort(np.where(np.isfinite(whole2), np.minimum(whole2, flat2), flat2))]
         order = {int(b): i for i, b in enumerate(blobs)}
         own: list[tuple[int, bool]] = [(-1, False)]
-        for blob in near[: settings.fingers.candidates]:
+        for blob in near[:CANDIDATES]:
             i = order[int(blob)]
             if pixel2[i] > 2.0 * gate2:
                 continue
@@ -325,7 +359,7 @@ def _digit_jointly(
         np.log(np.where(used, unit, 1.0)), axis=1
     )
     by_seen = np.log(scene.visible[chain] / (1.0 - scene.visible[chain]))
-    per_blob = float(np.log(scene.resolution_px2 / settings.fingers.clutter))
+    per_blob = float(np.log(scene.resolution_px2 / CLUTTER))
     with_depth = float(np.log(settings.association.depth_range_m))
     without = np.where(
         np.isfinite(scene.blobs.value[np.maximum(assigned, 0), 2]), np.log(settings.noise.depth_outlier), 0.0
@@ -336,13 +370,11 @@ def _digit_jointly(
     return assigned[best], depth[best]
 
 
-def seen_chance(
-    visible: FloatArray, tilt_rad: FloatArray, tilt_sd_rad: FloatArray, dt_s: float, settings: FingerSettings
-) -> FloatArray:
+def seen_chance(visible: FloatArray, tilt_rad: FloatArray, tilt_sd_rad: FloatArray, dt_s: float) -> FloatArray:
     """Chance (5, 3) that each disc is to be seen now, from that of a moment ago and its tilt to the camera."""
-    stays, comes = np.exp(-dt_s / settings.shown_s), -np.expm1(-dt_s / settings.hidden_s)
+    stays, comes = np.exp(-dt_s / SHOWN_S), -np.expm1(-dt_s / HIDDEN_S)
     by_time = visible * stays + (1.0 - visible) * comes
-    sd = np.sqrt(tilt_sd_rad**2 + settings.steepest_sd_rad**2)
+    sd = np.sqrt(tilt_sd_rad**2 + STEEPEST_SD_RAD**2)
     # Logistic in place of the normal integral.
-    facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt_rad - settings.steepest_rad) / sd, -30.0, 30.0)))
-    return np.asarray(np.clip(by_time * facing, settings.least_seen, settings.most_seen))
+    facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt_rad - STEEPEST_RAD) / sd, -30.0, 30.0)))
+    return np.asarray(np.clip(by_time * facing, MIN_SEEN, MAX_SEEN))

@@ -18,6 +18,17 @@ from carpus.core.tracking.association import (
 )
 from carpus.core.tracking.digit_association import (
     BENDS,
+    CLUTTER,
+    HIDDEN_S,
+    MAX_SEEN,
+    MERGED_FROM,
+    MERGED_SHARE,
+    MIN_SEEN,
+    SHOWN_S,
+    SKIN_PX,
+    STEEPEST_RAD,
+    STEEPEST_SD_RAD,
+    WAS_SEEN,
     DigitAssignment,
     DigitScene,
     UpdatedDigits,
@@ -44,8 +55,7 @@ from carpus.core.tracking.digit_readout import Seat
 from carpus.core.tracking.digit_search import MIN_DISCS, search_digits
 from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
 from carpus.core.tracking.finger_model import FingerModel
-from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, PalmInBody
+from carpus.core.tracking.hand_geometry import CHAINS, CROWDED_PX, CROWDED_RADII, DISCS, SHOWS, SLOTS, PalmInBody
 from carpus.core.tracking.kernel import ModeMixture, Update, like
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.predicted_measurement import PredictedDigits, adapted_factor
@@ -53,6 +63,20 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, SurfaceSamples
 
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
+
+
+PATIENCE_FRAMES = 2
+"""For which a digit may show fewer than two discs before it is searched."""
+PINNINGS = 2
+"""So often h is linearised again, of a digit found far from where it was expected, about what its discs say."""
+MISSED = 0.1
+"""The chance that a disc in sight goes without a name."""
+SIZE_GROWS, SIZE_SHRINKS = 0.2, 0.02
+"""So much of a picture's is taken into a disc's size, which half a disc understates and nothing overstates,"""
+FLAT_RAD = math.radians(50.0)
+"""while it is tilted by less."""
+MIN_FACING = 0.15
+"""Tilted discs show no less of themselves."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,11 +158,11 @@ class DigitMemory:
     disc_m2: FloatArray
 
     @classmethod
-    def at_neutral(cls, palm: PalmInBody, own: FingerSettings) -> DigitMemory:
+    def at_neutral(cls, palm: PalmInBody) -> DigitMemory:
         """Before the first picture: all in sight."""
         return cls(
             palm,
-            np.full((CHAINS, DISCS), own.most_seen),
+            np.full((CHAINS, DISCS), MAX_SEEN),
             np.zeros(CHAINS, dtype=np.int64),
             np.zeros((CHAINS, SLOTS)),
             np.ones((CHAINS, 3 * DISCS)),
@@ -148,7 +172,7 @@ class DigitMemory:
     def remember(self, trial: FingerTrial, dt_s: float, settings: TrackerSettings) -> None:
         """Which discs are seen, how noisy and how large, after an accepted frame."""
         self.palm = trial.seat.palm
-        named, own, noise = trial.named, settings.fingers, settings.noise
+        named, noise = trial.named, settings.noise
         if (kernels := in_c()) is None:
             self._remember(trial, dt_s, settings)
             return
@@ -156,20 +180,20 @@ class DigitMemory:
         unseen_s, missing = np.empty((CHAINS, SLOTS)), np.empty(CHAINS, dtype=np.int64)
         factor = np.empty((CHAINS, 3 * DISCS))
         kernels.digits_accepted(
-            dt_s, named.names.assigned, trial.scene.visible, own.missed, own.most_seen, SHOWS, self.unseen_s,
+            dt_s, named.names.assigned, trial.scene.visible, MISSED, MAX_SEEN, SHOWS, self.unseen_s,
             self.missing, MIN_DISCS, named.update.residual, named.measured, self.noise_factor,
             1.0 - math.exp(-dt_s / noise.adapt_s), noise.least_adapted, noise.most_adapted, self.disc_m2,
-            trial.disc_m2, own.size_grows, own.size_shrinks, visible, unseen_s, missing, factor, disc_m2,
+            trial.disc_m2, SIZE_GROWS, SIZE_SHRINKS, visible, unseen_s, missing, factor, disc_m2,
         )  # fmt: skip
         self.visible, self.unseen_s, self.missing = visible, unseen_s, missing
         self.noise_factor, self.disc_m2 = factor, disc_m2
 
     def _remember(self, trial: FingerTrial, dt_s: float, settings: TrackerSettings) -> None:
         is_named = trial.blob >= 0
-        named, own, visible = trial.named, settings.fingers, trial.scene.visible
-        # Bayes: a disc that is in sight goes without a name with the chance ``missed``.
-        unnamed = visible * own.missed / (1.0 - (1.0 - own.missed) * visible)
-        self.visible = np.where(is_named, own.most_seen, unnamed)
+        named, visible = trial.named, trial.scene.visible
+        # Bayes: a disc that is in sight goes without a name with the chance ``MISSED``.
+        unnamed = visible * MISSED / (1.0 - (1.0 - MISSED) * visible)
+        self.visible = np.where(is_named, MAX_SEEN, unnamed)
         shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
         self.unseen_s = np.where(shown, 0.0, self.unseen_s + dt_s)
         count = np.count_nonzero(is_named, axis=1)
@@ -178,7 +202,7 @@ class DigitMemory:
         factor = self.noise_factor.reshape(CHAINS, DISCS, 3)
         adapted = adapted_factor(factor, residual, np.isfinite(measured), dt_s, settings.noise)
         self.noise_factor = adapted.reshape(CHAINS, 3 * DISCS)
-        self.disc_m2 = learnt_sizes(self.disc_m2, trial.disc_m2, own)
+        self.disc_m2 = learnt_sizes(self.disc_m2, trial.disc_m2)
 
 
 class DigitNaming:
@@ -226,11 +250,11 @@ class DigitNaming:
     def _found_far(self, estimates: ModeMixture, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
         """The trial, linearised anew where joints may be far from where they were expected (iterated posterior
         linearisation, Garcia-Fernandez 2015), and digits (5,) given up because they would be where they cannot be."""
-        far = far_digits(trial.scene.covariance, trial.blob >= 0, self._settings.fingers)
+        far = far_digits(trial.scene.covariance, trial.blob >= 0)
         if not far.any():
             return trial, far
         pinned = self._pinned(estimates, trial)
-        wrong = far & beyond_reach(*pinned.named.update.mixture.merged(), self._settings.fingers)
+        wrong = far & beyond_reach(*pinned.named.update.mixture.merged())
         names = self._settings.association
         wrong |= far & np.array([not pinned.is_jointly_compatible(np.array([chain]), names) for chain in range(CHAINS)])
         if not wrong.any():
@@ -240,7 +264,7 @@ class DigitNaming:
 
     def _pinned(self, estimates: ModeMixture, trial: FingerTrial) -> FingerTrial:
         """The same names, h linearised anew about what they say: what was expected is some way off."""
-        for _ in range(self._settings.fingers.pinnings):
+        for _ in range(PINNINGS):
             nearer = spread_points(
                 *trial.named.update.mixture.merged(), self._memory.palm.disc_m[1:], self._settings.spread
             )
@@ -254,11 +278,11 @@ class DigitNaming:
         self, trial: FingerTrial, points: DigitPoints, picture: DigitPicture, given_up: NDArray[np.bool_]
     ) -> dict[int, FloatArray]:
         """Postures (5,) of digits just given up or missing for some frames, if the blobs left over show them."""
-        missing, own = self._memory.missing, self._settings.fingers
+        missing = self._memory.missing
         if not (given_up.any() or missing.any()):
             return {}
         named = np.count_nonzero(trial.blob >= 0, axis=1)
-        is_due = given_up | ((missing >= own.patience_frames) & (missing % 2 == 0))
+        is_due = given_up | ((missing >= PATIENCE_FRAMES) & (missing % 2 == 0))
         chains = np.flatnonzero((named < MIN_DISCS) & is_due & self._model.has_discs)
         if not chains.size:
             return {}
@@ -272,9 +296,9 @@ class DigitNaming:
     def _tried(self, estimates: ModeMixture, points: DigitPoints, picture: DigitPicture) -> FingerTrial:
         if (kernels := in_c()) is not None:
             return self._tried_in_c(kernels, estimates, points, picture)
-        seat, own = picture.seat, self._settings.fingers
+        seat = picture.seat
         linearised = digits_linearised(points, seat.view, self._settings.spread)
-        visibility = disc_visibility(points, linearised, seat, self._memory.visible, picture.dt_s, own)
+        visibility = disc_visibility(points, linearised, seat, self._memory.visible, picture.dt_s)
         scene = DigitScene(
             points.covariance,
             linearised,
@@ -293,7 +317,7 @@ class DigitNaming:
             self._model.has_discs,
         )
         named = associate_digits(estimates, scene, self._settings)
-        disc_m2 = areas_m2(named, picture.area_px, visibility.tilt_rad, visibility.facing_m2, own)
+        disc_m2 = areas_m2(named, picture.area_px, visibility.tilt_rad, visibility.facing_m2)
         return FingerTrial(seat, scene, named, disc_m2, {})
 
     def _tried_in_c(
@@ -301,7 +325,7 @@ class DigitNaming:
     ) -> FingerTrial:
         """The same in one kernel, up to what becomes of names that are not jointly compatible."""
         settings, memory, seat, blobs = self._settings, self._memory, picture.seat, picture.blobs
-        own, names, noise = settings.fingers, settings.association, settings.noise
+        names, noise = settings.association, settings.noise
         area_px, free, learning = picture.area_px, picture.free, self._model.learning(seat)
         camera, out, seen = seat.view.camera, like(estimates), 3 * DISCS
         nine, square = np.empty((4, CHAINS, seen)), np.empty((4, CHAINS, seen, seen))
@@ -317,15 +341,15 @@ class DigitNaming:
         kernels.digits_named(
             self._model.scales.size, len(blobs), *points.parts, points.mean, points.covariance, seat.view.rotation,
             seat.view.translation_m, seat.pose_covariance, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
-            bent_weights(settings.spread).numbers, BENDS, memory.visible, picture.dt_s, own.shown_s, own.hidden_s,
-            own.steepest_rad, own.steepest_sd_rad, own.least_seen, own.most_seen, own.least_facing, blobs.value,
+            bent_weights(settings.spread).numbers, BENDS, memory.visible, picture.dt_s, SHOWN_S, HIDDEN_S,
+            STEEPEST_RAD, STEEPEST_SD_RAD, MIN_SEEN, MAX_SEEN, MIN_FACING, blobs.value,
             blobs.variance, area_px, free, memory.disc_m2, memory.noise_factor, self._model.has_discs,
-            *log_densities(self._model.resolution_px2 / own.clutter, noise.depth_outlier, names), names.gate_sd**2,
+            *log_densities(self._model.resolution_px2 / CLUTTER, noise.depth_outlier, names), names.gate_sd**2,
             IMPOSSIBLE, math.log(names.prior_marker / names.prior_clutter), noise.whole_from, noise.shade_share,
-            settings.marker_radius_m, own.crowded_radii, own.crowded_px, own.merged_from, own.merged_share,
-            noise.pixel_sd_px, own.skin_px, own.flat_rad, learning, estimates.mean, estimates.covariance,
+            settings.marker_radius_m, CROWDED_RADII, CROWDED_PX, MERGED_FROM, MERGED_SHARE,
+            noise.pixel_sd_px, SKIN_PX, FLAT_RAD, learning, estimates.mean, estimates.covariance,
             estimates.probability, nine, square, rows, slope, centre_m, by_place, out.mean, out.covariance,
-            out.probability, assigned, with_depth, nis, dof, most_chi2_row(names.consistent), own.was_seen, ordinary,
+            out.probability, assigned, with_depth, nis, dof, most_chi2_row(names.consistent), WAS_SEEN, ordinary,
             settled,
         )  # fmt: skip
         scene = DigitScene(
@@ -341,7 +365,7 @@ class DigitNaming:
             named = first if settled.item() else jointly_checked(first, estimates, scene, settings)
             if named is first:
                 return FingerTrial(seat, scene, named, disc_m2, {})
-        return FingerTrial(seat, scene, named, areas_m2(named, area_px, tilt_rad, facing_m2, own), {})
+        return FingerTrial(seat, scene, named, areas_m2(named, area_px, tilt_rad, facing_m2), {})
 
 
 @dataclass(frozen=True, slots=True)
@@ -363,32 +387,29 @@ def disc_visibility(
     seat: Seat,
     visible: FloatArray,
     dt_s: float,
-    own: FingerSettings,
 ) -> DiscVisibility:
     """How the discs at ``points`` are to be seen ``dt_s`` after they were ``visible`` (5, 3)."""
     tilt = tilt_to(seat.view, points.normal, linearised.centre_m)
-    chance = seen_chance(visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s, own)
+    chance = seen_chance(visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s)
     shift = FingerModel.palm_part(linearised, seat)
-    facing = np.maximum(np.cos(tilt), own.least_facing)
+    facing = np.maximum(np.cos(tilt), MIN_FACING)
     facing_m2 = facing * (seat.view.camera.fx_px / linearised.centre_m[..., 2]) ** 2
     return DiscVisibility(shift, linearised.spread + shift, chance, tilt, facing_m2)
 
 
-def areas_m2(
-    named: UpdatedDigits, area_px: FloatArray, tilt_rad: FloatArray, facing_m2: FloatArray, own: FingerSettings
-) -> FloatArray:
+def areas_m2(named: UpdatedDigits, area_px: FloatArray, tilt_rad: FloatArray, facing_m2: FloatArray) -> FloatArray:
     """Areas (5, 3) of the discs as seen, NaN where too tilted, and on digits that do not show a blob for every disc:
     one of them may be that of two."""
     assigned = named.names.assigned
     if not area_px.size:
         return np.full(assigned.shape, np.nan)
     resolved = (assigned >= 0).all(axis=1, keepdims=True)
-    return np.where(resolved & (tilt_rad < own.flat_rad), area_px[assigned] / facing_m2, np.nan)
+    return np.where(resolved & (tilt_rad < FLAT_RAD), area_px[assigned] / facing_m2, np.nan)
 
 
-def learnt_sizes(known_m2: FloatArray, seen_m2: FloatArray, own: FingerSettings) -> FloatArray:
+def learnt_sizes(known_m2: FloatArray, seen_m2: FloatArray) -> FloatArray:
     """How large each disc is, after one more picture, NaN where not known: quick to grow, slow to shrink, as a disc may
     be half hidden but never too large."""
-    weight = np.where(seen_m2 > known_m2, own.size_grows, own.size_shrinks)
+    weight = np.where(seen_m2 > known_m2, SIZE_GROWS, SIZE_SHRINKS)
     learnt = np.where(np.isnan(known_m2), seen_m2, known_m2 + weight * (seen_m2 - known_m2))
     return np.where(np.isfinite(seen_m2), learnt, known_m2)

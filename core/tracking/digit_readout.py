@@ -32,6 +32,16 @@ _SLOT, _DIP_OFF = np.arange(SLOTS), 3
 _NARROW2 = 1e-10
 
 
+DEPTH_STAYS_M = 0.0004
+"""Error of a disc's depth that no averaging removes."""
+ACROSS_M = 0.00015
+"""So closely a disc holds its joints across the line of sight where errors stay."""
+INHERITED = 0.25
+"""Share of a joint's information that resists errors of its discs that stay."""
+SKIN_SD_RAD = 0.022
+"""So far discs that ride on gliding skin mislead about a joint, however long it is seen."""
+
+
 @dataclass(frozen=True, slots=True)
 class Seat:
     """The palm as just corrected, on which the fingers sit.
@@ -57,16 +67,15 @@ class DigitReadout:
 
     def __init__(self, clicks: Clicks, camera: Camera, settings: TrackerSettings, wrist_depth_m: float) -> None:
         protocol, self._side = clicks.protocol, clicks.side
-        self._own, self._dip_free = settings.fingers, settings.dip == "free"
+        self._skin_offsets, self._dip_free = settings.fingers.skin_offsets, settings.dip == "free"
         self.reading = JointReading.of(self._dip_free, protocol.digits)
         self.direct_markers = direct_markers(protocol, self._dip_free)
         self._sites = np.array(list(protocol.sites), dtype=np.int64)
         self._wrist_depth_m = wrist_depth_m
         self._focal_px = np.array([camera.fx_px, camera.fy_px])
-        own = self._own
         self._read_by = np.array(
-            [camera.fx_px, camera.fy_px, own.across_m, own.depth_stays_m, own.inherited, _NARROW2, not self._dip_free,
-             wrist_depth_m, -1.0 if self._side == "left" else 1.0, own.skin_offsets * own.skin_sd_rad**2]
+            [camera.fx_px, camera.fy_px, ACROSS_M, DEPTH_STAYS_M, INHERITED, _NARROW2, not self._dip_free,
+             wrist_depth_m, -1.0 if self._side == "left" else 1.0, self._skin_offsets * SKIN_SD_RAD**2]
         )  # fmt: skip
 
     def read(
@@ -95,8 +104,8 @@ class DigitReadout:
         slots, unsure = mean[:, :SLOTS].copy(), joints + inherited
         slots[:, FLEXION] -= palm.cup_rad
         unsure[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
-        if self._own.skin_offsets:
-            unsure[:, _SLOT, _SLOT] += self._own.skin_sd_rad**2
+        if self._skin_offsets:
+            unsure[:, _SLOT, _SLOT] += SKIN_SD_RAD**2
         angles = self.reading.angles(slots)
         variance = self.reading.variances(unsure)
         rates = self.reading.angles(mean[:, RATES])
@@ -123,20 +132,19 @@ class DigitReadout:
         What such a depth moves a disc along its normal (5, 3, 3) is taken for height, at the neutral pose and after,
         and part of what is not known of the heights; what it moves it across, the joints take.
         """
-        depth_m = self._own.depth_stays_m
         unit = np.empty((CHAINS, DISCS, 3, 1))
-        unit[..., :2, 0] = linearised.centre_m[..., 2:] / (self._focal_px * self._own.across_m)
-        unit[..., 2, 0] = 1.0 / depth_m
+        unit[..., :2, 0] = linearised.centre_m[..., 2:] / (self._focal_px * ACROSS_M)
+        unit[..., 2, 0] = 1.0 / DEPTH_STAYS_M
         slope = linearised.slope[..., :SLOTS] * unit.reshape(CHAINS, 9, 1)
         across = np.swapaxes(slope, 1, 2)
-        doubt = self._own.inherited * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
+        doubt = INHERITED * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
         response = np.linalg.solve(across @ slope + doubt, across)
         root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
         turned = response @ (linearised.by_place @ so3.skew(root_m - linearised.centre_m) * unit).reshape(CHAINS, 9, 3)
         in_camera = normal @ seat.view.rotation.T
         moved = -in_camera[..., 2:] * in_camera
         moved[..., 2] += 1.0
-        seen = linearised.by_place @ moved[..., None] * (depth_m * unit)
+        seen = linearised.by_place @ moved[..., None] * (DEPTH_STAYS_M * unit)
         by_disc = (response.reshape(CHAINS, SLOTS, DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
         return np.asarray(
             turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2)

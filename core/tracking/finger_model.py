@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.hand.anatomy_prior import AnatomyPrior
 from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import DIGITS, SITES, MarkerProtocol
@@ -30,8 +31,17 @@ from carpus.core.tracking.digit_filter import (
     spread_points,
 )
 from carpus.core.tracking.digit_readout import DigitReadout, Seat
-from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, DISCS, SLOTS, PalmInBody, is_crowded, palm_of
+from carpus.core.tracking.hand_geometry import (
+    CHAINS,
+    CONSTANTS,
+    CROWDED_PX,
+    CROWDED_RADII,
+    DISCS,
+    SLOTS,
+    PalmInBody,
+    is_crowded,
+    palm_of,
+)
 from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, settled
 from carpus.core.tracking.kernel import ModeMixture, like, switching
 from carpus.core.tracking.motion import REFERENCE_DT_S
@@ -51,6 +61,34 @@ class DigitStart:
     fit: AnatomyFit
 
 
+ABDUCTION_SHARE = 0.5
+"""Of the process noise of flexion, for abductions and the thumb's CMC (reference 4.5)."""
+RANGE_AFTER_S = 0.5
+"""Within this a joint that no disc shows is spread over its anatomical range."""
+LEARNING = 0.02
+"""Share of what a picture says of the anatomy that is believed: neighbouring ones show skin that strays alike."""
+SURE_TURN_RAD = math.radians(1.0)
+"""Of the palm, all axes, at which half as much is learnt of the fingers."""
+DRIFT_PER_S = 2e-3
+"""Share of what was not known of the anatomy that comes back each second: skin over bone."""
+DIP_SLACK_RAD = math.radians(6.0)
+"""So far end joints that follow the middle ones stray from two thirds of them,"""
+THUMB_ASIDE_RAD = math.radians(6.0)
+"""and the thumb's MCP joint, which hardly moves sideways, from straight;"""
+SETTLES_S = 1.0
+"""both return within this."""
+POSTURE_SD_RAD, POSTURE_RATE_SD = math.radians(12.0), 3.0
+"""Of a posture of the grid on which a digit is searched, and of its rates."""
+BEGINS_RATE_SD = 1.0
+"""Of the rates of a hand found again."""
+CLICK_PX = 2.0
+"""Of a disc with no depth."""
+GAP_S = 0.12
+"""Between pictures from which on limits count before a picture too."""
+MAX_BEYOND_RAD = math.radians(30.0)
+"""A finger further past its limits was misread."""
+
+
 def digit_start(
     calibration: Calibration,
     camera: Camera,
@@ -58,16 +96,16 @@ def digit_start(
     dip_free: bool,
     skin_offsets: bool,
     marker_radius_m: float,
-    own: FingerSettings,
+    prior: AnatomyPrior,
 ) -> DigitStart:
     """The anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
-    seen = _seen(calibration, camera, marker_radius_m, own)
+    seen = _seen(calibration, camera, marker_radius_m)
     fit = fit_anatomy(
         seen,
         calibration.clicks.side,
         dip_free=dip_free,
         skin_offsets=skin_offsets,
-        prior=own.anatomy,
+        prior=prior,
         straight=calibration.clicks.straight_fingers,
     )
     mean = np.zeros((CHAINS, SLOTS + CONSTANTS))
@@ -89,7 +127,7 @@ def digit_start(
     return DigitStart(mean, covariance, fit)
 
 
-def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float, own: FingerSettings) -> SeenDiscs:
+def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float) -> SeenDiscs:
     """The calibrated discs; where one has no depth, the line of sight through its click."""
     protocol, disc = calibration.clicks.protocol, calibration.marker_position_w0_m.copy()
     rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
@@ -105,9 +143,9 @@ def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float, own:
     crowded = np.zeros(len(disc), dtype=bool)
     rays = np.array([chain[2:] for chain in protocol.chains.values()])
     radius_px = (marker_radius_m / pixel_m)[rays]
-    crowded[rays] = is_crowded(camera.project(in_camera)[rays], radius_px, own.crowded_radii)
-    across = np.where(crowded, np.hypot(across, own.crowded_px * pixel_m), across)
-    blind_m = own.click_px * pixel_m
+    crowded[rays] = is_crowded(camera.project(in_camera)[rays], radius_px, CROWDED_RADII)
+    across = np.where(crowded, np.hypot(across, CROWDED_PX * pixel_m), across)
+    blind_m = CLICK_PX * pixel_m
     return SeenDiscs(
         _at_sites(protocol, disc, np.nan),
         _at_sites(protocol, view, np.nan),
@@ -148,28 +186,28 @@ class FingerModel:
             dip_free=dip_free,
             skin_offsets=own.skin_offsets,
             marker_radius_m=settings.marker_radius_m,
-            own=own,
+            prior=own.anatomy,
         )
         wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
         self.readout = DigitReadout(calibration.clicks, camera, settings, wrist_depth_m)
         motion = settings.motion_noise
         sd = np.full((CHAINS, SLOTS), motion.joint_acceleration_rad_s2)
-        sd[0, [0, 1, 3]] *= own.abduction_share
-        sd[1:, 0] *= own.abduction_share
+        sd[0, [0, 1, 3]] *= ABDUCTION_SHARE
+        sd[1:, 0] *= ABDUCTION_SHARE
         sd[1:, 4] = 0.0
         sd[0, 3] = 0.0
         stationary2 = np.zeros((CHAINS, SLOTS))
-        stationary2[0, 3] = own.thumb_aside_rad**2
+        stationary2[0, 3] = THUMB_ASIDE_RAD**2
         if not dip_free:
             sd[1:, 3] = 0.0
-            stationary2[1:, 3] = own.dip_slack_rad**2
+            stationary2[1:, 3] = DIP_SLACK_RAD**2
         self._moves = sd > 0.0
         self._stationary2 = np.maximum(stationary2, 1e-12)
         self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._stationary2)
-        drift = own.drift_per_s * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
-        self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, own.settles_s)
+        drift = DRIFT_PER_S * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
+        self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, SETTLES_S)
         parts = (
-            (own.settles_s, settings.mode_dwell_s, settings.rate_memory_s, own.range_after_s), sd**2 * REFERENCE_DT_S,
+            (SETTLES_S, settings.mode_dwell_s, settings.rate_memory_s, RANGE_AFTER_S), sd**2 * REFERENCE_DT_S,
             stationary2, self._moves, RANGE_SD_RAD**2, drift, self.scales**2,
         )  # fmt: skip
         self._numbers = np.concatenate([np.ravel(part) for part in parts])
@@ -195,7 +233,7 @@ class FingerModel:
         covariance[:, :, moving] = 0.0
         covariance[:, _SLOT, _SLOT] = self._range2
         rate = np.arange(RATES.start, RATES.stop)
-        covariance[:, rate, rate] = np.where(self._moves, self.settings.fingers.begins_rate_sd**2, 1e-12)
+        covariance[:, rate, rate] = np.where(self._moves, BEGINS_RATE_SD**2, 1e-12)
         return self.alike(mean, covariance)
 
     def at_postures(self, estimates: ModeMixture, postures: dict[int, FloatArray]) -> ModeMixture:
@@ -204,11 +242,10 @@ class FingerModel:
         kept = self.begun_anew(estimates, np.isin(np.arange(CHAINS), chains), estimates)
         mean, covariance = kept.mean, kept.covariance
         mean[chains, :, :SLOTS] = slots[:, None]
-        own = self.settings.fingers
-        moving = np.where(self._moves[chains], own.posture_sd_rad**2, self._stationary2[chains])
+        moving = np.where(self._moves[chains], POSTURE_SD_RAD**2, self._stationary2[chains])
         covariance[chains[:, None], :, _SLOT, _SLOT] = moving[..., None]
         rate = SLOTS + _SLOT
-        moving = np.where(self._moves[chains], own.posture_rate_sd**2, 1e-12)
+        moving = np.where(self._moves[chains], POSTURE_RATE_SD**2, 1e-12)
         covariance[chains[:, None], :, rate, rate] = moving[..., None]
         return kept
 
@@ -227,8 +264,7 @@ class FingerModel:
         """Estimates with the limits taken into account, and digits (5,) that a picture has bent as no finger bends: it
         was misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the
         estimates merged."""
-        own = self.settings.fingers
-        kept, merged, misread = settled(estimates, own.most_beyond_rad)
+        kept, merged, misread = settled(estimates, MAX_BEYOND_RAD)
         if misread.any():
             kept = self.begun_anew(kept, misread, before)
             merged = kept.merged()
@@ -258,10 +294,10 @@ class FingerModel:
             return out
         switch = switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
         mean = (estimates.probability[:, None] @ estimates.mean)[:, 0]
-        if dt_s >= self.settings.fingers.range_after_s:
+        if dt_s >= RANGE_AFTER_S:
             return self.anywhere(*estimates.merged())
         ahead = self.motion.predicted(estimates, dt_s, self.forgetting(mean, unseen_s, dt_s), switch)
-        if dt_s < self.settings.fingers.gap_s:
+        if dt_s < GAP_S:
             return ahead
         return constrained(ahead, ahead.merged()[0][:, :SLOTS])
 
@@ -279,7 +315,7 @@ class FingerModel:
 
     def _is_plain(self, dt_s: float) -> bool:
         """Whether a step is so short that it is linear."""
-        return dt_s < min(self.settings.fingers.range_after_s, self.settings.fingers.gap_s)
+        return dt_s < min(RANGE_AFTER_S, GAP_S)
 
     def _stepped(
         self,
@@ -306,7 +342,7 @@ class FingerModel:
         is_unseen = (unseen_s > 0.0) & self._moves
         if not is_unseen.any():
             return None
-        whole_s = self.settings.fingers.range_after_s
+        whole_s = RANGE_AFTER_S
         before = np.minimum(unseen_s, whole_s) / whole_s
         after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
         # Once it may be anywhere it goes on moving as it likes: else smoothing would carry what is seen at its
@@ -321,8 +357,7 @@ class FingerModel:
         """Share of what this picture says of the anatomy that is believed: little while the palm is unsure, as its
         error stays for as long as its discs are hidden."""
         variance = float(sum(seat.pose_covariance.diagonal()[3:].tolist()))
-        own = self.settings.fingers
-        return own.learning / (1.0 + (variance / own.sure_turn_rad**2) ** 2)
+        return LEARNING / (1.0 + (variance / SURE_TURN_RAD**2) ** 2)
 
     @staticmethod
     def palm_part(linearised: DigitsLinearisation, seat: Seat) -> FloatArray:

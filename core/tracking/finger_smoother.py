@@ -21,9 +21,10 @@ from carpus.core.tracking.digit_filter import (
     digits_linearised,
     spread_points,
 )
+from carpus.core.tracking.digit_naming import PINNINGS
 from carpus.core.tracking.digit_readout import Seat
 from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
-from carpus.core.tracking.finger_model import FingerModel
+from carpus.core.tracking.finger_model import RANGE_AFTER_S, FingerModel
 from carpus.core.tracking.hand_geometry import CHAINS, SHOWS, SLOTS, JointMoment
 from carpus.core.tracking.kernel import ModeMixture, corrected, partial_update
 from carpus.core.tracking.palm_smoother import Passage, Smoother
@@ -182,24 +183,22 @@ def _filtered(
             out.append(None)
             is_lost = True
             continue
-        is_gap = step.timestamp_s - time_s >= model.settings.fingers.range_after_s
+        is_gap = step.timestamp_s - time_s >= RANGE_AFTER_S
         is_linked = not (step.begins or is_lost or is_gap)
         before_s = unseen_s
         if step.begins:
             estimates, unseen_s = model.at_neutral(), np.zeros((CHAINS, SLOTS))
         elif is_lost:
             estimates = model.anywhere(*estimates.merged())
-            unseen_s = np.full((CHAINS, SLOTS), model.settings.fingers.range_after_s)
+            unseen_s = np.full((CHAINS, SLOTS), RANGE_AFTER_S)
         elif step.timestamp_s > time_s:
             estimates = model.predicted(estimates, unseen_s, step.timestamp_s - time_s)
         if step.postures:
             estimates = model.at_postures(estimates, step.postures)
         anew = np.isin(np.arange(CHAINS), list(step.postures))
         nearest, partial = estimates, partial_update(DIGIT_SIZE, ANATOMY, model.learning(seat))
-        is_far = bool(step.postures) or bool(
-            far_digits(estimates.merged()[1], step.shown, model.settings.fingers).any()
-        )
-        for _ in range(1 + (model.settings.fingers.pinnings if is_far else 0)):
+        is_far = bool(step.postures) or bool(far_digits(estimates.merged()[1], step.shown).any())
+        for _ in range(1 + (PINNINGS if is_far else 0)):
             linearised = _linearised(model, *nearest.merged(), seat)
             palm_part = model.palm_part(linearised, seat)
             nearest = corrected(estimates, linearised, step.measured, step.variance, palm_part, partial).mixture

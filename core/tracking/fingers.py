@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN
-from carpus.core.tracking.digit_naming import DigitMemory, DigitNaming, FingerTrial
+from carpus.core.tracking.digit_naming import PATIENCE_FRAMES, DigitMemory, DigitNaming, FingerTrial
 from carpus.core.tracking.digit_search import in_reach
 from carpus.core.tracking.finger_depth import FLEXION
-from carpus.core.tracking.finger_model import FingerModel
+from carpus.core.tracking.finger_model import RANGE_AFTER_S, FingerModel
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SLOTS, JointMoment
 from carpus.core.tracking.kernel import ModeMixture
@@ -23,6 +23,10 @@ from carpus.core.tracking.soft_tissue import DigitSpeeds
 from carpus.core.types import FloatArray
 
 _RATE, _THUMB_BASE = np.arange(DIGIT_SIZE)[RATES], slice(0, 2)
+
+
+SEEN_ANEW = 0.5
+"""The chance that a disc of a digit begun anew is to be seen."""
 
 
 class Fingers:
@@ -35,7 +39,7 @@ class Fingers:
 
     def begin_at_neutral(self) -> None:
         """Start (again) from the neutral pose, at rest."""
-        self.memory = DigitMemory.at_neutral(self.model.calibrated_palm, self._settings.fingers)
+        self.memory = DigitMemory.at_neutral(self.model.calibrated_palm)
         self.naming = DigitNaming(self.model, self.memory, self._settings)
         self._begins = True
         neutral = self.model.at_neutral()
@@ -49,18 +53,18 @@ class Fingers:
 
     def begin_anywhere(self) -> None:
         """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""
-        self.memory.visible = np.full((CHAINS, DISCS), self._settings.fingers.seen_anew)
-        self.memory.missing = np.full(CHAINS, self._settings.fingers.patience_frames)
-        self.memory.unseen_s = np.full((CHAINS, SLOTS), self._settings.fingers.range_after_s)
+        self.memory.visible = np.full((CHAINS, DISCS), SEEN_ANEW)
+        self.memory.missing = np.full(CHAINS, PATIENCE_FRAMES)
+        self.memory.unseen_s = np.full((CHAINS, SLOTS), RANGE_AFTER_S)
         anywhere = self.model.anywhere(self._mean, self._covariance)
         self._take(anywhere, anywhere.merged())
 
     def look_anew(self, chain: int) -> None:
         """A person shows a disc of a digit where it was not believed: its joints may be anywhere."""
         estimates = self.model.begun_anew(self._estimates, np.arange(CHAINS) == chain, self._estimates)
-        self.memory.visible[chain] = self._settings.fingers.seen_anew
-        self.memory.missing[chain] = self._settings.fingers.patience_frames
-        self.memory.unseen_s[chain] = self._settings.fingers.range_after_s
+        self.memory.visible[chain] = SEEN_ANEW
+        self.memory.missing[chain] = PATIENCE_FRAMES
+        self.memory.unseen_s[chain] = RANGE_AFTER_S
         self._take(estimates, estimates.merged())
 
     def _take(self, estimates: ModeMixture, merged: tuple[FloatArray, FloatArray]) -> None:
@@ -100,7 +104,7 @@ class Fingers:
         named = trial.named
         self.memory.remember(trial, dt_s, self._settings)
         kept, merged, misread = self.model.within_reach(named.update.mixture, self._estimates)
-        self.memory.missing[misread] = self._settings.fingers.patience_frames
+        self.memory.missing[misread] = PATIENCE_FRAMES
         self._take(kept, merged)
         begins, self._begins = self._begins, False
         return FingerStep(

@@ -133,6 +133,10 @@ def _thumb_arc(state: FloatArray, turn: NDArray[np.complex128]) -> tuple[FloatAr
     return raised.real, over.imag, raised.imag
 
 
+CROWDED_RADII, CROWDED_PX = 2.4, 0.5
+"""Centres of discs nearer than so many radii stray by so much: their edges run together."""
+
+
 def is_crowded(pixel: FloatArray, radius_px: FloatArray, radii: float) -> NDArray[np.bool_]:
     """Which discs of each digit (5, 3) nearly touch the one before or after, from their middles (5, 3, 2) and the
     radius (5, 3) of a large disc there: nearer than so many ``radii``, their edges blur into one."""

@@ -93,7 +93,7 @@ DIGIT_STATE = (
     StatePart(
         "joints", JOINTS, "rad", "the thumb's five angles; a finger's abduction, MCP, PIP and what DIP is off by",
         ("rates",), "a + r dt; what is bound returns to zero as exp(-dt / tau)", "q dt^3 / 3",
-        ("MotionNoise.joint_acceleration_rad_s2", "FingerSettings.settles_s"),
+        ("MotionNoise.joint_acceleration_rad_s2", "finger_model.SETTLES_S"),
     ),
     StatePart(
         "rates", RATES, "rad/s", "of the joints", (), "r; fading where nothing shows the joint", "q dt",
@@ -102,7 +102,7 @@ DIGIT_STATE = (
     StatePart(
         "anatomy", ANATOMY, "m; fan and roll in rad",
         "three lengths, fan, roll, the root from its disc (x, y, depth), the heights of three discs",
-        (), "c", "a share a second of what was not known at the start", ("FingerSettings.drift_per_s", "digit_start"),
+        (), "c", "a share a second of what was not known at the start", ("finger_model.DRIFT_PER_S", "digit_start"),
     ),
 )  # fmt: skip
 

@@ -10,7 +10,6 @@ import pytest
 
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.tracking.digit_naming import learnt_sizes
-from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.palm_association import measurements_of
 from carpus.core.tracking.predicted_measurement import adapted_factor
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
@@ -73,7 +72,7 @@ def test_a_depth_is_worth_what_the_still_hand_showed_and_what_stays_besides(sens
 def sizes(pictures: int, known: float, seen: float) -> float:
     size = np.array([[known]])
     for _ in range(pictures):
-        size = learnt_sizes(size, np.array([[seen]]), FingerSettings())
+        size = learnt_sizes(size, np.array([[seen]]))
     return float(size[0, 0])
 
 

@@ -10,10 +10,10 @@ import pytest
 
 from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking import finger_model
 from carpus.core.tracking.digit_filter import ANATOMY, RATES
 from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
 from carpus.core.tracking.digit_readout import seat_of
-from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.hand_geometry import palm_of
@@ -78,10 +78,10 @@ def test_speeds_are_of_the_thumbs_base_and_the_fingers_knuckles_alone() -> None:
     assert fingers.speeds == pytest.approx((np.sqrt((1.0 + 0.64) / 2.0), 0.5))
 
 
-def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) -> tuple[FingerTrial, FloatArray]:
+def weighed(place_m: float, off_px: tuple[float, float]) -> tuple[FingerTrial, FloatArray]:
     """The fingers of the first picture on a palm known to ``place_m``, their discs off to the sides in turn, and how
     far they go on from neutral (5, n)."""
-    seen, settings = sequence(), TrackerSettings(fingers=own)
+    seen, settings = sequence(), TrackerSettings()
     known = calibrated(seen)
     fingers = Fingers(known, seen.truth.camera, settings)
     view = HandFilter(known, seen.truth.camera, settings).view
@@ -97,14 +97,17 @@ def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) ->
 
 def test_discs_share_what_the_palm_may_be_off_by() -> None:
     """All discs to one side is an unsure palm's error; some to one and some to the other is not."""
-    aside, apart = (weighed(5e-3, off_px, FingerSettings())[0] for off_px in ((1.0, 1.0), (1.0, -1.0)))
+    aside, apart = (weighed(5e-3, off_px)[0] for off_px in ((1.0, 1.0), (1.0, -1.0)))
     assert np.count_nonzero(aside.blob >= 0) == np.count_nonzero(apart.blob >= 0) == 15
     assert aside.nis < 0.5 * apart.nis
-    assert aside.nis < 0.5 * weighed(1e-4, (1.0, 1.0), FingerSettings())[0].nis
+    assert aside.nis < 0.5 * weighed(1e-4, (1.0, 1.0))[0].nis
 
 
-def test_a_share_of_what_a_picture_says_of_the_anatomy_is_believed() -> None:
-    fifth, whole = (weighed(1e-5, (0.3, -0.3), FingerSettings(learning=share))[1][:, ANATOMY] for share in (0.2, 1.0))
+def test_a_share_of_what_a_picture_says_of_the_anatomy_is_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(finger_model, "LEARNING", 0.2)
+    fifth = weighed(1e-5, (0.3, -0.3))[1][:, ANATOMY]
+    monkeypatch.setattr(finger_model, "LEARNING", 1.0)
+    whole = weighed(1e-5, (0.3, -0.3))[1][:, ANATOMY]
     assert np.abs(whole).max() > 1e-4
     assert fifth == pytest.approx(0.2 * whole, rel=0.1, abs=1e-6)
 

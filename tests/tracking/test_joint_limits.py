@@ -9,7 +9,7 @@ import pytest
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.tracking.digit_filter import ANATOMY
-from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.finger_model import MAX_BEYOND_RAD
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.joint_limits import (
     MID_RANGE_RAD,
@@ -132,5 +132,5 @@ def test_a_limit_is_felt_from_three_standard_deviations_off(pip_deg: float) -> N
 @pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])
 def test_a_digit_surely_30_degrees_beyond_a_limit_was_misread(beyond_deg: float, is_misread: bool) -> None:
     surely = estimate(math.degrees(HARD_LIMITS_RAD["PIP2_flexion"][1]) + beyond_deg, 0.01)
-    _, _, misread = settled(surely, FingerSettings().most_beyond_rad)
+    _, _, misread = settled(surely, MAX_BEYOND_RAD)
     assert misread.tolist() == [False, is_misread, False, False, False]

@@ -9,7 +9,6 @@ import pytest
 
 from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
 from carpus.core.tracking.digit_naming import areas_m2
-from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 from tests.tracking.test_fingers import weighed
@@ -27,7 +26,7 @@ def shared_px2(gap_px: float) -> float:
 def scene_of(gap_px: float, blob_of: int) -> tuple[DigitScene, DigitAssignment, FloatArray]:
     """A finger whose last two discs lie so near that one blob, named ``blob_of``, is both; and where they are (2, 2).
     They are expected a little further on."""
-    trial, _ = weighed(1e-4, (0.0, 0.0), FingerSettings())
+    trial, _ = weighed(1e-4, (0.0, 0.0))
     scene, names = trial.scene, trial.named.names
     value = scene.linearised.value.reshape(5, 3, 3).copy()
     along = value[CHAIN, TIP, :2] - value[CHAIN, DIP, :2]
@@ -85,9 +84,9 @@ def test_a_blob_of_one_disc_measures_that_disc_alone() -> None:
 
 
 def test_no_size_is_learnt_of_discs_that_may_be_two() -> None:
-    trial, _ = weighed(1e-4, (0.0, 0.0), FingerSettings())
+    trial, _ = weighed(1e-4, (0.0, 0.0))
     scene, names, _ = scene_of(6.0, DIP)
     named = replace(trial.named, names=names)
-    learnt = areas_m2(named, scene.area_px, np.zeros((5, 3)), np.full((5, 3), 5e5), SETTINGS.fingers)
+    learnt = areas_m2(named, scene.area_px, np.zeros((5, 3)), np.full((5, 3), 5e5))
     assert np.isnan(learnt[CHAIN]).all()
     assert np.isfinite(learnt[1]).all()
