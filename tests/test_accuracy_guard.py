@@ -71,8 +71,12 @@ def runs() -> dict[str, list[Run]]:
 def test_one_recording_is_tracked_as_well_as_they_were(name: str, pool: str) -> None:
     """The short form of what follows."""
     scenario = next(one for one in WRIST if one.name == name)
-    carpus, plain = (score([run], COLUMNS) for run in done(Job(scenario, scenario.seeds(1)[0], "blobs"), bound=False))
-    assert (carpus.rmse <= MARGIN_OF_ONE * np.array(MEASURED[pool].live_deg)).all(), carpus.rmse
+    one, simplest = done(Job(scenario, scenario.seeds(1)[0], "blobs"), bound=False)
+    carpus, back, plain = score([one], COLUMNS), score([one], COLUMNS, smoothed=True), score([simplest], COLUMNS)
+    measured = MEASURED[pool]
+    assert (carpus.rmse <= MARGIN_OF_ONE * np.array(measured.live_deg)).all(), carpus.rmse
+    assert (back.rmse <= MARGIN_OF_ONE * np.array(measured.back_deg)).all(), back.rmse
+    assert (carpus.sd_over_rmse <= MARGIN_OF_ONE * np.array(measured.sd_over_rmse)).all(), carpus.sd_over_rmse
     assert (carpus.rmse < 0.5 * plain.rmse).all(), "the simplest thing is no rival"
     assert (carpus.inside >= LEAST_INSIDE).all(), carpus.inside
     assert carpus.wrong < MOST_WRONG
