@@ -30,8 +30,9 @@ from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
+from carpus.ui.plot.marks import Target
 from carpus.ui.plot.series import Curve, Drawing, Series, longest_step_s
-from carpus.ui.plot.session import SessionPlot, paint_session, thinned
+from carpus.ui.plot.session import SessionPlot, paint_session, target_marks, thinned
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.plot.style import RIGHT_MIDDLE, screen_style, write
 from carpus.ui.theme import Theme
@@ -417,3 +418,11 @@ def test_a_recording_of_few_frames_a_second_is_drawn_and_its_gaps_stay(fps: floa
     value = np.zeros(40)
     value[10 : 10 + round(0.4 * fps) + 1] = math.nan
     assert len(replace(whole, value=value).gaps_s()) == 1
+
+
+def test_a_target_short_of_thumb_up_keeps_its_sign_and_its_words_off_the_curve() -> None:
+    supination, pronation = target_marks(-40.0, -70.0)
+    assert isinstance(supination, Target)
+    assert isinstance(pronation, Target)
+    assert (supination.words, supination.is_below) == ("Target −40°", False)
+    assert (pronation.words, pronation.is_below) == ("Target 70°", True)

@@ -346,10 +346,10 @@ class NumberCard(QWidget):
             if math.isfinite(best) and abs(best) > 1.0:
                 painter.fillRect(QRectF(x(best) - 1, middle - 7, 2, 14), theme.color("text2"))
         painter.fillRect(QRectF(zero_x - 0.5, box.top(), 1, box.height()), theme.color("border"))
-        for target in (reading.target_positive_deg, reading.target_negative_deg):
+        for target, way in ((reading.target_positive_deg, 1), (reading.target_negative_deg, -1)):
             if math.isfinite(target):
                 painter.fillRect(QRectF(x(target) - 1.5, middle - 14, 3, 28), theme.color("accent"))
-                words = self.tr("Target {angle}").format(angle=numbers.degrees(target))
+                words = self.tr("Target {angle}").format(angle=numbers.signed_degrees(way * target))
                 painter.setFont(font(16 * scale, SEMIBOLD))
                 width = QFontMetricsF(painter.font()).horizontalAdvance(words)
                 left = max(box.left(), min(box.right() - width, x(target) - width + 8 if target > 0 else x(target) - 8))

@@ -18,9 +18,9 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Scales, StayWithin, Target, Times, fitted
+from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Scales, StayWithin, Times, fitted
 from carpus.ui.plot.series import Curve
-from carpus.ui.plot.session import stay_words, target_words, zero_marks
+from carpus.ui.plot.session import stay_words, target_marks, zero_marks
 from carpus.ui.plot.style import CURVE_TOKENS, screen_style, write
 from carpus.ui.theme import Theme
 
@@ -176,9 +176,7 @@ class LiveCurves(PlotCard):
         out: list[Mark] = [] if self._speeds else self._limits(column)
         out.append(Scales())
         if not self._speeds and column == self._first():
-            words = target_words()
-            targets = [value for value in self._targets_deg if math.isfinite(value)]
-            out += [Target(value, words.format(angle=numbers.degrees(value))) for value in targets]
+            out += target_marks(*self._targets_deg)
         if place == 0:
             labels = [(-float(ago), str(ago)) for ago in (8, 6, 4, 2)]
             labels += [(panel.start_s + 0.55, self.tr("10 s ago")), (0.0, self.tr("now"))]

@@ -132,6 +132,8 @@ class Target:
 
     value: float
     words: str = ""
+    is_below: bool = False
+    """Where its words stand."""
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         y = float(panel.y(self.value))
@@ -145,7 +147,7 @@ class Target:
         """The words alone; on a ``ground`` over what else is drawn."""
         y, height = float(panel.y(self.value)), QFontMetricsF(style.end_label).height()
         if self.words:
-            bottom = y if self.value >= 0 else y + height + 4 * style.unit
+            bottom = y + height + 4 * style.unit if self.is_below else y
             _note(painter, style, panel, bottom, self.words, "accent", ground)
 
 

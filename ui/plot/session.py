@@ -37,9 +37,15 @@ BENDING: tuple[Row, ...] = ("knuckle", "middle", "end")
 _BEND_LOW_DEG, _BEND_HIGH_DEG, _SPREAD_DEG = -15.0, 115.0, 32.0
 
 
-def target_words() -> str:
-    """What stands at a target."""
-    return tr("Target {angle}")
+def target_marks(positive_deg: float, negative_deg: float) -> list[Mark]:
+    """The lines of the targets that there are, in degrees their own way: ``Target −40°`` of a supination short of thumb
+    up. Their words stand on the far side, where no curve comes from."""
+    words = tr("Target {angle}")
+    targets = [(value, way) for value, way in ((positive_deg, 1), (negative_deg, -1)) if math.isfinite(value)]
+    return [
+        Target(value, words.format(angle=numbers.signed_degrees(way * value)), is_below=way < 0)
+        for value, way in targets
+    ]
 
 
 def no_value_words() -> str:
@@ -161,9 +167,7 @@ class SessionPlot:
             out += zero_marks(key, self.exercise)
         out.append(Scales())
         if place == 0:
-            targets = [value for value in (self.target_positive_deg, self.target_negative_deg) if math.isfinite(value)]
-            words = target_words()
-            out += [Target(value, words.format(angle=numbers.degrees(value))) for value in targets]
+            out += target_marks(self.target_positive_deg, self.target_negative_deg)
         return out
 
     def moving(self, key: int, points: int) -> list[Curve]:
