@@ -42,8 +42,13 @@ TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
 DATA_VARIABLE = "CARPUS_DATA"
 GONE = {
-    "live.moved_stall_s",
-    "live.told_stall_s",
+    *(
+        f"live.{name}"
+        for name in (
+            "moved_stall_s", "told_stall_s", "recent_frames", "history_s", "row_bytes", "picture_bytes",
+            "stop_patience_s",
+        )
+    ),
     "report.agreement_limit_deg",
     "report.retest_days",
     "screen.keys",

@@ -43,6 +43,16 @@ _FRAME_PATIENCE_S = 0.25
 """A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
 
 
+KEPT_FRAMES = 20
+"""The newest, for a calibration that begins."""
+HISTORY_S = 12.0
+"""Of tracked frames, for curves."""
+ROW_BYTES, PICTURE_BYTES = 4_000, 100_000
+"""On the disk by experience, for the time that is left."""
+STOP_PATIENCE_S = 10.0
+"""So long a camera may take to give up its last picture."""
+
+
 class Listener(Protocol):
     """Who hears every tracked frame and every event at once; called in the threads they come from, must not wait."""
 
@@ -71,8 +81,8 @@ class LiveSession:
         self._backlog = Backlog(self._settings.tracking_waiting, fps, waits=source_waits)
         self._newest_frame: Newest[Frame] = Newest()
         self._newest_view: Newest[TrackedView] = Newest()
-        self._recent: deque[Frame] = deque(maxlen=self._settings.recent_frames)
-        self._history: deque[TrackedFrame] = deque(maxlen=math.ceil(1.25 * fps * self._settings.history_s))
+        self._recent: deque[Frame] = deque(maxlen=KEPT_FRAMES)
+        self._history: deque[TrackedFrame] = deque(maxlen=math.ceil(1.25 * fps * HISTORY_S))
         self._events: deque[LiveEvent] = deque(maxlen=1000)
         self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
         self._latencies: deque[float] = deque(maxlen=math.ceil(10.0 * fps))
@@ -112,7 +122,7 @@ class LiveSession:
             self._capture_thread.join(timeout=_FRAME_PATIENCE_S)
             if self._capture_thread.is_alive():
                 self._source.close()  # a source that waits for a camera or for its next frame ends now
-                self._capture_thread.join(timeout=self._settings.stop_patience_s)
+                self._capture_thread.join(timeout=STOP_PATIENCE_S)
             if self._capture_thread.is_alive():
                 self._tell("thread_stuck")
         with suppress(Exception):  # already told by the recorder
@@ -292,7 +302,7 @@ class LiveSession:
         fps = (len(arrivals) - 1) / span_s if span_s > 0.0 else 0.0
         rows, pictures = (recording.rows, recording.pictures) if recording else (None, None)
         free = recording.disk_free if recording else free_bytes(self._settings.folder)
-        frame_bytes = self._settings.row_bytes + (self._settings.picture_bytes if pictures else 0)
+        frame_bytes = ROW_BYTES + (PICTURE_BYTES if pictures else 0)
         return LiveCounters(
             captured=captured,
             tracked=tracked,

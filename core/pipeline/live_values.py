@@ -30,25 +30,19 @@ class LiveSettings:
     camera at twice the work that the computer can do, as they came, 1.5 GB of 640x480, fewer where the computer has
     not twice as much memory free. ``pictures_waiting`` may wait for the disk before the raw recording ends; the newest
     are the same as those above, so the two share their memory.
-    ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s);
-    ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
-    the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
-    room on the disk before a recording runs.
+    ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s); a
+    warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the room on the disk before a
+    recording runs.
     """
 
     tracking_waiting: int = 960
     rows_waiting: int = 900
     pictures_waiting: int = 960
-    recent_frames: int = 20
-    history_s: float = 12.0
-    row_bytes: int = 4_000
-    picture_bytes: int = 100_000
     low_disk_bytes: int = 1_000_000_000
-    stop_patience_s: float = 10.0
     folder: Path | None = None
 
     def __post_init__(self) -> None:
-        for name in ("tracking_waiting", "rows_waiting", "pictures_waiting", "recent_frames", "history_s"):
+        for name in ("tracking_waiting", "rows_waiting", "pictures_waiting"):
             if not 0 < getattr(self, name) <= 1_000_000:
                 raise ValueError(f"{name} {getattr(self, name)} is not between 0 and 1000000")
 

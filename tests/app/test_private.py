@@ -149,7 +149,7 @@ def test_a_list_of_pictures_stays_in_its_folder(tmp_path: Path, name: str) -> No
         "[screen]\ntext_scale = nan",
         "[screen]\ntext_scale = -1.0",
         "[live]\nrows_waiting = -1",
-        "[live]\nhistory_s = inf",
+        "[detection]\nmarker_radius_m = inf",
         "[tracker]\n" + "x = " + "9" * 5000,
         '[recording]\nfolder = "a\\u0000b"',
         "\udcff",
