@@ -62,6 +62,13 @@ GONE = {
     ),
     *(f"tracker.{name}" for name in ("holding", "finding", "readout", "doubt", "said")),
     *(
+        f"tracker.noise.{name}"
+        for name in (
+            "pixel_model_sd_px", "depth_ratios", "shade_share", "whole_from", "most_outliers", "adapt_s",
+            "depth_outlier", "depth_locks",
+        )
+    ),
+    *(
         f"tracker.fingers.{name}"
         for name in (
             "abduction_share", "range_after_s", "learning", "drift_per_s", "skin_px", "depth_stays_m", "hidden_s",

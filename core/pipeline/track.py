@@ -53,6 +53,12 @@ Seen = Frame | PackedFrame
 """A frame, or one whose pictures are unpacked where they are looked at."""
 
 
+PIXEL_MODEL_SD_PX = 0.08
+"""Of a disc's centre, that a still hand does not show: shading, blur, the lens."""
+DEPTH_RATIOS = (0.5, 2.0)
+"""No further off is the scatter of depths believed to be, as a still hand can lock to one step."""
+
+
 class HandTracker(Protocol):
     """Follows one calibrated hand through frames in order of time; :class:`Tracker`, or a filter of research."""
 
@@ -273,9 +279,9 @@ def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSetti
     noise = settings.noise
     pixel_sd_px, depth_ratio = noise.pixel_sd_px, noise.depth_ratio
     if np.isfinite(still.pixel_sd_px):
-        pixel_sd_px = float(np.hypot(still.pixel_sd_px, noise.pixel_model_sd_px))
+        pixel_sd_px = float(np.hypot(still.pixel_sd_px, PIXEL_MODEL_SD_PX))
     if np.isfinite(still.depth_ratio):
-        depth_ratio = float(np.clip(still.depth_ratio, *noise.depth_ratios))
+        depth_ratio = float(np.clip(still.depth_ratio, *DEPTH_RATIOS))
     radius_m = still.disc_radius_m if np.isfinite(still.disc_radius_m) else settings.marker_radius_m
     return Learnt(pixel_sd_px, depth_ratio, neutral_ends_s, radius_m)
 

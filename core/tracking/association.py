@@ -27,6 +27,10 @@ from carpus.core.types import FloatArray
 IMPOSSIBLE = -1e9
 
 
+DEPTH_OUTLIER = 1e-4
+"""The chance that a blob's depth is of something else."""
+
+
 @dataclass(frozen=True, slots=True)
 class AssociationSettings:
     """Priors and densities of (12).

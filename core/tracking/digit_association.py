@@ -31,7 +31,7 @@ from carpus.core.tracking.hand_geometry import (
 )
 from carpus.core.tracking.joint_limits import SOFT_RAD, outside_limits
 from carpus.core.tracking.kernel import ModeMixture, Update, corrected, partial_update
-from carpus.core.tracking.palm_association import Measurements
+from carpus.core.tracking.palm_association import SHADE_SHARE, WHOLE_FROM, Measurements
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
@@ -211,7 +211,7 @@ def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssign
         scene.blobs.value[free],
         scene.blobs.variance[free],
         scene.resolution_px2 / CLUTTER,
-        settings.noise.depth_outlier,
+        association.DEPTH_OUTLIER,
         settings.association,
     )
     assumed = math.log(settings.association.prior_marker / settings.association.prior_clutter)
@@ -234,7 +234,7 @@ def measured_as_named(
         kernels.digits_measured(
             len(scene.blobs), names.assigned, names.with_depth, scene.blobs.value, scene.blobs.variance, scene.area_px,
             scene.whole_px, scene.disc_m2, scene.has_discs, scene.visible, scene.linearised.value, scene.spread,
-            scene.noise_factor, noise.whole_from, noise.shade_share, settings.marker_radius_m,
+            scene.noise_factor, WHOLE_FROM, SHADE_SHARE, settings.marker_radius_m,
             scene.view.camera.fx_px, CROWDED_RADII, CROWDED_PX, WAS_SEEN, MERGED_FROM,
             MERGED_SHARE, noise.pixel_sd_px, SKIN_PX, measured, variance,
         )  # fmt: skip
@@ -246,8 +246,8 @@ def measured_as_named(
         variance = np.where(is_named[..., None], scene.blobs.variance[blob], 1.0)
         measured[..., 2] = np.where(names.with_depth, measured[..., 2], np.nan)
         # Now that the disc is known, so is the size it would have if it were whole.
-        missing = noise.whole_from - scene.area_px[blob] / scene.whole_px
-        wander_px = noise.shade_share * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
+        missing = WHOLE_FROM - scene.area_px[blob] / scene.whole_px
+        wander_px = SHADE_SHARE * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
         expected = scene.linearised.value.reshape(CHAINS, DISCS, 3)
         radius_px = settings.marker_radius_m * scene.view.camera.fx_px / expected[..., 2]
         crowded_px = np.where(is_crowded(expected[..., :2], radius_px, CROWDED_RADII), CROWDED_PX, 0.0)
@@ -362,7 +362,7 @@ def _digit_jointly(
     per_blob = float(np.log(scene.resolution_px2 / CLUTTER))
     with_depth = float(np.log(settings.association.depth_range_m))
     without = np.where(
-        np.isfinite(scene.blobs.value[np.maximum(assigned, 0), 2]), np.log(settings.noise.depth_outlier), 0.0
+        np.isfinite(scene.blobs.value[np.maximum(assigned, 0), 2]), np.log(association.DEPTH_OUTLIER), 0.0
     )
     clutter = per_blob + np.where(depth, with_depth, without)
     score = log_normal + np.sum(np.where(named, by_seen + clutter, 0.0), axis=1)

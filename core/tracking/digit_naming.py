@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from carpus.core.kernels.choice import Kernels, in_c
 from carpus.core.tracking.association import (
+    DEPTH_OUTLIER,
     IMPOSSIBLE,
     AssociationSettings,
     is_jointly_compatible,
@@ -57,8 +58,8 @@ from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_ben
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.hand_geometry import CHAINS, CROWDED_PX, CROWDED_RADII, DISCS, SHOWS, SLOTS, PalmInBody
 from carpus.core.tracking.kernel import ModeMixture, Update, like
-from carpus.core.tracking.palm_association import Measurements
-from carpus.core.tracking.predicted_measurement import PredictedDigits, adapted_factor
+from carpus.core.tracking.palm_association import SHADE_SHARE, WHOLE_FROM, Measurements
+from carpus.core.tracking.predicted_measurement import ADAPT_S, PredictedDigits, adapted_factor
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, SurfaceSamples
 
@@ -182,7 +183,7 @@ class DigitMemory:
         kernels.digits_accepted(
             dt_s, named.names.assigned, trial.scene.visible, MISSED, MAX_SEEN, SHOWS, self.unseen_s,
             self.missing, MIN_DISCS, named.update.residual, named.measured, self.noise_factor,
-            1.0 - math.exp(-dt_s / noise.adapt_s), noise.least_adapted, noise.most_adapted, self.disc_m2,
+            1.0 - math.exp(-dt_s / ADAPT_S), noise.least_adapted, noise.most_adapted, self.disc_m2,
             trial.disc_m2, SIZE_GROWS, SIZE_SHRINKS, visible, unseen_s, missing, factor, disc_m2,
         )  # fmt: skip
         self.visible, self.unseen_s, self.missing = visible, unseen_s, missing
@@ -344,8 +345,8 @@ class DigitNaming:
             bent_weights(settings.spread).numbers, BENDS, memory.visible, picture.dt_s, SHOWN_S, HIDDEN_S,
             STEEPEST_RAD, STEEPEST_SD_RAD, MIN_SEEN, MAX_SEEN, MIN_FACING, blobs.value,
             blobs.variance, area_px, free, memory.disc_m2, memory.noise_factor, self._model.has_discs,
-            *log_densities(self._model.resolution_px2 / CLUTTER, noise.depth_outlier, names), names.gate_sd**2,
-            IMPOSSIBLE, math.log(names.prior_marker / names.prior_clutter), noise.whole_from, noise.shade_share,
+            *log_densities(self._model.resolution_px2 / CLUTTER, DEPTH_OUTLIER, names), names.gate_sd**2,
+            IMPOSSIBLE, math.log(names.prior_marker / names.prior_clutter), WHOLE_FROM, SHADE_SHARE,
             settings.marker_radius_m, CROWDED_RADII, CROWDED_PX, MERGED_FROM, MERGED_SHARE,
             noise.pixel_sd_px, SKIN_PX, FLAT_RAD, learning, estimates.mean, estimates.covariance,
             estimates.probability, nine, square, rows, slope, centre_m, by_place, out.mean, out.covariance,

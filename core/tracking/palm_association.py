@@ -20,6 +20,12 @@ from carpus.core.tracking.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.types import Detections, FloatArray
 
+SHADE_SHARE, WHOLE_FROM = 0.7, 0.6
+"""So far the centre of a partly covered disc may wander, as a share of its radius times what is missing of its area
+below the second."""
+MAX_OUTLIERS = 3
+"""In a frame, that are given the noise they show."""
+
 
 @dataclass(frozen=True, slots=True)
 class Measurements:
@@ -63,14 +69,14 @@ def measurements_of(
         out = Measurements(np.empty((len(blobs), 3)), np.empty((len(blobs), 3)))
         kernels.blobs_worth(
             len(blobs), blobs.pixel, blobs.depth_m, blobs.depth_sd_m, blobs.area_px, settings.use_depth, radius_px,
-            noise.shade_share, noise.whole_from, noise.pixel_sd_px, noise.depth_ratio,
+            SHADE_SHARE, WHOLE_FROM, noise.pixel_sd_px, noise.depth_ratio,
             sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.averages, CORE_SHARE, sensor.patch_px,
             sensor.stays.fixed_m, sensor.stays.square_per_m, out.value, out.variance,
         )  # fmt: skip
         return out
     depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
     shown = blobs.area_px / (np.pi * radius_px**2)
-    wander_px = noise.shade_share * radius_px * np.maximum(noise.whole_from - shown, 0.0)
+    wander_px = SHADE_SHARE * radius_px * np.maximum(WHOLE_FROM - shown, 0.0)
     value = np.empty((len(blobs), 3))
     value[:, :2], value[:, 2] = blobs.pixel, depth
     known = np.isfinite(depth)
@@ -137,7 +143,7 @@ def associate_and_update(
         blobs.value,
         blobs.variance,
         resolution_px2,
-        settings.noise.depth_outlier,
+        association.DEPTH_OUTLIER,
         settings.association,
     )
     assigned = association.resolve(odds.value)
@@ -171,8 +177,8 @@ def _in_ordinary_case(
     dof, ordinary = np.empty(1, dtype=np.int64), np.empty(1, dtype=np.bool_)
     kernels.palm_named(
         predicted.mixture.mean.shape[1], len(blobs), predicted.mean, predicted.covariance, blobs.value, blobs.variance,
-        noise_factor, *association.log_densities(resolution_px2, noise.depth_outlier, own), own.gate_sd**2,
-        association.IMPOSSIBLE, enough, most_chi2_row(own.consistent), noise.most_outliers,
+        noise_factor, *association.log_densities(resolution_px2, association.DEPTH_OUTLIER, own), own.gate_sd**2,
+        association.IMPOSSIBLE, enough, most_chi2_row(own.consistent), MAX_OUTLIERS,
         noise.outlier_sd, mixture.mean, mixture.covariance, mixture.probability, line.value, line.slope, line.error,
         NOTHING if predicted.partial is None else predicted.partial, out.mean, out.covariance, out.probability,
         assigned, used, residual, raw, nis, dof, ordinary,
@@ -217,7 +223,7 @@ def _by_any_mode(
             blobs.value,
             blobs.variance,
             resolution_px2,
-            settings.noise.depth_outlier,
+            association.DEPTH_OUTLIER,
             settings.association,
         )
         for mean, covariance in zip(*predicted.by_mode(), strict=True)
@@ -239,7 +245,7 @@ def _without_outliers(
     A disc half behind the rim is still that disc, but its middle is not where it seems.
     """
     factor = noise_factor
-    for _ in range(noise.most_outliers):
+    for _ in range(MAX_OUTLIERS):
         marker, axis = divmod(int(np.abs(named.residual).argmax()), 3)
         size = abs(float(named.residual[marker, axis]))
         if size <= noise.outlier_sd:

@@ -39,6 +39,12 @@ _FLOOR_M = 1e-5
 """Keeps the covariance of a perfectly measured disc positive definite."""
 
 
+DEPTH_LOCKS = 0.6
+"""Share of a reading's error that stays as long as the hand is still, where depths are rounded to steps."""
+ADAPT_S = 0.5
+"""Over which each marker's own noise is judged by its residuals."""
+
+
 def along_rays(calibration: Calibration, sd_m: FloatArray) -> FloatArray:
     """Covariances (M, 3, 3) in W0 of errors along the rays from the camera, ``sd_m`` (M,) in depth."""
     place = _cam_m(calibration)
@@ -80,7 +86,7 @@ def shape_partial_update(news: float) -> FloatArray:
 def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: MeasurementNoise) -> FloatArray:
     """Covariance (18, 18) of the discs' places as calibrated, with what the scatter of a still hand's depths does not
     show of their error: its ``depth_stays_m``, and the step to which a depth stays rounded while the hand is still."""
-    rounded_m = 0.0 if sensor.averages else noise.depth_locks * sensor.reading_sd_m(_cam_m(calibration)[:, 2])
+    rounded_m = 0.0 if sensor.averages else DEPTH_LOCKS * sensor.reading_sd_m(_cam_m(calibration)[:, 2])
     own = calibration.marker_covariance_w0_m2 + along_rays(calibration, np.hypot(noise.depth_stays_m, rounded_m))
     own = own + _FLOOR_M**2 * np.eye(3)
     count = len(own)
@@ -300,11 +306,11 @@ def adapted_factor(
     """Variance factors (..., 3) of u, v and depth after one more frame with these residuals, in standard deviations;
     pixels u, v of a marker share theirs.
 
-    Squared residuals should average one; the factor moves towards what makes them so over ``adapt_s``.
+    Squared residuals should average one; the factor moves towards what makes them so over ``ADAPT_S``.
     """
     if dt_s <= 0.0:
         return factor
-    weight = 1.0 - math.exp(-dt_s / noise.adapt_s)
+    weight = 1.0 - math.exp(-dt_s / ADAPT_S)
     if (kernels := in_c()) is not None:
         out = np.empty(factor.shape)
         kernels.adapted_factors(

@@ -31,33 +31,19 @@ class Profiles:
 
 @dataclass(frozen=True, slots=True)
 class MeasurementNoise:
-    """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand;
-    ``pixel_model_sd_px`` what a still hand does not show (shading, blur, the lens);
-    ``depth_ratio`` of the depths' scatter to that of a reading by the book, likewise measured, but no further off than
-    ``depth_ratios``, as a still hand can lock to one step;
-    ``depth_stays_m``: error of a disc's depth that stays over a recording (the matching window flattens knuckles);
-    ``depth_locks``: share of a reading's that stays as long as the hand is still, where depths are rounded to steps;
-    ``outlier_sd``: a residual beyond this many sds is given the noise it shows, at most ``most_outliers`` in a
-    frame; ``adapt_s``: over which time each marker's own noise is judged by its residuals; its variance rises to at
-    most ``most_adapted`` times and falls to ``least_adapted``. ``shade_share``: how far the centre of a partly
-    covered disc may wander, as a share of its radius times what is missing of its area below ``whole_from``.
-    ``depth_outlier``: chance that a blob's depth is of something else.
+    """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand; ``depth_ratio`` of the
+    depths' scatter to that of a reading by the book, likewise measured.
+    ``depth_stays_m``: error of a disc's depth that stays over a recording (the matching window flattens knuckles).
+    A residual beyond ``outlier_sd`` is given the noise it shows; each marker's variance rises to at most
+    ``most_adapted`` times and falls to ``least_adapted``.
     """
 
     pixel_sd_px: float = 0.15
-    pixel_model_sd_px: float = 0.08
     depth_ratio: float = 1.0
-    depth_ratios: tuple[float, float] = (0.5, 2.0)
-    shade_share: float = 0.7
-    whole_from: float = 0.6
     outlier_sd: float = 3.5
-    most_outliers: int = 3
-    adapt_s: float = 0.5
     most_adapted: float = 100.0
     least_adapted: float = 0.6
-    depth_outlier: float = 1e-4
     depth_stays_m: float = 2.5e-4
-    depth_locks: float = 0.6
 
 
 _LIMITS: Limits = {

@@ -11,6 +11,7 @@ from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate, palm_linearised
 from carpus.core.tracking.predicted_measurement import (
+    DEPTH_LOCKS,
     along_rays,
     fresh_share,
     hidden_by_calibration,
@@ -82,7 +83,7 @@ def test_a_calibrated_place_is_as_sure_as_it_was_measured_and_less_along_its_ray
         ray = FROM_ABOVE.T @ (place / np.linalg.norm(place))
         along = stays_m * np.linalg.norm(place) / place[2]
         assert ray @ found[own, own] @ ray == pytest.approx(4e-4**2 + along**2, rel=1e-2)
-        rounded = noise.depth_locks * float(PRIMESENSE.reading_sd_m(place[2])) * np.linalg.norm(place) / place[2]
+        rounded = DEPTH_LOCKS * float(PRIMESENSE.reading_sd_m(place[2])) * np.linalg.norm(place) / place[2]
         assert ray @ locked[own, own] @ ray == pytest.approx(rounded**2), "depths that are rounded stay so"
         across = np.cross(ray, [1.0, 0.0, 0.0])
         assert across @ found[own, own] @ across / (across @ across) == pytest.approx(4e-4**2, rel=1e-2)
