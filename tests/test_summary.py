@@ -165,6 +165,9 @@ def test_the_forearm_is_told_from_thumb_up_also_where_it_started_elsewhere() -> 
     made = fakes.session(seconds=20.0, exercise="FOREARM_PS", motion="palm_up")
     (line,) = (one for one in range_lines(made, session_figures(made)) if "forearm, thumb up" in one)
     assert re.search(r"from 9\d\.\d° pronation to [34]\d\.\d° pronation", line)
+    bent = fakes.session()
+    (other,) = (one for one in range_lines(bent, session_figures(bent)) if "rotation" in one)
+    assert re.search(r"rotation +arc \d+\.\d°$", other), "beside another movement it is no pronation"
     start = np.radians([0.0, 0.0, 30.0])
     began = dataclasses.replace(made, calibration=dataclasses.replace(made.calibration, start_angles_rad=start))
     assert any("60.0° pronation" in one for one in session_lines._calibration(began))

@@ -16,7 +16,7 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.depth_sensor import ASSUMED, DepthSensor
 from carpus.core.hand.exercises import PRONOSUPINATION, SIDES
-from carpus.core.hand.forearm_rotation import as_read_rad
+from carpus.core.hand.forearm_rotation import as_read_rad, is_from_thumb_up
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.provenance import said_in
 from carpus.core.results.camera_said import camera_said
@@ -188,7 +188,10 @@ def range_lines(session: Session, figures: SessionFigures) -> list[str]:
     whole = session_figures(replace(session, header=header)) if figures.exercise.counts else figures
     lines = []
     for angle, stored_name in enumerate(WRIST_ANGLES):
-        name = "forearm, thumb up" if angle == PRONOSUPINATION else stored_name  # 0 of the files is palm down
+        only_arc = angle == PRONOSUPINATION and not is_from_thumb_up(figures.exercise)
+        name = stored_name
+        if angle == PRONOSUPINATION:  # whose 0 in the files is palm down
+            name = "rotation" if only_arc else "forearm, thumb up"
         of = figures if figures.exercise.angle == angle else whole
         rows = {row.movement: row for row in of.rows if row.angle == angle}
         if "arc" not in rows:
@@ -200,7 +203,9 @@ def range_lines(session: Session, figures: SessionFigures) -> list[str]:
         low = -rows[negative].mean_deg if negative in rows else None
         high = rows[positive].mean_deg if positive in rows else arc + (low or 0.0)
         low = high - arc if low is None else low
-        text = f"from {_side(angle, low)} to {_side(angle, high)}, arc {written(arc, 1)}°"
+        text = f"arc {written(arc, 1)}°"
+        if not only_arc:
+            text = f"from {_side(angle, low)} to {_side(angle, high)}, {text}"
         if of.counted:
             text += ", of 1 repetition" if of.counted == 1 else f", mean of {of.counted} repetitions"
         lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].limited else ""))
