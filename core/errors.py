@@ -191,8 +191,8 @@ class SessionChanged(CarpusFault):
     do = phrase("Take it from a back-up, or do not rely on its figures.")
 
 
-class SessionUnfinished(CarpusFault):
-    """A session that is still being recorded or was cut short; it has no seal yet."""
+class SessionUnfinished(SessionUnreadable):
+    """A part file of Carpus 0.2.0, which only its recovery reads."""
 
     happened = phrase("This session is not finished: {subject}.")
     safe = phrase("What was recorded of it is there.")

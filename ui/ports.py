@@ -42,7 +42,7 @@ class PatientCard:
     note_when: datetime | None = None
     marker_picture_rgb: ByteImage | None = None
     warnings: Sequence[str] = ()
-    """What must be known of the last session: simulated, doubtful, cut short, not to count."""
+    """What must be known of the last session: simulated, doubtful, recovered, not to count."""
     has_sessions: bool = False
     """Whether there are sessions at all, also such as are not counted."""
     about: str = ""

@@ -45,7 +45,6 @@ def reason_words(reasons: Sequence[str]) -> str:
         "distance": tr("the camera was at another distance"),
         "start_angle": tr("another start angle was given"),
         "forearm_moved": tr("the forearm moved"),
-        "incomplete": tr("the recording was cut short"),
         "hidden": tr("hidden in part"),
         "angle_order": tr("angles in another order"),
         "only_passive": tr("no active repetition"),

@@ -26,7 +26,6 @@ _WHY = {
     "distance": "camera at another distance",
     "start_angle": "another start angle",
     "forearm_moved": "the forearm moved",
-    "incomplete": "cut short",
     "doubtful": "doubtful markers",
     "not_counted": "marked as not counting",
     "simulated": "simulated among measured ones",

@@ -23,7 +23,6 @@ from carpus.core.session.reader import read_session
 from carpus.core.types import FloatArray, Side
 
 POINT_FILES, ANGLE_FILES, TABLE_FILES = (".c3d", ".trc"), (".mot", ".sto"), (".csv", ".tsv", ".txt")
-SESSION_FILES = (".h5", ".part")
 TIME_NAMES = (
     *("time_s", "timestamp_s", "time", "since_start_s", "t", "time_ms", "timestamp_ms", "timestamp"),
     *("zeit", "tempo"),
@@ -105,7 +104,7 @@ def read_reference(
         )
     if suffix in TABLE_FILES:
         return _of_table(path, columns or {}, radians, hand)
-    if suffix in SESSION_FILES:
+    if suffix == ".h5":
         return _of_session(path, smoothed)
     raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
 

@@ -273,7 +273,7 @@ class ListedSessions:
     def _entry(self, row: Row[Any]) -> SessionEntry:
         return SessionEntry(
             row.id, self.folder / row.path, moment(row.recorded, row.recorded_s), moment(row.created, row.created_s),
-            row.recording_id, row.exercise, row.hand, row.frames, row.duration_s, bool(row.complete),
+            row.recording_id, row.exercise, row.hand, row.frames, row.duration_s,
             bool(row.simulated), row.by,
         )  # fmt: skip
 
@@ -452,7 +452,7 @@ def _columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict
         "patient_id": patient_id or None, "path": path, "recording_id": header.recording_id,
         "recorded": header.when.isoformat(), "recorded_s": header.when.timestamp(), "created": header.created,
         "created_s": created.timestamp(), "exercise": header.exercise, "hand": header.hand, "frames": outline.frames,
-        "duration_s": outline.duration_s, "complete": int(outline.complete), "simulated": int(header.simulated),
+        "duration_s": outline.duration_s, "complete": 1, "simulated": int(header.simulated),
         "size": outline.size_bytes,
     }  # fmt: skip
 

@@ -110,7 +110,6 @@ class SessionEntry:
     hand: Side
     frames: int
     duration_s: float
-    complete: bool
     simulated: bool = False
     by: str = ""
 
@@ -160,7 +159,7 @@ def entry_of(path: Path, outline: SessionOutline) -> SessionEntry:
     header = outline.header
     return SessionEntry(
         header.session_id, path, header.when, datetime.fromisoformat(header.created), header.recording_id,
-        header.exercise, header.hand, outline.frames, outline.duration_s, outline.complete, header.simulated,
+        header.exercise, header.hand, outline.frames, outline.duration_s, header.simulated,
     )  # fmt: skip
 
 

@@ -210,7 +210,6 @@ class SessionFigures:
     protocol: str
     exercise: Exercise
     duration_s: float
-    complete: bool
     recovered: bool
     smoothed: bool
     software_version: str
@@ -308,7 +307,6 @@ def session_figures(
         protocol=header.protocol.name,
         exercise=seen.exercise,
         duration_s=float(session.timestamp_s[-1] - session.timestamp_s[0]) if len(session) else 0.0,
-        complete=session.complete,
         recovered=bool(session.recovered),
         smoothed=session.smoothed is not None,
         software_version=header.software_version,

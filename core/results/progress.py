@@ -39,7 +39,6 @@ Unfairness = Literal[
     "distance",
     "start_angle",
     "forearm_moved",
-    "incomplete",
     "hidden",
     "angle_order",
     "only_passive",
@@ -209,8 +208,6 @@ def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfair
         reasons.append("start_angle")
     if other.exercise.pure_wrist and other.quality.forearm_moved:
         reasons.append("forearm_moved")
-    if not other.complete and not other.recovered:
-        reasons.append("incomplete")
     if other.passive is not None and not other.counted:
         reasons.append("only_passive")
     elif 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.counts and not other.counted):

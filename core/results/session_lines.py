@@ -146,8 +146,6 @@ def _calibrated(parameters: str) -> str:
 
 
 def _completeness(session: Session) -> str:
-    if not session.complete:
-        return "no: still being recorded or cut short (carpus recover finishes it)"
     if session.recovered:
         return (
             f"cut short and recovered {session.recovered}; at most the last second is missing; more only where the"

@@ -1,4 +1,4 @@
-"""Reads session files, whole or cut short, by the schema; in the reading process (:mod:`core.session.reader`)."""
+"""Reads session files by the schema; in the reading process (:mod:`core.session.reader`)."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import contextlib
 import json
 import logging
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,7 @@ from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
 from carpus.core.session.plausible import LONGEST_S, check_blobs, check_header, check_values
-from carpus.core.session.rows import Rows, check_plain, rows_of, whole_rows
+from carpus.core.session.rows import Rows, check_plain
 from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.seal import ATTRIBUTE, seal_of
 from carpus.core.session.values import (
@@ -53,7 +54,7 @@ log = logging.getLogger(__name__)
 
 
 def read_session(path: Path) -> Session:
-    """Read a session; of one that was cut short the whole rows. Raises :class:`SessionUnreadable`.
+    """Read a session. Raises :class:`SessionUnreadable`.
 
     Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
     """
@@ -93,8 +94,6 @@ def verify(path: Path) -> Verified:
     """Read all of a session against its check sums and its seal. Raises :class:`SessionUnreadable` for a damaged one,
     :class:`SessionChanged` for one that is not as it was finished."""
     session = read_session(path)
-    if not session.complete:
-        raise SessionUnfinished(path)
     with open_session(path) as file:
         seal = str(file.attrs.get(ATTRIBUTE, ""))
         if seal and seal != seal_of(file):
@@ -204,8 +203,6 @@ class _Source:
         self._file = file
         self._header = self._read_header()
         self.layout = TableLayout(self._header.protocol, self._header.joint_names)
-        self._complete = bool(self._attribute("complete"))
-        self._rows = self._read_rows()
 
     def session(self) -> Session:
         frames = {
@@ -228,7 +225,6 @@ class _Source:
             quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
             events=tuple(map(Event, *(self._list(field) for field in schema.EVENT_FIELDS))),
             smoothed=self._smoothed(),
-            complete=self._complete,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
             repetitions=self._repetitions(),
         )
@@ -236,12 +232,8 @@ class _Source:
         return session
 
     def _smoothed(self) -> Motion | None:
-        """None where no smoother ran; of a session that was cut short also where half of its result is there."""
-        if "/smoothed" not in self._file:
-            return None
-        with contextlib.suppress(*(() if self._complete else (SessionUnreadable, OSError, RuntimeError))):
-            return self._motion(schema.SMOOTHED_FIELDS)
-        return None
+        """None where no smoother ran."""
+        return self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None
 
     def _repetitions(self) -> Repetitions | None:
         path = schema.REPETITIONS.path
@@ -277,7 +269,6 @@ class _Source:
             header=self._header,
             frames=frames,
             duration_s=duration_s,
-            complete=self._complete,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
             size_bytes=self._path.stat().st_size,
         )
@@ -293,10 +284,7 @@ class _Source:
                 raise SessionUnreadable(self._path, phrase("no dataset {path}", path=field.path))
             return np.full(expected, field.fill, dtype=field.h5_dtype)
         dataset = self._file[field.path]
-        if not self._complete and field.shape[0] in schema.GROWING_AXES and dataset.ndim == len(expected):
-            data = rows_of(dataset, expected[0])
-        else:
-            data = dataset[()]
+        data = dataset[()]
         kinds = {"f": "f", "u": "iu", "i": "iu", "t": "SO"}[field.dtype[0]]
         if data.shape != expected or data.dtype.kind not in kinds:
             raise SessionUnreadable(
@@ -385,9 +373,10 @@ class _Source:
             return str(self._attribute("recording_id"))
         return str(self._file.attrs.get("origin", "") or self._attribute("session_id"))
 
-    def _read_rows(self) -> Rows:
-        if not self._complete:
-            return whole_rows(self._file)
+    @cached_property
+    def _rows(self) -> Rows:
+        if not self._attribute("complete"):
+            raise SessionUnfinished(self._path)
         lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
         streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
         return Rows(*lengths, *streams)

@@ -1,4 +1,4 @@
-"""Reads session files, whole or cut short, without opening one in this process.
+"""Reads session files without opening one in this process.
 
 Whatever a file does to the HDF5 library, it does it to the reading process (:mod:`core.session.reading_process`),
 which has limits of time and memory, serves many questions and is started anew when it has died. What is read comes
@@ -33,7 +33,7 @@ _NUMPY_NAMES = ("ndarray", "dtype", "_reconstruct", "_frombuffer", "scalar")
 
 
 def read_session(path: Path) -> Session:
-    """Read a session; of one that was cut short the whole rows. Raises :class:`SessionUnreadable`.
+    """Read a session. Raises :class:`SessionUnreadable`.
 
     Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
     """

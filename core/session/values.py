@@ -265,12 +265,11 @@ def _readings(kept: tuple[NDArray[Any], NDArray[Any]], row: int) -> SurfaceSampl
 
 @dataclass(frozen=True, slots=True)
 class SessionOutline:
-    """What a list of sessions shows; ``complete`` and ``recovered`` as in :class:`Session`."""
+    """What a list of sessions shows; ``recovered`` as in :class:`Session`."""
 
     header: SessionHeader
     frames: int
     duration_s: float
-    complete: bool
     recovered: str
     size_bytes: int = 0
 
@@ -293,8 +292,8 @@ ANGLE_ORDERS: tuple[AngleOrder, ...] = ("zyx", "isb")
 class Session:
     """What a session file holds, without the blobs and pictures, which are read when asked for.
 
-    ``timestamp_s`` and ``status`` (N,); ``smoothed`` None where no smoother ran; ``complete`` False for a file
-    still open or cut short; ``recovered`` when an interrupted one was finished (ISO 8601), else empty.
+    ``timestamp_s`` and ``status`` (N,); ``smoothed`` None where no smoother ran; ``recovered`` when an
+    interrupted one was finished (ISO 8601), else empty.
     """
 
     path: Path
@@ -308,7 +307,6 @@ class Session:
     quality: QualitySeries
     events: tuple[Event, ...]
     smoothed: Motion | None
-    complete: bool
     recovered: str
     repetitions: Repetitions | None = None
     """As counted when it was finished; None where nobody did, as in one that was recovered."""

@@ -3048,10 +3048,6 @@
         <translation>ihre Datei fehlt</translation>
     </message>
     <message>
-        <source>cut short</source>
-        <translation>abgebrochen</translation>
-    </message>
-    <message>
         <source>What counts as a change</source>
         <translation>Was als Änderung zählt</translation>
     </message>
@@ -3458,10 +3454,6 @@
     <message>
         <source>the forearm moved</source>
         <translation>der Unterarm hat sich bewegt</translation>
-    </message>
-    <message>
-        <source>the recording was cut short</source>
-        <translation>die Aufnahme brach ab</translation>
     </message>
     <message>
         <source>hidden in part</source>

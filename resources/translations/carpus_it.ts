@@ -3048,10 +3048,6 @@
         <translation>il suo file non c’è</translation>
     </message>
     <message>
-        <source>cut short</source>
-        <translation>interrotta</translation>
-    </message>
-    <message>
         <source>What counts as a change</source>
         <translation>Che cosa vale come cambiamento</translation>
     </message>
@@ -3458,10 +3454,6 @@
     <message>
         <source>the forearm moved</source>
         <translation>l’avambraccio si è spostato</translation>
-    </message>
-    <message>
-        <source>the recording was cut short</source>
-        <translation>la registrazione si è interrotta</translation>
     </message>
     <message>
         <source>hidden in part</source>

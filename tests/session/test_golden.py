@@ -40,7 +40,7 @@ def test_an_old_session_is_read_value_by_value(tmp_path: Path, version: int, pro
     path = unpacked(f"v{version}-{protocol.name}.h5", tmp_path)
     before = path.read_bytes()
     session = read_session(path)
-    assert (session.complete, len(session), session.header.protocol) == (True, ROWS, protocol)
+    assert (len(session), session.header.protocol) == (ROWS, protocol)
     assert session.timestamp_s.tolist() == [time_of(row) for row in range(ROWS)]
     assert (session.header.subject_id, session.header.hand) == ("Linden 42", "left")
     assert session.header.recording_id

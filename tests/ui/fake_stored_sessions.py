@@ -15,7 +15,7 @@ class FakeStoredSessions(StoredSessions):
     def __init__(self, count: int = 6) -> None:
         start = datetime(2026, 11, 20, 11, 30)
         self.all = [
-            SessionLine(f"s{number}", start - timedelta(days=3 * number), "WRIST_FE", "right", 84.0, number != 3)
+            SessionLine(f"s{number}", start - timedelta(days=3 * number), "WRIST_FE", "right", 84.0)
             for number in range(count)
         ]
         self.done: list[tuple[str, ...]] = []

@@ -346,7 +346,7 @@ def stored(
     return Session(
         path=Path("none.h5"), header=header, camera=pictures.truth.camera, calibration=calibration(pictures),
         timestamp_s=pictures.truth.timestamp_s, status=status, motion=motion, markers=markers, quality=quality,
-        events=events, smoothed=None, complete=True, recovered="",
+        events=events, smoothed=None, recovered="",
     )  # fmt: skip
 
 

@@ -118,7 +118,7 @@ RECOVERED = Words(
 ERASED_DAY = datetime(2026, 10, 9, 9, 51)
 ERASED_SESSION = ErasurePlan(
     "session", "s", "p", "Linden 42",
-    (SessionEntry("s", Path("s.h5"), ERASED_DAY, ERASED_DAY, "s", "WRIST_FE", "right", 900, 30.0, True),),
+    (SessionEntry("s", Path("s.h5"), ERASED_DAY, ERASED_DAY, "s", "WRIST_FE", "right", 900, 30.0),),
     1, tuple(map(Path, "abcd")), 38_200_000, (Path("/home/clinic/Reports/L.pdf"),), (),
 )  # fmt: skip
 ERASED_PATIENT = replace(

@@ -238,7 +238,7 @@ def test_only_the_session_that_is_told_from_the_others_is_put_in_words() -> None
 def results(*made: datetime) -> list[SessionEntry]:
     """Results of one recording, the last of which counts."""
     return [
-        SessionEntry(name, Path(name), made[0], when, "r", "WRIST_FE", "right", 10, 1.0, complete=True)
+        SessionEntry(name, Path(name), made[0], when, "r", "WRIST_FE", "right", 10, 1.0)
         for name, when in zip(("session-7", "session-6"), made, strict=True)
     ]
 

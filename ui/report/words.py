@@ -162,7 +162,7 @@ def warnings(figures: SessionFigures) -> list[str]:
         lines.append(tr("This session is marked as not counting."))
     if figures.older:
         lines.append(tr("An older result: there is a newer one of the same recording."))
-    if not figures.complete or figures.recovered:
+    if figures.recovered:
         lines.append(tr("This recording was cut short and recovered."))
     return lines
 

@@ -38,7 +38,6 @@ class SessionLine:
     exercise: str
     side: Side
     duration_s: float
-    complete: bool
     simulated: bool = False
     of_practice: bool = False
     set_aside: str = ""
@@ -62,7 +61,7 @@ def remark(line: SessionLine) -> str:
         return tr("set aside: {reason}").format(reason=line.set_aside)
     if line.damaged:
         return tr("its file is not there") if line.away else tr("cannot be read")
-    return "" if line.complete else tr("cut short")
+    return ""
 
 
 def cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, str, str, str, str]:

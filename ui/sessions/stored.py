@@ -31,7 +31,7 @@ class StoredSessions:
 
     def _line(self, entry: SessionEntry, of_practice: bool) -> SessionLine:
         return SessionLine(
-            entry.session_id, entry.recorded, entry.exercise, entry.hand, entry.duration_s, entry.complete,
+            entry.session_id, entry.recorded, entry.exercise, entry.hand, entry.duration_s,
             entry.simulated, of_practice, self._aside(entry.session_id),
         )  # fmt: skip
 
