@@ -60,7 +60,13 @@ GONE = {
             "registration", "back",
         )
     ),
-    *(f"tracker.{name}" for name in ("holding", "finding", "readout", "doubt", "said")),
+    *(
+        f"tracker.{name}"
+        for name in (
+            "holding", "finding", "readout", "doubt", "said", "shape_news", "shape_stale", "mode_dwell_s",
+            "unseen_scale", "rate_memory_s",
+        )
+    ),
     *(
         f"tracker.noise.{name}"
         for name in (

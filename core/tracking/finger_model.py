@@ -44,7 +44,7 @@ from carpus.core.tracking.hand_geometry import (
 )
 from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, settled
 from carpus.core.tracking.kernel import ModeMixture, like, switching
-from carpus.core.tracking.motion import REFERENCE_DT_S
+from carpus.core.tracking.motion import MODE_DWELL_S, RATE_MEMORY_S, REFERENCE_DT_S
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
@@ -207,7 +207,7 @@ class FingerModel:
         drift = DRIFT_PER_S * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
         self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, SETTLES_S)
         parts = (
-            (SETTLES_S, settings.mode_dwell_s, settings.rate_memory_s, RANGE_AFTER_S), sd**2 * REFERENCE_DT_S,
+            (SETTLES_S, MODE_DWELL_S, RATE_MEMORY_S, RANGE_AFTER_S), sd**2 * REFERENCE_DT_S,
             stationary2, self._moves, RANGE_SD_RAD**2, drift, self.scales**2,
         )  # fmt: skip
         self._numbers = np.concatenate([np.ravel(part) for part in parts])
@@ -292,7 +292,7 @@ class FingerModel:
             out = like(estimates)
             self._stepped(kernels, estimates, unseen_s, dt_s, NOTHING, out, (NOTHING,) * 7)
             return out
-        switch = switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
+        switch = switching(self.scales.size, MODE_DWELL_S, dt_s)
         mean = (estimates.probability[:, None] @ estimates.mean)[:, 0]
         if dt_s >= RANGE_AFTER_S:
             return self.anywhere(*estimates.merged())
@@ -349,7 +349,7 @@ class FingerModel:
         # return far into the time it was hidden.
         goes_on = np.where(before >= 1.0, dt_s / whole_s, 0.0)
         angle2 = np.where(is_unseen, RANGE_SD_RAD**2 * (after**3 - before**3 + goes_on), 0.0)
-        keep = math.exp(-dt_s / self.settings.rate_memory_s)
+        keep = math.exp(-dt_s / RATE_MEMORY_S)
         rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, RATES] ** 2, 0.0)
         return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
 

@@ -22,7 +22,7 @@ from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.hand_geometry import CHAINS, JointMoment, palm_of
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.motion import PalmMotion, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.operator_hints import NamedSpot
 from carpus.core.tracking.palm_association import (
     Measurements,
@@ -212,9 +212,7 @@ class HandFilter:
         # Blobs alone do not tell tissue that rests from a hand that moves; joints that are seen tell when it moves.
         seen = moved_by_joints if self.fingers is not None else resting_or_moving
         tissue = (always_pushed if self._surface is None else seen)(settings.tissue)
-        self.motion = PalmMotion(
-            settings.motion_noise, tissue, np.array(settings.mode_scales), settings.unseen_scale, settings.mode_dwell_s
-        )
+        self.motion = PalmMotion(settings.motion_noise, tissue, np.array(settings.mode_scales))
         self._calibrated = self._as_calibrated(calibration)
         self._stationary = stationary_covariance(settings.tissue)
         self._resolution_px2 = float(camera.width_px * camera.height_px)
@@ -329,7 +327,7 @@ class HandFilter:
         """Go on from an update; what the smoother needs of it. ``is_seen``: enough discs tell the palm's pose;
         ``linked``: the step follows from the one before."""
         unseen, self._unseen = self._unseen, None
-        kept = float(np.exp(-scan.dt_s / self._settings.rate_memory_s))
+        kept = float(np.exp(-scan.dt_s / RATE_MEMORY_S))
         estimate, mixture = posterior.estimate, posterior.mixture
         if not posterior.levelled:
             self._unseen = self._unseen_turns(posterior)

@@ -26,6 +26,12 @@ _OF_VELOCITY = _DIAGONAL[POSITION] + VELOCITY.start * MOVING.stop
 """Entries of a matrix of the moving numbers, counted row by row."""
 
 
+MODE_DWELL_S = 0.5
+"""So long a motion mode is kept."""
+RATE_MEMORY_S = 0.2
+"""So long an unseen hand is taken to go on as it moved."""
+
+
 @dataclass(frozen=True, slots=True)
 class MotionNoise:
     """Standard deviations per sample at 30 Hz: ``acceleration_m_s2`` of the wrist (eta_v of the papers),
@@ -63,7 +69,7 @@ class PalmMotion:
     tissue: TissueModes
     scales: FloatArray
     unseen_scale: float = 3.0
-    dwell_s: float = 0.5
+    dwell_s: float = MODE_DWELL_S
     moving_scale: float = 0.5
 
     scale_of: FloatArray = field(init=False, repr=False, compare=False)

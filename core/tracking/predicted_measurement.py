@@ -45,6 +45,10 @@ ADAPT_S = 0.5
 """Over which each marker's own noise is judged by its residuals."""
 
 
+SHAPE_NEWS, SHAPE_STALE = 0.2, 0.02
+"""Share of what a frame says of the shape taken for new, of a hand that moves; what is left of it while it is still."""
+
+
 def along_rays(calibration: Calibration, sd_m: FloatArray) -> FloatArray:
     """Covariances (M, 3, 3) in W0 of errors along the rays from the camera, ``sd_m`` (M,) in depth."""
     place = _cam_m(calibration)
@@ -284,8 +288,8 @@ def predicted_ahead(
         nominal = PalmEstimate(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
         partial, (line, mean, own) = np.empty(SIZE), _to_be_filled()
         kernels.palm_predicted(
-            modes, tissue.count, tissue.resting, motion.scales.size, dt_s, motion.numbers, *speeds, settings.shape_news,
-            settings.shape_stale, view.numbers, weights_for(POSE.size, spread).numbers, FLOOR,
+            modes, tissue.count, tissue.resting, motion.scales.size, dt_s, motion.numbers, *speeds, SHAPE_NEWS,
+            SHAPE_STALE, view.numbers, weights_for(POSE.size, spread).numbers, FLOOR,
             NOTHING if unseen is None else unseen, mixture.mean, mixture.covariance, mixture.probability,
             estimate.value, estimate.rotation_w2_w0, later.mean, later.covariance, later.probability, nominal.value,
             nominal.rotation_w2_w0, nominal.covariance, partial, line.value, line.slope, line.error, mean, own,
@@ -296,7 +300,7 @@ def predicted_ahead(
         before = estimate
         estimate, mixture = palm_ahead(estimate, mixture, motion, dt_s, unseen, speeds)
         fresh = fresh_share(view.discs_cam_m(before), view.discs_cam_m(estimate), view.camera)
-    partial = shape_partial_update(settings.shape_news * max(fresh, settings.shape_stale))
+    partial = shape_partial_update(SHAPE_NEWS * max(fresh, SHAPE_STALE))
     return predicted_measurement(estimate, mixture, view, spread, partial, digits, order)
 
 

@@ -48,14 +48,9 @@ class MeasurementNoise:
 
 _LIMITS: Limits = {
     "shape_hidden": (0.0, 1.0),
-    "shape_news": (0.0, 1.0),
-    "shape_stale": (0.0, 1.0),
     "mode_scales": (0.001, 1000.0),
-    "mode_dwell_s": (0.001, 3600.0),
-    "unseen_scale": (0.0, 1000.0),
     "marker_radius_m": (0.0005, 0.1),
     "lost_after_s": (0.0, 3600.0),
-    "rate_memory_s": (0.001, 3600.0),
 }
 
 
@@ -64,14 +59,11 @@ class TrackerSettings:
     """Defaults of the tracker; all of it is stored with every session.
 
     ``profile`` which of the ``profiles`` moves the hand. ``mode_scales``: the motion modes run side by side, as factors
-    on the process noise, each kept for ``mode_dwell_s``; ``dip``: end joints bound to the middle joints or free. The
-    palm goes on being measured while it moves:
-    ``shape_hidden`` the share of a correction taken for a depth that stays wrong, ``shape_news`` the share of what a
-    frame says of it taken for new, of a hand that moves; ``shape_stale`` what is left of that while it is still.
+    on the process noise; ``dip``: end joints bound to the middle joints or free.
+    ``shape_hidden``: share of a correction of the palm's shape taken for a depth that stays wrong.
     ``tissue``: how skin and relief move; ``use_surface``: measure the back of the hand by its depth, as ``surface``
-    says. ``unseen_scale``: the factor on the noise of turns that no disc shows.
-    ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost;
-    ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
+    says.
+    ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost.
     """
 
     profile: Profile = "standard"
@@ -79,11 +71,7 @@ class TrackerSettings:
     use_depth: bool = True
     dip: Literal["coupled", "free"] = "coupled"
     shape_hidden: float = 0.3
-    shape_news: float = 0.2
-    shape_stale: float = 0.02
     mode_scales: tuple[float, ...] = (0.5, 4.0)
-    mode_dwell_s: float = 0.5
-    unseen_scale: float = 3.0
     spread: Spread = field(default_factory=Spread)
     initial: InitialSd = field(default_factory=InitialSd)
     noise: MeasurementNoise = field(default_factory=MeasurementNoise)
@@ -94,7 +82,6 @@ class TrackerSettings:
     surface: SurfaceSettings = field(default_factory=SurfaceSettings)
     marker_radius_m: float = 0.006
     lost_after_s: float = 1.5
-    rate_memory_s: float = 0.2
 
     def __post_init__(self) -> None:
         check_limits("tracker", self, _LIMITS)

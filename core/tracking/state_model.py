@@ -56,11 +56,12 @@ PALM_STATE = (
     ),
     StatePart(
         "shape", SHAPE, "m", "x, y, z of each of six discs from its calibrated place on the fixed unit",
-        (), "s", "none; a Schmidt partial update takes a share of what a frame says", ("TrackerSettings.shape_news",),
+        (), "s", "none; a Schmidt partial update takes a share of what a frame says",
+        ("predicted_measurement.SHAPE_NEWS",),
     ),
     StatePart(
         "back", BACK, "rad, rad, m", "turn about X and Y and height that the calibrated back of the hand is wrong by",
-        (), "s", "none; as of the shape", ("surface_fit.calibrated_covariance", "TrackerSettings.shape_news"),
+        (), "s", "none; as of the shape", ("surface_fit.calibrated_covariance", "predicted_measurement.SHAPE_NEWS"),
     ),
     StatePart(
         "skin", SKIN, "m", "x, y, z by which each disc has left that place for now",
@@ -97,7 +98,7 @@ DIGIT_STATE = (
     ),
     StatePart(
         "rates", RATES, "rad/s", "of the joints", (), "r; fading where nothing shows the joint", "q dt",
-        ("MotionNoise.joint_acceleration_rad_s2", "TrackerSettings.rate_memory_s"),
+        ("MotionNoise.joint_acceleration_rad_s2", "motion.RATE_MEMORY_S"),
     ),
     StatePart(
         "anatomy", ANATOMY, "m; fan and roll in rad",

@@ -14,7 +14,7 @@ import numpy as np
 
 from carpus.core.hand import clinical_angles
 from carpus.core.tracking.kernel import ModeMixture, mixed, transitioned
-from carpus.core.tracking.motion import PalmMotion, palm_transition, slowing
+from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, palm_transition, slowing
 from carpus.core.tracking.palm_association import Measurements, update
 from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
 from carpus.core.tracking.palm_state import SIZE, TURN, PalmEstimate, View, error_reset, resting_estimate
@@ -66,7 +66,7 @@ def informed_run(
             ahead_of, update(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).mixture
         )
         if np.count_nonzero(names >= 0) < LEAST_DISCS:
-            kept = slowing(float(np.exp(-dt_s / settings.rate_memory_s)))
+            kept = slowing(float(np.exp(-dt_s / RATE_MEMORY_S)))
             estimate = replace(
                 estimate, value=estimate.value * kept, covariance=estimate.covariance * np.outer(kept, kept)
             )

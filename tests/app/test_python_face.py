@@ -69,10 +69,8 @@ SETTINGS = [
     ({"shape_hidden": 5.0}, "shape_hidden = 5.0, from 0 to 1"),
     ({"lost_after_s": -1}, "lost_after_s = -1, from 0"),
     ({"marker_radius_m": 0}, "marker_radius_m = 0, from 0.0005"),
-    ({"unseen_scale": -3}, "unseen_scale = -3, from 0"),
     ({"mode_scales": ()}, "mode_scales = (), from 0.001"),
     ({"mode_scales": ("a", "b")}, "one of mode_scales is 'a', a number expected"),
-    ({"mode_dwell_s": 0.0}, "mode_dwell_s = 0.0, from 0.001"),
     ({"filter": "paper", "dip": "free"}, "the papers' filter knows no dip"),
 ]
 NO_PATH = [None, 5, b"x", [None], {}, "a\0b"]

@@ -13,6 +13,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
 from carpus.core.tracking.hand_geometry import palm_of
+from carpus.core.tracking.motion import RATE_MEMORY_S
 from carpus.core.tracking.palm_state import RATE, SHAPE, SKIN
 from carpus.core.tracking.reacquire import Facing, FoundPalm
 from carpus.core.tracking.settings import TrackerSettings
@@ -77,7 +78,7 @@ def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
     line = np.array([0.016, 0.033, 0.0]) / np.hypot(0.016, 0.033)
     before, after = posterior.estimate.value[RATE], own.predict(0.0).nominal.value[RATE]
     assert abs(line @ before) > 0.05
-    kept = np.exp(-DT_S / TrackerSettings().rate_memory_s)
+    kept = np.exp(-DT_S / RATE_MEMORY_S)
     assert line @ after == pytest.approx(kept * (line @ before), rel=0.05)
     across = before - line * (line @ before)
     np.testing.assert_allclose(after - line * (line @ after), across, atol=0.02 * np.linalg.norm(before))
