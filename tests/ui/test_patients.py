@@ -410,3 +410,18 @@ def test_no_field_is_cut_at_its_right(qtbot: QtBot, host: QWidget, code: str) ->
         qtbot.waitUntil(lambda: form._fields.width() > 0)
         assert form._fields.minimumSizeHint().width() <= form._scroll.viewport().width()
         form.close_sheet()
+
+
+@pytest.mark.parametrize(
+    ("searched", "is_real"), [("Maier", True), ("Anna Maier", True), ("Heron 17", False), (" heron 17 ", False)]
+)
+def test_new_patient_with_a_searched_name_keeps_a_real_name_out_of_the_files(
+    screen: PatientsScreen, searched: str, is_real: bool
+) -> None:
+    screen.new_patient(searched)
+    names = screen.form.name.text().strip(), screen.form.real_name.text().strip()
+    if is_real:
+        assert names[0] not in ("", searched)
+        assert names[1] == searched
+    else:
+        assert names == (searched.strip(), "")

@@ -32,6 +32,9 @@ WHOLE_DAY = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+
 MONTH_FIRST = re.compile(r"(?:0?\d|1[0-2])\D+(?:1[3-9]|[2-9]\d)\D")
 """A day stands where the month should, and the other way round: what is wrong is the order."""
 
+MADE_UP_NAME = re.compile(r"\w+ \d+")
+"""A made-up name as Carpus proposes it; any other name that was searched for may be a person's real one."""
+
 
 class PatientForm(Sheet):
     """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes. The clinic's list of
@@ -119,13 +122,19 @@ class PatientForm(Sheet):
         self.set_default(self.save)
 
     def begin(self, entry: PatientEntry | None, taken: frozenset[str], name: str = "") -> None:
-        """Open for a new patient (optionally with a name already typed) or with an entry to change."""
+        """Open for a new patient or with an entry to change.
+
+        A name that was searched for becomes the real name, which no file and no report holds, unless it is made up.
+        """
         self._taken = taken
         self._title.setText(self.tr("New patient") if entry is None else self.tr("Change patient"))
         self._words = self.tr("Add patient") if entry is None else self.tr("Keep changes")
         self.remove.setVisible(entry is not None)
         is_new = entry is None
-        entry = entry or PatientEntry(name or self._store.suggest_pseudonym(), "right", "unknown")
+        if entry is None:
+            is_made_up = bool(MADE_UP_NAME.fullmatch(name.strip()))
+            pseudonym = name if is_made_up else self._store.suggest_pseudonym()
+            entry = PatientEntry(pseudonym, "right", "unknown", name="" if is_made_up else name)
         self.name.setText(entry.pseudonym)
         self.side.choose(entry.side)
         self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")
