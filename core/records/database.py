@@ -53,7 +53,7 @@ class Database:
 
     def __init__(self, path: Path, copy: sqlite3.Connection | None = None) -> None:
         """``copy`` in memory, of :func:`copied`, where the file cannot be written: what is changed in it is lost."""
-        self._path, self._writing = path, threading.RLock()
+        self._path, self._writing, self._is_closed = path, threading.RLock(), False
         if copy is None:
             make_private_file(path)
             self._engine = create_engine(
@@ -80,18 +80,28 @@ class Database:
             raise
 
     def close(self) -> None:
-        """May be called twice."""
-        self._engine.dispose()
+        """May be called twice; what another thread still reads is closed when it is done."""
+        self._is_closed = True
+        self._engine.pool.dispose()
+
+    @contextlib.contextmanager
+    def _using(self) -> Iterator[None]:
+        """Close a connection that comes back after the store was closed: the pool would keep it."""
+        try:
+            yield
+        finally:
+            if self._is_closed:
+                self._engine.pool.dispose()
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:
-        with self._complaints(), self._engine.begin() as connection:
+        with self._using(), self._complaints(), self._engine.begin() as connection:
             yield connection
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
         """All of it is stored, or, after an exception, nothing."""
-        with self._writing, self._complaints(), self._engine.connect() as connection:
+        with self._writing, self._using(), self._complaints(), self._engine.connect() as connection:
             writes = connection.execution_options(writes=True)
             with writes.begin():
                 yield writes
@@ -99,7 +109,7 @@ class Database:
     def leave_no_trace(self, *, waits: bool = True) -> bool:
         """Empty the write-ahead log, which keeps what was overwritten; whether it is, for another program that reads
         holds that up."""
-        with self._writing, self._complaints():
+        with self._writing, self._using(), self._complaints():
             raw = self._engine.raw_connection()
             try:
                 raw.execute(f"PRAGMA busy_timeout = {BUSY_MS if waits else 0}")

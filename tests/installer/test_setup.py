@@ -12,7 +12,7 @@ def test_passing_silent_tool_writes_a_line_every_few_seconds() -> None:
     script = f"""
 set -euo pipefail
 eval "$(sed -n '/^passing()/,/^}}/p' {SETUP})"
-tool() {{ echo "Get:1 first"; sleep 6; echo "noise"; printf 'Setting up second'; return 3; }}
+tool() {{ echo "Get:1 first"; sleep 9; echo "noise"; printf 'Setting up second'; return 3; }}
 tool | passing "^(Get|Setting up)" apt-get
 """
     done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=60, check=False)

@@ -36,7 +36,7 @@ from carpus.core.measures.by_hand import HandValue
 from carpus.core.names import name_of
 from carpus.core.records import of_clinic, of_sessions, patients, schema
 from carpus.core.records.changes import PRACTICE, new
-from carpus.core.records.database import STORE_FILE, set_aside
+from carpus.core.records.database import STORE_FILE, Database, set_aside
 from carpus.core.records.keeping import due
 from carpus.core.records.kept_sets import read_sets
 from carpus.core.records.log import read_log
@@ -541,3 +541,14 @@ def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
             assert of_sessions.choices(house.store, session_id)[0] == RepetitionChoices()
             assert read_sets(house.store) == ()
     assert [type(one) for one in told] == [RegisterDamaged] * 4
+
+
+def test_close_while_another_reads_closes_the_connection_when_it_is_returned(tmp_path: Path) -> None:
+    store = Database(tmp_path / STORE_FILE)
+    with store.reading() as connection:
+        raw = connection.connection.dbapi_connection
+        store.close()
+        assert connection.exec_driver_sql("SELECT 1").scalar() == 1
+    with pytest.raises(sqlite3.ProgrammingError, match="closed"):
+        raw.execute("SELECT 1")
+    store.close()
