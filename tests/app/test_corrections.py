@@ -66,7 +66,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
 def corrected(stored: Stored) -> Path:
     """The new result of it."""
     path = stored.path.with_name("corrected.h5")
-    correct(task_of(stored.path, path, (put_right(stored),), "2.0"))
+    correct(task_of(stored.path, path, (put_right(stored),)))
     return path
 
 

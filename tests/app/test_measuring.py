@@ -211,7 +211,7 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
     (event,) = measured.events
     assert event.kind == SPOT_SAID
     assert event.time_s == measured.timestamp_s[said_at - begun_at]
-    correct(task_of(path, tmp_path / "corrected.h5", (), "0.2"))
+    correct(task_of(path, tmp_path / "corrected.h5", ()))
     retrack_session(path, tmp_path / "again.h5", TrackSettings())
     for anew in ("corrected.h5", "again.h5"):
         again = read_session(tmp_path / anew)

@@ -174,7 +174,7 @@ def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Pat
     assert patients.form.remove.isVisible()
     patients.form.remove.click()
     qtbot.waitUntil(sheet.isVisible)
-    assert "2 sessions" in sheet.goes.text()
+    assert "sessions (2)" in sheet.goes.text()
     qtbot.keyClicks(sheet.line, "Linden 42")
     sheet.for_good.click()
     qtbot.waitUntil(lambda: names(desktop) == ["Heron 17"])

@@ -90,7 +90,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
 
 
 def task(stored: Stored, output: Path, *corrections: Correction) -> CorrectionTask:
-    return task_of(stored.path, output, corrections, "2.0", by="MK")
+    return task_of(stored.path, output, corrections, by="MK")
 
 
 def put_right(stored: Stored) -> Correction:
@@ -232,7 +232,7 @@ def test_a_session_without_spots_cannot_be_corrected(stored: Stored, tmp_path: P
     writer = SessionWriter.create(tmp_path / "empty.h5", session.header, CAMERA, session.calibration)
     writer.close()
     with pytest.raises(NotCorrectable):
-        task_of(tmp_path / "empty.h5", tmp_path / "new.h5", (), "2.0")
+        task_of(tmp_path / "empty.h5", tmp_path / "new.h5", ())
 
 
 DIP3 = HAND21.markers.index("DIP3")
@@ -263,7 +263,7 @@ def hand(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def corrected(hand: Path, output: Path, *corrections: Correction) -> Session:
-    correct(task_of(hand, output, corrections, "2.0"))
+    correct(task_of(hand, output, corrections))
     return read_session(output)
 
 
