@@ -14,9 +14,17 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import RecordingMissing, SessionUnreadable
-from carpus.core.records.recordings import Recovery, SessionDraft, publish_session, recover_recordings, write_session
+from carpus.core.records.recordings import (
+    Recovery,
+    SessionDraft,
+    publish_session,
+    recordings_folder,
+    recover_recordings,
+    write_session,
+)
 from carpus.core.session.reader import read_detections, read_session, verify
 from carpus.core.session.values import Motion, motion_of
+from tests.commands import Command
 from tests.session.samples import journal_of, make_frame, time_of
 from tests.session.test_golden import unpacked
 
@@ -233,3 +241,18 @@ def test_published_session_goes_on_where_a_kill_left_it(
     (here / "s-2.h5").write_bytes(content)  # arrived, and not yet taken away here
     assert publish_session(here / "s-2.h5", home) == home / "s-2.h5"
     assert sorted(one.name for one in home.iterdir()) == ["s-2.carpusraw", "s-2.h5", "s.h5"]
+
+
+@pytest.mark.parametrize("given", [".", "sessions"])
+def test_recover_command_of_a_data_folder_finishes_what_waits_on_this_computer(
+    tmp_path: Path, command: Command, given: str
+) -> None:
+    data = tmp_path / "data"
+    (data / "sessions").mkdir(parents=True)
+    place = recordings_folder(data) / "patient"
+    place.mkdir(parents=True)
+    interrupt(place / "s.journal")
+    done = command("recover", data / given)
+    assert done.code == 0
+    assert f"Recovered: {place / 's.h5'}\nIt is moved into the data folder" in done.out
+    assert "No interrupted session here." in command("recover", data / given).out
