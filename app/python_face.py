@@ -165,18 +165,17 @@ def track(
     dip: Dip = "coupled",
     use_depth: bool = True,
     profile: Profile = "standard",
-    **settings: Any,
+    lost_after_s: float = 1.5,
 ) -> Iterator[HandFrame]:
     """Track a stored recording picture by picture, as they come.
 
     ``clicks`` is the file of first-frame clicks, or what :func:`propose_clicks` gave; ``filter="paper"`` is the papers'
     method, as ``carpus track --filter paper``: colour alone, end joints coupled, angles in the hand paper's ZYX.
-    Further ``settings`` are those of :class:`core.tracking.settings.TrackerSettings`. Raises a
-    :class:`core.errors.CarpusFault` that says what is wrong with a file, and at once ``SettingsInvalid`` for a setting
-    that is unknown or has a value that it cannot have.
+    ``lost_after_s`` without three markers of the palm the hand is lost. Raises a :class:`core.errors.CarpusFault` that
+    says what is wrong with a file, and at once ``SettingsInvalid`` for a setting that has a value that it cannot have.
     """
     where = "carpus.track"
-    chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
+    chosen = _chosen(where, filter, dip, use_depth, profile, lost_after_s)
     return _tracked(_path(where, "path", path), _clicks(where, clicks), replace(chosen, smooth=False))
 
 
@@ -192,7 +191,7 @@ def write_session(
     dip: Dip = "coupled",
     use_depth: bool = True,
     profile: Profile = "standard",
-    **settings: Any,
+    lost_after_s: float = 1.5,
 ) -> OpenedSession:
     """Track a stored recording into a session file that is new, as ``carpus track`` does; the session, opened.
 
@@ -205,7 +204,7 @@ def write_session(
     _check(where, "exercise", exercise, str)
     if exercise:
         _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
-    chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
+    chosen = _chosen(where, filter, dip, use_depth, profile, lost_after_s)
     recorded, out, told = _path(where, "path", path), _path(where, "output", output), _clicks(where, clicks)
     source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_warn)
     try:
@@ -218,8 +217,9 @@ def write_session(
     return open_session(out)
 
 
-def _chosen(where: str, method: str, wanted: Mapping[str, Any]) -> TrackSettings:
+def _chosen(where: str, method: str, dip: Dip, use_depth: bool, profile: Profile, lost_after_s: float) -> TrackSettings:
     """Checked settings. Raises :class:`SettingsInvalid` with one sentence."""
+    wanted: dict[str, Any] = {"dip": dip, "use_depth": use_depth, "profile": profile, "lost_after_s": lost_after_s}
     _check(where, "filter", method, FilterName)
     known = TrackerSettings()
     _check_fields(where, wanted, TrackerSettings)

@@ -13,7 +13,7 @@ import tomllib
 import typing
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cached_property
 from importlib import resources
 from pathlib import Path
@@ -29,7 +29,7 @@ from carpus.core.pipeline.live_values import LiveSettings, StartMode
 from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
-from carpus.core.typed_value import path_of, typed_value
+from carpus.core.typed_value import NOT_IN_FILE, path_of, settable_names, typed_value
 
 if TYPE_CHECKING:
     from carpus.core.pipeline.track import TrackSettings
@@ -49,6 +49,7 @@ GONE = {
             "stop_patience_s",
         )
     ),
+    "live.folder",
     "report.agreement_limit_deg",
     "report.retest_days",
     "screen.keys",
@@ -64,26 +65,8 @@ GONE = {
         f"tracker.{name}"
         for name in (
             "holding", "finding", "readout", "doubt", "said", "shape_news", "shape_stale", "mode_dwell_s",
-            "unseen_scale", "rate_memory_s",
-        )
-    ),
-    *(
-        f"tracker.noise.{name}"
-        for name in (
-            "pixel_model_sd_px", "depth_ratios", "shade_share", "whole_from", "most_outliers", "adapt_s",
-            "depth_outlier", "depth_locks",
-        )
-    ),
-    *(
-        f"tracker.fingers.{name}"
-        for name in (
-            "abduction_share", "range_after_s", "learning", "drift_per_s", "skin_px", "depth_stays_m", "hidden_s",
-            "shown_s", "steepest_rad", "steepest_sd_rad", "clutter", "skin_sd_rad", "dip_slack_rad",
-            "thumb_aside_rad", "settles_s", "patience_frames", "posture_sd_rad", "posture_rate_sd",
-            "begins_rate_sd", "far_rad", "was_seen", "surely_sd", "size_grows", "size_shrinks", "flat_rad",
-            "least_facing", "crowded_px", "crowded_radii", "merged_from", "merged_share", "click_px", "across_m",
-            "sure_turn_rad", "gap_s", "most_beyond_rad", "least_seen", "most_seen", "seen_anew", "missed",
-            "candidates", "without_depth2", "pinnings", "inherited", "search", "limits", "depth",
+            "unseen_scale", "rate_memory_s", "profiles", "shape_hidden", "mode_scales", "spread", "initial", "noise",
+            "association", "fingers", "tissue", "use_surface", "surface", "marker_radius_m",
         )
     ),
     *(
@@ -96,7 +79,7 @@ GONE = {
         )
     ),
 }  # fmt: skip
-"""Settings of earlier versions: accepted and ignored."""
+"""Settings of earlier versions, and whole tables of them: accepted and ignored."""
 
 logger = logging.getLogger(__name__)
 T = TypeVar("T")
@@ -218,9 +201,9 @@ class Settings:
     updates: UpdatesSettings = field(default_factory=UpdatesSettings)
     first_start: FirstStartSettings = field(default_factory=FirstStartSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
-    tracking: Mapping[str, Values] = field(default_factory=dict, metadata={"in_file": False})
+    tracking: Mapping[str, Values] = field(default_factory=dict, metadata=NOT_IN_FILE)
     """What a person's file says in the sections of :data:`TRACKING`."""
-    run_folder: Path | None = field(default=None, metadata={"in_file": False})
+    run_folder: Path | None = field(default=None, metadata=NOT_IN_FILE)
     """The data folder that was named for this run alone."""
 
     @cached_property
@@ -402,7 +385,7 @@ def _merged(below: Values, above: Values) -> Values:
 def _filled(kind: type[T], values: Values, where: str, file: str) -> T:
     """A dataclass from a table; every key must be one of its fields, but for those that no file has."""
     hints = typing.get_type_hints(kind)
-    known = {item.name for item in fields(kind) if item.metadata.get("in_file", True)}  # type: ignore[arg-type]
+    known = settable_names(kind)
     found: dict[str, Any] = {}
     for name, value in values.items():
         place = f"{where}.{name}" if where else name

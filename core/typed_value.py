@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import types
 import typing
+from collections.abc import Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, Literal
 
@@ -11,6 +13,13 @@ from carpus.core.errors import SettingsInvalid
 from carpus.core.phrase import phrase
 
 MOST_NUMBER = 1e15
+NOT_IN_FILE: Mapping[str, bool] = {"in_file": False}
+"""Metadata of a field that no settings file sets: a constant whose reason its class gives, or a value of one run."""
+
+
+def settable_names(kind: type) -> set[str]:
+    """Names of the fields of a settings class that a file may set."""
+    return {item.name for item in fields(kind) if item.metadata.get("in_file", True)}
 
 
 def path_of(named: str) -> Path:

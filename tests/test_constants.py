@@ -1,16 +1,11 @@
 """What shapes a tracked or calibrated number is a setting, a constant with its reason beneath, or one that is told
-here. What a person may set stands in the shipped file with a sentence."""
+here. That what a person may set stands in the shipped file with a sentence is held by the tests of the settings."""
 
 from __future__ import annotations
 
 import ast
-from dataclasses import fields
 from pathlib import Path
 
-import pytest
-
-from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.detection.settings import DetectionSettings
 from tests.sources import ROOT, SOURCES, parsed
 
 SHAPING = ("hand", "detection", "calibration", "tracking")
@@ -103,11 +98,3 @@ def test_what_shapes_a_number_lies_in_settings() -> None:
     assert len(told) == len(names), "each has one reason"
     assert found - told == set(), "say its reason beneath it"
     assert told - found == set(), "gone: take it off the list"
-
-
-@pytest.mark.parametrize(("name", "kind"), [("calibration", CalibrationSettings), ("detection", DetectionSettings)])
-def test_each_setting_of_tracking_stands_in_the_shipped_file_with_a_sentence(name: str, kind: type) -> None:
-    text = (ROOT / "resources" / "defaults.toml").read_text(encoding="utf-8")
-    section = text.partition(f"[{name}]\n")[2].partition("\n\n")[0].splitlines()
-    said = {line.partition(" = ")[0] for line in section if "  # " in line}
-    assert said == {field.name for field in fields(kind)}

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
+from carpus.core.typed_value import NOT_IN_FILE
 from carpus.core.types import Frame, TrackedFrame
 
 LiveEventKind = Literal[
@@ -39,7 +40,7 @@ class LiveSettings:
     rows_waiting: int = 900
     pictures_waiting: int = 960
     low_disk_bytes: int = 1_000_000_000
-    folder: Path | None = None
+    folder: Path | None = field(default=None, metadata=NOT_IN_FILE)
 
     def __post_init__(self) -> None:
         for name in ("tracking_waiting", "rows_waiting", "pictures_waiting"):

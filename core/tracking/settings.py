@@ -1,4 +1,4 @@
-"""What can be chosen about the tracker, with its defaults and where they come from."""
+"""Settings and constants of the tracker, with where they come from."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from carpus.core.tracking.palm_state import InitialSd
 from carpus.core.tracking.soft_tissue import SoftTissue
 from carpus.core.tracking.surface_fit import SurfaceSettings
 from carpus.core.tracking.unscented import Spread
+from carpus.core.typed_value import NOT_IN_FILE
 
 Profile = Literal["slow", "standard", "brisk"]
 
@@ -46,42 +47,38 @@ class MeasurementNoise:
     depth_stays_m: float = 2.5e-4
 
 
-_LIMITS: Limits = {
-    "shape_hidden": (0.0, 1.0),
-    "mode_scales": (0.001, 1000.0),
-    "marker_radius_m": (0.0005, 0.1),
-    "lost_after_s": (0.0, 3600.0),
-}
+_LIMITS: Limits = {"lost_after_s": (0.0, 3600.0)}
 
 
 @dataclass(frozen=True, slots=True)
 class TrackerSettings:
-    """Defaults of the tracker; all of it is stored with every session.
+    """What a person may set of the tracker, and the constants it is made of; all of it is stored with every session.
 
-    ``profile`` which of the ``profiles`` moves the hand. ``mode_scales``: the motion modes run side by side, as factors
-    on the process noise; ``dip``: end joints bound to the middle joints or free.
-    ``shape_hidden``: share of a correction of the palm's shape taken for a depth that stays wrong.
-    ``tissue``: how skin and relief move; ``use_surface``: measure the back of the hand by its depth, as ``surface``
-    says.
-    ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost.
+    ``profile`` which of the ``profiles`` moves the hand; ``use_depth`` False: colour alone, as in the papers; ``dip``:
+    end joints bound to the middle joints or free; ``lost_after_s`` without three palm markers the hand is lost.
+
+    The constants, whose reasons stand in their classes: ``mode_scales`` of motion modes run side by side, as factors on
+    the process noise; ``shape_hidden`` share of a correction of the palm's shape taken for a depth that stays wrong;
+    ``tissue`` how skin and relief move; ``use_surface`` measure the back of the hand by its depth, as ``surface`` says;
+    ``marker_radius_m`` of the paper discs, as measured at each calibration.
     """
 
     profile: Profile = "standard"
-    profiles: Profiles = field(default_factory=Profiles)
     use_depth: bool = True
     dip: Literal["coupled", "free"] = "coupled"
-    shape_hidden: float = 0.3
-    mode_scales: tuple[float, ...] = (0.5, 4.0)
-    spread: Spread = field(default_factory=Spread)
-    initial: InitialSd = field(default_factory=InitialSd)
-    noise: MeasurementNoise = field(default_factory=MeasurementNoise)
-    association: AssociationSettings = field(default_factory=AssociationSettings)
-    fingers: FingerSettings = field(default_factory=FingerSettings)
-    tissue: SoftTissue = field(default_factory=SoftTissue)
-    use_surface: bool = True
-    surface: SurfaceSettings = field(default_factory=SurfaceSettings)
-    marker_radius_m: float = 0.006
     lost_after_s: float = 1.5
+    profiles: Profiles = field(default_factory=Profiles, metadata=NOT_IN_FILE)
+    shape_hidden: float = field(default=0.3, metadata=NOT_IN_FILE)
+    mode_scales: tuple[float, ...] = field(default=(0.5, 4.0), metadata=NOT_IN_FILE)
+    spread: Spread = field(default_factory=Spread, metadata=NOT_IN_FILE)
+    initial: InitialSd = field(default_factory=InitialSd, metadata=NOT_IN_FILE)
+    noise: MeasurementNoise = field(default_factory=MeasurementNoise, metadata=NOT_IN_FILE)
+    association: AssociationSettings = field(default_factory=AssociationSettings, metadata=NOT_IN_FILE)
+    fingers: FingerSettings = field(default_factory=FingerSettings, metadata=NOT_IN_FILE)
+    tissue: SoftTissue = field(default_factory=SoftTissue, metadata=NOT_IN_FILE)
+    use_surface: bool = field(default=True, metadata=NOT_IN_FILE)
+    surface: SurfaceSettings = field(default_factory=SurfaceSettings, metadata=NOT_IN_FILE)
+    marker_radius_m: float = field(default=0.006, metadata=NOT_IN_FILE)
 
     def __post_init__(self) -> None:
         check_limits("tracker", self, _LIMITS)

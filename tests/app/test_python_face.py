@@ -60,17 +60,12 @@ USUAL: dict[str, dict[str, Any]] = {
 """What each function may be given."""
 
 SETTINGS = [
-    ({"profil": "slow"}, "profil"),
     ({"dip": "fre"}, "dip is 'fre', 'coupled' or 'free' expected"),
     ({"use_depth": "no"}, "use_depth is 'no', True or False expected"),
     ({"profile": "brsk"}, "profile is 'brsk', 'slow' or 'standard' or 'brisk' expected"),
     ({"filter": "papers"}, "filter is 'papers', 'default' or 'paper' expected"),
     ({"lost_after_s": "long"}, "lost_after_s is 'long'"),
-    ({"shape_hidden": 5.0}, "shape_hidden = 5.0, from 0 to 1"),
     ({"lost_after_s": -1}, "lost_after_s = -1, from 0"),
-    ({"marker_radius_m": 0}, "marker_radius_m = 0, from 0.0005"),
-    ({"mode_scales": ()}, "mode_scales = (), from 0.001"),
-    ({"mode_scales": ("a", "b")}, "one of mode_scales is 'a', a number expected"),
     ({"filter": "paper", "dip": "free"}, "the papers' filter knows no dip"),
 ]
 NO_PATH = [None, 5, b"x", [None], {}, "a\0b"]
