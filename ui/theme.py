@@ -60,6 +60,8 @@ DARK = Tokens(
     curve_a="#5AA2F5", curve_b="#F59A3C", curve_c="#E6E6E6", accent_hover="#6BCACC", accent_pressed="#85D5D6",
 )  # fmt: skip
 
+CURVE_TOKENS = ("curve_b", "curve_a", "curve_c")
+"""Colour of deviation, flexion, pro/supination."""
 ON_PICTURE_LINE = "#FFFFFF"
 ON_PICTURE_PARTLY = "#F0B65A"
 ON_PICTURE_WRONG = "#FF7A6E"

@@ -12,7 +12,7 @@ from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_an
 from carpus.core.results.motion_curves import motion_columns
 from carpus.core.results.progress import compare
 from carpus.core.results.ranges import in_order, isb_sd_rad
-from carpus.ui.report.words import method
+from carpus.ui.words.session import method
 from tests.ui.fakes import NOW, figures_once, session
 
 

@@ -17,7 +17,7 @@ from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import compare, other_hand_of, previous_of, progress, unfair_reasons
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event
-from carpus.ui.report.further_rows import measure_name, value_words
+from carpus.ui.words.further import measure_name, value_words
 from tests.results.days import days_ago
 from tests.ui.fakes import NOW, figures_once, session
 

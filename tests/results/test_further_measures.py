@@ -12,9 +12,9 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.further_measures import FurtherMeasure, _distance_sd_m, session_reaches
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.norms import graded_totals
-from carpus.ui.report.further_rows import further_rows, main_words, measure_name, short_words
-from carpus.ui.report.tables import table_rows
-from carpus.ui.report.words import method
+from carpus.ui.words.further import further_rows, main_words, measure_name, short_words
+from carpus.ui.words.ranges import table_rows
+from carpus.ui.words.session import method
 from tests.ui.fakes import figures_once, session
 from tests.ui.hand_fakes import hand_session
 

@@ -15,10 +15,10 @@ from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.progress import previous_of, progress, unfair_reasons
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
 from carpus.core.session.values import Event, Session
-from carpus.ui.report.active_passive import BY_HAND, active_passive
 from carpus.ui.report.gather import write_session_report
-from carpus.ui.report.tables import repetition_words
+from carpus.ui.words.active_passive import BY_HAND, active_passive
 from carpus.ui.words.progress import unfair_words
+from carpus.ui.words.ranges import repetition_words
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.printed import words_of

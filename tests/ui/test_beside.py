@@ -14,8 +14,8 @@ from carpus.core.results.side_by_side import side_by_side
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.beside.words import facts_words, headline, keys_of, kinds, table_rows, unfair_words
-from carpus.ui.report.hand_rows import followed_keys
 from carpus.ui.theme import Theme
+from carpus.ui.words.fingers import followed_keys
 from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, figures_once, session
 from tests.ui.hand_fakes import hand_session

@@ -39,15 +39,15 @@ from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import PatientCard, Preferences, ResultLine
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.report.gather import session_report
-from carpus.ui.report.hand_rows import column_heads, compared_figures, limits_words, main_figure
 from carpus.ui.report.screen import suggested_name
-from carpus.ui.report.tables import repetition_words, table_rows
-from carpus.ui.report.words import method, other_lines
 from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import change_since_first, difference, limit_words, no_change_words, verdict_word
+from carpus.ui.words.fingers import column_heads, compared_figures, limits_words, main_figure
 from carpus.ui.words.progress import before_after
+from carpus.ui.words.ranges import repetition_words, table_rows
+from carpus.ui.words.session import method, other_lines
 from tests.moments import with_moment
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once, session

@@ -20,11 +20,11 @@ from carpus.ui.plot.motion import MotionPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.plot.ways import LEAST_SPAN_MM, finger_ways, is_titled, plane_marks, side_by_side, wrist_way
 from carpus.ui.ports import PatientCard
-from carpus.ui.report.further_rows import further_rows, main_words
 from carpus.ui.report.gather import write_session_report
-from carpus.ui.report.hand_rows import column_heads, finger_rows, main_figure
 from carpus.ui.review.charts import WRIST
 from carpus.ui.theme import Theme
+from carpus.ui.words.fingers import column_heads, finger_rows, main_figure
+from carpus.ui.words.further import further_rows, main_words
 from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session

@@ -30,10 +30,10 @@ from carpus.ui.report.pdf import write_report
 from carpus.ui.report.screen import SIZES, ReportScreen, print_on, printer_for, suggested_name
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.report.sheets import HomeSheet
-from carpus.ui.report.words import warnings
 from carpus.ui.settings.report_card import LogoRefused, logo_png
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
+from carpus.ui.words.session import warnings
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.printed import pages_of, reach_of, tool, words_of

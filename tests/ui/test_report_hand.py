@@ -22,7 +22,9 @@ from carpus.ui.plot.course import axis_top_deg, panels_of
 from carpus.ui.progress.flow import write_table
 from carpus.ui.report.gather import progress_report, write_progress_report, write_session_report
 from carpus.ui.report.hand_part import CHANGE_COLUMN, GAP_PT, LEAST_SIZE_PT, column_edges, lines_of
-from carpus.ui.report.hand_rows import (
+from carpus.ui.report.page import Page, painted_on_nothing
+from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.words.fingers import (
     cell_of,
     column_heads,
     finger_rows,
@@ -31,10 +33,8 @@ from carpus.ui.report.hand_rows import (
     hand_summary,
     limits_words,
 )
-from carpus.ui.report.page import Page, painted_on_nothing
-from carpus.ui.report.words import quality_lines
-from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.words.progress import headline
+from carpus.ui.words.session import quality_lines
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.printed import pages_of, words_of

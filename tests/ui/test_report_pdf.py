@@ -29,8 +29,8 @@ from carpus.ui.report.gather import progress_report, session_report, write_progr
 from carpus.ui.report.page import Page
 from carpus.ui.report.progress_page import made_of
 from carpus.ui.report.session_page import paint_boxes
-from carpus.ui.report.words import other_lines
 from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.words.session import other_lines
 from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.printed import pages_of, reach_of, tool, words_of
 

@@ -26,9 +26,9 @@ from carpus.ui.playback.pictures import GROUND, modelled_px, paint_trails
 from carpus.ui.plot.session import HandPlot, joint_at
 from carpus.ui.plot.session_view import paint_readings
 from carpus.ui.plot.style import screen_style
-from carpus.ui.report.hand_rows import COLUMNS, limits_words
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
+from carpus.ui.words.fingers import COLUMNS, limits_words
 from tests.ui.conftest import Reviewing, Show
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.test_plots import wheel

@@ -13,13 +13,13 @@ from carpus.core.results.side_by_side import ComparedRange, SideBySide
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, figure_of
 from carpus.ui.icons import State
-from carpus.ui.plot.style import CURVE_TOKENS
-from carpus.ui.report.hand_rows import AT_LEAST, compared_row, followed_keys, followed_kinds, trains_thumb
-from carpus.ui.report.tables import is_deficit, mean_words, repetition_words, turned
+from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import difference, no_change_words, reason_words
+from carpus.ui.words.fingers import AT_LEAST, compared_row, followed_keys, followed_kinds, trains_thumb
 from carpus.ui.words.progress import comparison_name, doubt_words
 from carpus.ui.words.progress import headline as progress_headline
+from carpus.ui.words.ranges import is_deficit, mean_words, repetition_words, turned
 
 
 @dataclass(frozen=True, slots=True)

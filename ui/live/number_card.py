@@ -18,8 +18,8 @@ from carpus.ui.figures import FIGURES, FINGERS, Figure, side_word
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import paint_state
 from carpus.ui.plot.axes import hatch
-from carpus.ui.plot.style import CURVE_TOKENS, screen_style
-from carpus.ui.theme import Theme
+from carpus.ui.plot.style import screen_style
+from carpus.ui.theme import CURVE_TOKENS, Theme
 from carpus.ui.translate import inside
 
 NUMBER_PX, NUMBER_WIDE_PX = 128, 160

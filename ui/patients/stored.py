@@ -14,10 +14,10 @@ from carpus.core.records.values import PatientEntry, PatientRecord
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare, compare_rows, unfair_reasons
 from carpus.ui.ports import MOST_ROWS, PatientCard, ResultLine
-from carpus.ui.report.further_rows import main_words
-from carpus.ui.report.hand_rows import compared_figures
-from carpus.ui.report.tables import repetition_words
-from carpus.ui.report.words import warnings
+from carpus.ui.words.fingers import compared_figures
+from carpus.ui.words.further import main_words
+from carpus.ui.words.ranges import repetition_words
+from carpus.ui.words.session import warnings
 
 _ENDS = ("arc",)
 """Movements that the card leaves out: it shows the two ends, which the therapist trains."""

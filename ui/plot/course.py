@@ -23,8 +23,9 @@ from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.by_hand import Key, Squares, day_s, paint_at_least
 from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales, Times
 from carpus.ui.plot.polygon import polygon
-from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle, dashed, write
+from carpus.ui.plot.style import PlotStyle, dashed, write
 from carpus.ui.terms import end_words
+from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import tr
 
 STEP_DEG = 30.0

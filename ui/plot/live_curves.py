@@ -21,8 +21,8 @@ from carpus.ui.plot.history import SHOWN_S, History
 from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Scales, StayWithin, Times, fitted
 from carpus.ui.plot.series import Curve
 from carpus.ui.plot.session import stay_words, target_marks, zero_marks
-from carpus.ui.plot.style import CURVE_TOKENS, screen_style, write
-from carpus.ui.theme import Theme
+from carpus.ui.plot.style import screen_style, write
+from carpus.ui.theme import CURVE_TOKENS, Theme
 
 if TYPE_CHECKING:
     from carpus.ui.plot.canvas import Canvas, Layer

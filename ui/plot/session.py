@@ -25,7 +25,8 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.marks import Curves, Mark, Name, Remark, RepetitionMarks, Scales, StayWithin, Target, Times
 from carpus.ui.plot.series import Curve, Series, longest_step_s
-from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
+from carpus.ui.plot.style import PlotStyle
+from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import tr
 
 BESIDE_S = 1.0

@@ -55,10 +55,6 @@ def dashed(color: QColor, width: float, dash: Sequence[float]) -> QPen:
     return pen
 
 
-CURVE_TOKENS = ("curve_b", "curve_a", "curve_c")
-"""Colour of deviation, flexion, pro/supination."""
-
-
 def screen_style(theme: Theme) -> PlotStyle:
     """The theme's style."""
     return _screen_style(theme.tokens, theme.text_scale)

@@ -16,10 +16,10 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import ReportForm
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
-from carpus.ui.report.hand_rows import followed_keys, followed_kinds
 from carpus.ui.report.pdf import write_report
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
+from carpus.ui.words.fingers import followed_keys, followed_kinds
 
 
 def session_report(

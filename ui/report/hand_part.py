@@ -11,11 +11,11 @@ from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.figures import TOKENS, row_name
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.plot.session import BENDING, HandPlot, paint_session
-from carpus.ui.report.hand_rows import FingerRow, column_heads, finger_rows, limits_words
 from carpus.ui.report.page import Page
-from carpus.ui.report.tables import mean_words, repetition_words
 from carpus.ui.terms import arc_name
 from carpus.ui.translate import tr
+from carpus.ui.words.fingers import FingerRow, column_heads, finger_rows, limits_words
+from carpus.ui.words.ranges import mean_words, repetition_words
 
 ROW_PT, CURVES_PT, LEAST_CURVES_PT, BETWEEN_PT = 21.5, 176.0, 110.0, 6.0
 LEAST_SIZE_PT, GAP_PT = 6.0, 6.0

@@ -14,13 +14,13 @@ from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.framed import BODY_FOOT_PT
-from carpus.ui.report.hand_rows import AT_LEAST, compared_figures, hand_since_words, range_words, trains_thumb
 from carpus.ui.report.page import MARGIN_PT, Page, PageColumn, paint_to_fit, painted_on_nothing
 from carpus.ui.report.session_page import OfSession, SessionReport, comment_lines
-from carpus.ui.report.tables import table_rows
-from carpus.ui.report.words import method, since_compared, since_sessions, warnings
 from carpus.ui.translate import inside, tr
+from carpus.ui.words.fingers import AT_LEAST, compared_figures, hand_since_words, range_words, trains_thumb
 from carpus.ui.words.progress import corrected_words
+from carpus.ui.words.ranges import table_rows
+from carpus.ui.words.session import method, since_compared, since_sessions, warnings
 
 SMALLEST = 0.82
 OMISSIONS = 3

@@ -10,11 +10,11 @@ from carpus.ui.plot.motion import MotionKind, MotionPlot, zyz_words
 from carpus.ui.plot.session import paint_session
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.plot.ways import WayPlot, finger_ways, paint_planes, plane_marks, side_by_side, wrist_way
-from carpus.ui.report.further_rows import further_rows, further_title
 from carpus.ui.report.page import Page, paint_to_fit
 from carpus.ui.report.session_page import LOWEST_PT, SessionReport, paint_head, what_words
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.translate import tr
+from carpus.ui.words.further import further_rows, further_title
 
 WAYS_PT, HAND_WAYS_PT = 172.0, 124.0
 CURVES_PT, ZYZ_PT, HAND_CURVES_PT, HAND_ZYZ_PT = 190.0, 110.0, 108.0, 78.0

@@ -18,12 +18,12 @@ from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import fill, in_column
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
-from carpus.ui.report.hand_rows import hand_since_words, range_words
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.tables import is_deficit, mean_words, prints_spread
-from carpus.ui.report.words import since_words
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside, tr
+from carpus.ui.words.fingers import hand_since_words, range_words
+from carpus.ui.words.ranges import is_deficit, mean_words, prints_spread
+from carpus.ui.words.session import since_words
 
 COMMENT_PX = 130
 PREVIEW_AFTER_MS = 400

@@ -25,17 +25,16 @@ from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.icons import State, paint_mark, paint_state
 from carpus.ui.plot.session import SessionPlot, paint_session
-from carpus.ui.plot.style import CURVE_TOKENS
-from carpus.ui.report.active_passive import active_passive
 from carpus.ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
-from carpus.ui.report.hand_rows import compared_figures, hand_summary
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, PageColumn, paint_to_fit, painted_on_nothing
-from carpus.ui.report.tables import TableRow, column_names, norm_words, repetition_words, table_rows
-from carpus.ui.report.words import method, other_lines, quality_lines, summary, warnings
-from carpus.ui.theme import LIGHT
+from carpus.ui.theme import CURVE_TOKENS, LIGHT
 from carpus.ui.translate import inside, tr
+from carpus.ui.words.active_passive import active_passive
 from carpus.ui.words.by_hand import day_words
+from carpus.ui.words.fingers import compared_figures, hand_summary
 from carpus.ui.words.progress import corrected_words
+from carpus.ui.words.ranges import TableRow, column_names, norm_words, repetition_words, table_rows
+from carpus.ui.words.session import method, other_lines, quality_lines, summary, warnings
 
 INSIDE_PT = 11.0
 """Between the line of a card and its words."""

@@ -17,15 +17,15 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import NO_LIMIT_PX, STRETCH, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, plain_tooltip
 from carpus.ui.controls.words_table import WordsTable
-from carpus.ui.report.active_passive import active_passive
-from carpus.ui.report.further_rows import further_rows, further_title
-from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words, main_figure
-from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.review.tables import FurtherTable, HandTable, RangeTable
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
+from carpus.ui.words.active_passive import active_passive
+from carpus.ui.words.fingers import column_heads, finger_rows, limits_words, main_figure
+from carpus.ui.words.further import further_rows, further_title
 from carpus.ui.words.progress import corrected_words
+from carpus.ui.words.ranges import column_names, repetition_words, table_rows
 
 LEAST_TABLE_PX = 84
 """The head of the table and two rows."""

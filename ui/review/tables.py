@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.ui.figures import FINGERS, TOKENS
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from carpus.ui.report.further_rows import FurtherRow
-from carpus.ui.report.hand_rows import COLUMNS, FingerRow
-from carpus.ui.report.tables import TableRow
 from carpus.ui.theme import Theme
+from carpus.ui.words.fingers import COLUMNS, FingerRow
+from carpus.ui.words.further import FurtherRow
+from carpus.ui.words.ranges import TableRow
 
 SMALLEST_PX = 10
 LEFT, RIGHT = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight

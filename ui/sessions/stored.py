@@ -11,11 +11,11 @@ from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import SessionEntry
-from carpus.ui.report.hand_rows import main_figure
-from carpus.ui.report.tables import repetition_words
-from carpus.ui.report.words import warnings
 from carpus.ui.sessions.listing import SessionLine
+from carpus.ui.words.fingers import main_figure
 from carpus.ui.words.progress import corrected_words
+from carpus.ui.words.ranges import repetition_words
+from carpus.ui.words.session import warnings
 
 
 class StoredSessions:

@@ -13,11 +13,11 @@ from carpus.core.results.ranges import RangeRow, RowKey, is_total
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of
 from carpus.ui.marker_words import finger_name
-from carpus.ui.report.hand_rows import AT_LEAST, has_totals, range_words
-from carpus.ui.report.tables import is_deficit, mean_words, turned
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import reason_words
 from carpus.ui.words.by_hand import value_words
+from carpus.ui.words.fingers import AT_LEAST, has_totals, range_words
+from carpus.ui.words.ranges import is_deficit, mean_words, turned
 
 BY_HAND = "\N{WHITE SQUARE}"
 """Before what a person measured, here as in every chart."""

@@ -14,11 +14,11 @@ from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name
-from carpus.ui.report.further_rows import main_words, short_words
-from carpus.ui.report.tables import is_deficit, mean_words, turned
-from carpus.ui.report.words import since_sessions
 from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import change_short, reason_words
+from carpus.ui.words.further import main_words, short_words
+from carpus.ui.words.ranges import is_deficit, mean_words, turned
+from carpus.ui.words.session import since_sessions
 
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
 AT_LEAST = "≥"

@@ -13,9 +13,9 @@ from carpus.core.results.progress import Comparison, compare
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
-from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
+from carpus.ui.words.ranges import is_deficit, prints_spread, too_slow
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:

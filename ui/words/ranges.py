@@ -12,7 +12,7 @@ from carpus.core.results.ranges import RangeRow
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
-from carpus.ui.plot.style import CURVE_TOKENS
+from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import say, tr
 from carpus.ui.verdicts import change_short, change_with_limit, reason_words
 
