@@ -15,7 +15,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import linear_sum_assignment
 from carpus.core.calibration.name_checks import average_palm, misfit, misfit_without, names_fit
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
@@ -241,6 +240,8 @@ def _refined(place: FloatArray, fit: _LaidHand, fixed: Mapping[int, int], chains
 
 def _assigned(place: FloatArray, laid: FloatArray, reach: float, fixed: Mapping[int, int]) -> IntArray:
     """Blob of every marker (M,), -1 where none is within ``reach``; each blob once, nearest overall."""
+    from scipy.optimize import linear_sum_assignment  # a third of a second to load
+
     distance = np.abs(laid[:, None] - place)
     cost = np.minimum(distance, reach) ** 2
     for row, blob in fixed.items():

@@ -336,7 +336,7 @@ static void unresolved(
 }
 
 /* What the blobs as named measure of the discs, and how surely. */
-int digits_measured(
+static int digits_measured(
     int blobs, const int64_t *assigned, const uint8_t *with_depth, const double *value, const double *blob_variance,
     const double *area_px, const double *whole_px, const double *disc_m2, const uint8_t *has_discs, const double *visible,
     const double *expected, const double *spread, const double *noise_factor, double whole_from, double shade_share,
@@ -780,35 +780,6 @@ int digits_settled(
     return 0;
 }
 
-/* What is remembered of the discs after an accepted frame: fingers.py, accept. */
-int digits_accepted(
-    double dt, const int64_t *assigned, const double *visible, double missed, double most_seen, const uint8_t *shows,
-    const double *unseen_s, const int64_t *missing, int least_discs, const double *residual, const double *measured,
-    const double *factor, double weight, double least, double most, const double *disc_m2, const double *now_m2, double grows,
-    double shrinks, double *out_visible, double *out_unseen_s, int64_t *out_missing, double *out_factor, double *out_m2)
-{
-    uint8_t is_measured[CHAINS * SEEN];
-    for (int r = 0; r < CHAINS; r++) {
-        int count = 0;
-        for (int d = 3 * r; d < 3 * r + 3; d++) {
-            const double known = disc_m2[d], now = now_m2[d], by = now > known ? grows : shrinks;
-            count += assigned[d] >= 0;
-            out_visible[d] = assigned[d] >= 0 ? most_seen : visible[d] * missed / (1.0 - (1.0 - missed) * visible[d]);
-            out_m2[d] = !isfinite(now) ? known : isnan(known) ? now : known + by * (now - known);
-        }
-        for (int s = SLOTS * r; s < SLOTS * (r + 1); s++) {
-            out_unseen_s[s] = unseen_s[s] + dt;
-            for (int d = 0; d < 3; d++)
-                if (shows[3 * s + d] && assigned[3 * r + d] >= 0)
-                    out_unseen_s[s] = 0.0;
-        }
-        out_missing[r] = count < least_discs ? missing[r] + 1 : 0;
-    }
-    for (int k = 0; k < CHAINS * SEEN; k++)
-        is_measured[k] = weight > 0.0 && isfinite(measured[k]);
-    return adapted_factors(CHAINS * 3, factor, residual, is_measured, weight, least, most, out_factor);
-}
-
 int knuckles_bent(
     int count, const int64_t *asked, const double *mean, const double *root, const double *rotation,
     const double *translation, double fx, double fy, double cx, double cy, int readings, const double *pixel,
@@ -891,85 +862,5 @@ int knuckles_bent(
         }
     }
     free(lattice);
-    return 0;
-}
-
-/* Where discs are to be seen, and how surely: predicted_measurement.py, PredictedDigits.image. */
-int digits_image(
-    const double *disc_m, const double *rotation, const double *translation, double fx, double fy, double cx, double cy,
-    double scale, double *pixel, double *covariance, double *depth)
-{
-    for (int c = 0; c < CHAINS; c++)
-        for (int d = 0; d < 3; d++) {
-            double u[POINTS], v[POINTS], *own = covariance + 4 * (3 * c + d);
-            for (int p = 0; p < POINTS; p++) {
-                double seen[3];
-                times3(rotation, disc_m + ((c * POINTS + p) * 3 + d) * 3, seen);
-                for (int k = 0; k < 3; k++)
-                    seen[k] += translation[k];
-                u[p] = seen[0] * (fx / seen[2]) + cx;
-                v[p] = seen[1] * (fy / seen[2]) + cy;
-                if (!p)
-                    depth[3 * c + d] = seen[2];
-            }
-            pixel[2 * (3 * c + d)] = u[0];
-            pixel[2 * (3 * c + d) + 1] = v[0];
-            memset(own, 0, 4 * sizeof *own);
-            for (int p = 1; p <= BENT; p++) {
-                const double x = (u[p] - u[BENT + p]) * (0.5 / scale), y = (v[p] - v[BENT + p]) * (0.5 / scale);
-                own[0] += x * x;
-                own[1] += x * y;
-                own[3] += y * y;
-            }
-            own[2] = own[1];
-        }
-    return 0;
-}
-
-int best_posture(
-    int postures, int blobs, const double *disc, const double *point, double near2, double nearness, double *score,
-    int64_t *best, int64_t *used, int64_t *found)
-{
-    if (postures < 1 || blobs < 1)
-        return OUTSIDE;
-    *score = -INFINITY;
-    for (int s = 0; s < postures; s++) {
-        double worth[3], sum = 0.0;
-        int nearest[3], count = 0;
-        for (int d = 0; d < 3; d++) {
-            const double *at = disc + (3 * s + d) * 3;
-            double least = INFINITY;
-            nearest[d] = 0;
-            for (int b = 0; b < blobs; b++) {
-                const double x = at[0] - point[3 * b], y = at[1] - point[3 * b + 1], z = at[2] - point[3 * b + 2];
-                const double gap2 = x * x + y * y + z * z;
-                if (gap2 < least) {
-                    least = gap2;
-                    nearest[d] = b;
-                }
-            }
-            worth[d] = 1.0 - least / near2;
-            worth[d] = worth[d] > 0.0 ? worth[d] : 0.0;
-        }
-        /* A blob is one disc only: the second disc that takes it is worth nothing. */
-        static const int PAIRS[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-        for (int k = 0; k < 3; k++) {
-            const int a = PAIRS[k][0], b = PAIRS[k][1];
-            if (nearest[a] == nearest[b])
-                worth[worth[a] < worth[b] ? a : b] = 0.0;
-        }
-        for (int d = 0; d < 3; d++) {
-            count += worth[d] != 0.0;
-            sum += worth[d];
-        }
-        if (count + nearness * sum > *score) {
-            *score = count + nearness * sum;
-            *best = s;
-            *found = 0;
-            for (int d = 0; d < 3; d++)
-                if (worth[d] > 0.0)
-                    used[(*found)++] = nearest[d];
-        }
-    }
     return 0;
 }

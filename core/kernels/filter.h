@@ -4,6 +4,10 @@
 
 #include <stdint.h>
 
+int log_odds(
+    int markers, int blobs, const double *expected, const double *covariance,
+    const double *measured, const double *variance, double prior, double depth_range,
+    double outlier, double gate2, double impossible, double *out, uint8_t *with_depth);
 int resolved(int markers, int blobs, const double *odds, int64_t *assigned);
 void transitioned(
     int modes, int size, int mixing, int relaxing, const double *change, const double *mean, const double *covariance,

@@ -18,9 +18,6 @@ enum { NOT_DEFINITE = 1, NO_MEMORY = 2, OUTSIDE = 3 };
 KERNEL const char *kernels_digest(void);
 KERNEL int kernels_run_wide(void);
 
-/* assignment.c */
-KERNEL int least_assignment(int rows, int columns, const double cost[rows * columns], int64_t column_of[rows]);
-
 /* filter.c */
 KERNEL int corrected(
     int chains, int modes, int size, int count, const double mean[chains * modes * size],
@@ -63,10 +60,6 @@ KERNEL int palm_reset(
     int least, double share_in, double reading_per_m, double turn_sd, double up_sd, double goes_on, double most_nis,
     const double *partial, double *out_mean, double *out_covariance, double *out_probability, double *whole,
     double *out_value, double *out_rotation, uint8_t *levelled);
-KERNEL int log_odds(
-    int markers, int blobs, const double expected[markers * 3], const double covariance[markers * 9],
-    const double measured[blobs * 3], const double variance[blobs * 3], double prior, double depth_range,
-    double outlier, double gate2, double impossible, double out[markers * blobs], uint8_t with_depth[markers * blobs]);
 KERNEL int wrist_read(
     const double *known, const double *sensitivity, const double *about, double most_m, const double *place,
     const double *value, const double *rotation, const double *covariance, const double *start, const double *stays,
@@ -154,12 +147,6 @@ KERNEL int digits_named(
     double *square, double *rows, double *slope, double *centre_m, double *by_place, double *out_mean,
     double *out_covariance, double *out_probability, int64_t *assigned, uint8_t *with_depth, double *nis, int64_t *dof,
     const double *most_nis, double was_seen, uint8_t *ordinary, uint8_t *settled);
-KERNEL int digits_measured(
-    int blobs, const int64_t *assigned, const uint8_t *with_depth, const double *value, const double *blob_variance,
-    const double *area_px, const double *whole_px, const double *disc_m2, const uint8_t *has_discs, const double *visible,
-    const double *expected, const double *spread, const double *noise_factor, double whole_from, double shade_share,
-    double radius_m, double fx, double crowded_radii, double crowded_px, double was_seen, double merged_from,
-    double merged_share, double pixel_sd, double skin_px, double *measured, double *variance);
 KERNEL int digits_read(
     const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
     const double *palm_m, const double *rotation, const double *translation, const double *turn_covariance,
@@ -171,11 +158,6 @@ KERNEL int digits_settled(
     int modes, const double mean[modes * 105], const double *covariance, const double *probability, const double *limits,
     const double *direction, double abduction, double soft, double near_sd, double most_beyond, double *out_mean,
     double *out_covariance, double *whole_mean, double *whole, uint8_t *misread);
-KERNEL int digits_accepted(
-    double dt, const int64_t *assigned, const double *visible, double missed, double most_seen, const uint8_t *shows,
-    const double *unseen_s, const int64_t *missing, int least_discs, const double *residual, const double *measured,
-    const double *factor, double weight, double least, double most, const double *disc_m2, const double *now_m2, double grows,
-    double shrinks, double *out_visible, double *out_unseen_s, int64_t *out_missing, double *out_factor, double *out_m2);
 KERNEL int knuckles_bent(
     int count, const int64_t asked[count], const double mean[105], const double root[15], const double rotation[9],
     const double translation[3], double fx, double fy, double cx, double cy, int readings,
@@ -183,18 +165,6 @@ KERNEL int knuckles_bent(
     int shares, const double share[shares], double near, double steep, double facing_share, double most_past,
     double most_before, double nothing, double most_sd, double least_sd, double alike, double value[5],
     double variance[5]);
-KERNEL int digits_image(
-    const double disc_m[585], const double rotation[9], const double translation[3], double fx, double fy, double cx,
-    double cy, double scale, double pixel[30], double covariance[60], double depth[15]);
-KERNEL int best_posture(
-    int postures, int blobs, const double disc[postures * 9], const double point[blobs * 3], double near2,
-    double nearness, double score[1], int64_t best[1], int64_t used[3], int64_t found[1]);
 
-/* skin.c */
-KERNEL int skin_traced(
-    int cones, const double cone[cones * 18], const int32_t box[cones * 4], const int32_t part_of[cones],
-    const double reach[7], int top, int left, int height, int width, const float x[width], const float y[height],
-    double start, double fx, float depth[height * width], float coverage[height * width],
-    float normal[height * width * 3], uint8_t part[height * width]);
 
 #endif

@@ -5,14 +5,13 @@ Each cone is evaluated only where its bounding sphere can be seen: row by row in
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
-from carpus.core.kernels.choice import in_c
 from carpus.core.simulation.skin import BLEND_M, FINGER_BLEND_M, Cones, Part
 from carpus.core.types import FloatArray
 
@@ -169,20 +168,8 @@ def trace(camera: Camera, cones: Cones) -> TracedSurface | None:
         return None
     whole = reduce(Box.around, places.values())
     numbers = _numbers(cones)[list(places)]
-    parts = [Part(int(cones.part[i])) for i in places]
-    if (kernels := in_c()) is None:
-        seen = [_SeenCone(numbers[k], parts[k], x, y, box) for k, box in enumerate(places.values())]
-        return _traced(seen, whole, x, y, near_m, camera.fx_px)
-    rows, columns = whole.slices
-    shape = whole.bottom - whole.top, whole.right - whole.left
-    depth, coverage = np.empty(shape, dtype=np.float32), np.empty(shape, dtype=np.float32)
-    normal, part_image = np.empty((*shape, 3), dtype=np.float32), np.empty(shape, dtype=np.uint8)
-    kernels.skin_traced(
-        len(parts), numbers, np.array([astuple(box) for box in places.values()], dtype=np.int32),
-        np.array(parts, dtype=np.int32), np.array([BLEND_M.get(part, FINGER_BLEND_M) for part in Part]),
-        whole.top, whole.left, *shape, x[columns], y[rows], near_m, camera.fx_px, depth, coverage, normal, part_image,
-    )  # fmt: skip
-    return TracedSurface(whole, depth, coverage, normal, part_image)
+    seen = [_SeenCone(numbers[k], Part(int(cones.part[i])), x, y, box) for k, (i, box) in enumerate(places.items())]
+    return _traced(seen, whole, x, y, near_m, camera.fx_px)
 
 
 def _places(camera: Camera, cones: Cones) -> dict[int, Box]:

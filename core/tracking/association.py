@@ -20,8 +20,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import linear_sum_assignment
-from carpus.core.kernels.choice import in_c
 from carpus.core.types import FloatArray
 
 IMPOSSIBLE = -1e9
@@ -93,14 +91,6 @@ def log_odds(
     """
     prior, by_depth, by_outlier = log_densities(resolution_px2, depth_outlier, settings)
     gate2 = settings.gate_sd**2
-    if (kernels := in_c()) is not None:
-        shape = len(predicted), len(measured)
-        value, with_depth = np.empty(shape), np.empty(shape, dtype=np.bool_)
-        kernels.log_odds(
-            *shape, predicted, covariance, measured, noise_variance, prior, by_depth, by_outlier, gate2,
-            IMPOSSIBLE, value, with_depth,
-        )  # fmt: skip
-        return LogOdds(value, with_depth)
     # Innovations u, v, z and their variances s (each (M, D)) in turn given those before, the depth last: an L D L'
     # decomposition of the sum of covariance and noise, written out. The first two are those of the pixel alone.
     u, v, z = measured.T[:, None] - predicted.T[..., None]
@@ -148,6 +138,8 @@ def resolve(odds: FloatArray) -> NDArray[np.int64]:
         named = [blob for blob in assigned if blob >= 0]
         if len(set(named)) == len(named):
             return np.array(assigned, dtype=np.int64)
+        from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
+
         assigned = [-1] * odds.shape[0]
         rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
         for marker, blob in zip(rows.tolist(), columns.tolist(), strict=True):

@@ -15,7 +15,6 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.kernels.choice import in_c
 from carpus.core.tracking import association
 from carpus.core.tracking.association import is_jointly_compatible
 from carpus.core.tracking.digit_filter import ANATOMY, DIGIT_SIZE, SEEN, DigitsLinearisation, DigitView
@@ -229,16 +228,6 @@ def measured_as_named(
 ) -> tuple[FloatArray, FloatArray]:
     """What the blobs as named measure (5, 9), NaN where there is none, and its variance (5, 9)."""
     noise = settings.noise
-    if (kernels := in_c()) is not None:
-        measured, variance = np.empty((CHAINS, 9)), np.empty((CHAINS, 9))
-        kernels.digits_measured(
-            len(scene.blobs), names.assigned, names.with_depth, scene.blobs.value, scene.blobs.variance, scene.area_px,
-            scene.whole_px, scene.disc_m2, scene.has_discs, scene.visible, scene.linearised.value, scene.spread,
-            scene.noise_factor, WHOLE_FROM, SHADE_SHARE, settings.marker_radius_m,
-            scene.view.camera.fx_px, CROWDED_RADII, CROWDED_PX, WAS_SEEN, MERGED_FROM,
-            MERGED_SHARE, noise.pixel_sd_px, SKIN_PX, measured, variance,
-        )  # fmt: skip
-        return measured, variance
     blob = np.maximum(names.assigned, 0)
     is_named = names.assigned >= 0
     if len(scene.blobs):

@@ -59,7 +59,7 @@ from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.hand_geometry import CHAINS, CROWDED_PX, CROWDED_RADII, DISCS, SHOWS, SLOTS, PalmInBody
 from carpus.core.tracking.kernel import ModeMixture, Update, like
 from carpus.core.tracking.palm_association import SHADE_SHARE, WHOLE_FROM, Measurements
-from carpus.core.tracking.predicted_measurement import ADAPT_S, PredictedDigits, adapted_factor
+from carpus.core.tracking.predicted_measurement import PredictedDigits, adapted_factor
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, SurfaceSamples
 
@@ -173,23 +173,6 @@ class DigitMemory:
     def remember(self, trial: FingerTrial, dt_s: float, settings: TrackerSettings) -> None:
         """Which discs are seen, how noisy and how large, after an accepted frame."""
         self.palm = trial.seat.palm
-        named, noise = trial.named, settings.noise
-        if (kernels := in_c()) is None:
-            self._remember(trial, dt_s, settings)
-            return
-        visible, disc_m2 = np.empty((2, CHAINS, DISCS))
-        unseen_s, missing = np.empty((CHAINS, SLOTS)), np.empty(CHAINS, dtype=np.int64)
-        factor = np.empty((CHAINS, 3 * DISCS))
-        kernels.digits_accepted(
-            dt_s, named.names.assigned, trial.scene.visible, MISSED, MAX_SEEN, SHOWS, self.unseen_s,
-            self.missing, MIN_DISCS, named.update.residual, named.measured, self.noise_factor,
-            1.0 - math.exp(-dt_s / ADAPT_S), noise.least_adapted, noise.most_adapted, self.disc_m2,
-            trial.disc_m2, SIZE_GROWS, SIZE_SHRINKS, visible, unseen_s, missing, factor, disc_m2,
-        )  # fmt: skip
-        self.visible, self.unseen_s, self.missing = visible, unseen_s, missing
-        self.noise_factor, self.disc_m2 = factor, disc_m2
-
-    def _remember(self, trial: FingerTrial, dt_s: float, settings: TrackerSettings) -> None:
         is_named = trial.blob >= 0
         named, visible = trial.named, trial.scene.visible
         # Bayes: a disc that is in sight goes without a name with the chance ``MISSED``.

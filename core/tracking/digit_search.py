@@ -8,7 +8,6 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SLOTS, digit_discs_m
 from carpus.core.types import FloatArray
 
@@ -103,10 +102,6 @@ def search_digits(
 
 def _best_posture(disc_m: FloatArray, point_m: FloatArray) -> tuple[float, int, NDArray[np.int64]]:
     """Score, index of the posture and blobs used, for discs (S, 3, 3) of postures and blobs (B, 3)."""
-    if (kernels := in_c()) is not None:
-        most, which, used, count = np.empty(1), *(np.empty(size, dtype=np.int64) for size in (1, DISCS, 1))
-        kernels.best_posture(len(disc_m), len(point_m), disc_m, point_m, NEAR_M**2, NEARNESS, most, which, used, count)
-        return most.item(), which.item(), used[: count.item()]
     gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)
     nearest = gap2.argmin(axis=-1)
     worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / NEAR_M**2, 0.0)

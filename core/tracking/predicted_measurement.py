@@ -142,18 +142,6 @@ class PredictedDigits:
         """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
         count = self.points.unroot.shape[-1]
         own_view = DigitView(*view.of_palm(estimate, self.palm.axes, self.palm.origin_m), view.camera)
-        if (kernels := in_c()) is not None:
-            camera = view.camera
-            pixel, own, depth_m = (
-                np.empty((CHAINS, DISCS, 2)),
-                np.empty((CHAINS, DISCS, 2, 2)),
-                np.empty((CHAINS, DISCS)),
-            )
-            kernels.digits_image(
-                self.points.disc_m, own_view.rotation, own_view.translation_m, camera.fx_px, camera.fy_px, camera.cx_px,
-                camera.cy_px, weights_for(count, spread).scale, pixel, own, depth_m,
-            )  # fmt: skip
-            return pixel, own, depth_m
         image = own_view.observe(self.points.disc_m)
         half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
         by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, spread).scale)

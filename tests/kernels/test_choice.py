@@ -51,18 +51,6 @@ def test_what_is_built_is_called_by_its_source(tmp_path: Path, monkeypatch: pyte
         choice.Kernels(renamed, "plain")
 
 
-def test_a_fault_keeps_nothing_of_the_one_before() -> None:
-    kernels = choice.in_c()
-    if kernels is None:
-        pytest.skip("no kernels in C here")
-    seen = []
-    for _ in range(2):
-        with pytest.raises(ValueError, match="outside") as told:
-            kernels.least_assignment(2, 3, np.full((2, 3), np.nan), np.zeros(2, np.int64))
-        seen.append(told.value)
-    assert seen[0] is not seen[1]
-
-
 @pytest.mark.parametrize("content", [b"", b"\x7fELF no library"])
 def test_what_is_no_library_is_not_loaded(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / f"kernels-{build.digest()}-plain{build.SUFFIX}"

@@ -12,11 +12,9 @@ import pytest
 from carpus.core.calibration.result import Calibration
 from carpus.core.kernels import choice
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
 from carpus.core.tracking.digit_filter import DigitPoints, DigitsLinearisation, digits_linearised, spread_points
 from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
 from carpus.core.tracking.digit_readout import Seat, seat_of
-from carpus.core.tracking.digit_search import _best_posture
 from carpus.core.tracking.finger_depth import knuckle_bends
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.fingers import Fingers
@@ -25,8 +23,7 @@ from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.joint_limits import settled
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements
-from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmEstimate, View
-from carpus.core.tracking.predicted_measurement import PredictedDigits
+from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmEstimate
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import FrameResults
@@ -36,7 +33,7 @@ from tests.kernels.pairs import both
 from tests.kernels.test_filter_kernels import covariances
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.suites import few
-from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
+from tests.tracking.hands import CAMERA, RIGHT_PALM_M
 from tests.tracking.sequences import calibrated
 from tests.tracking.test_finger_depth import VIEW, readings, states
 from tests.tracking.test_palm_filter import moving
@@ -194,27 +191,6 @@ def test_joints_as_they_are_read(side: str, dip: str) -> None:
     both(lambda: it.fingers.model.readout.read(it.mean, it.covariance, it.seat, linearised))
 
 
-@pytest.mark.parametrize("blobs", [0, 9])
-def test_what_named_blobs_measure(blobs: int) -> None:
-    it, rng = hand("right", 2), np.random.default_rng(3)
-    linearised = it.linearised()
-    value = rng.normal(size=(blobs, 3)) + [300.0, 200.0, 0.7]
-    value[1::3, 2] = np.nan
-    assigned = np.where(rng.uniform(size=(5, 3)) < 0.6, rng.integers(0, max(blobs, 1), (5, 3)), -1) if blobs else None
-    assigned = np.full((5, 3), -1) if assigned is None else assigned
-    names = DigitAssignment(assigned.astype(np.int64), (assigned >= 0) & (rng.uniform(size=(5, 3)) < 0.7))
-    whole_px = np.where(rng.uniform(size=(5, 3)) < 0.2, np.nan, 60.0)
-    crowded = replace(linearised, value=np.where(np.arange(9) % 3 == 2, 0.7, linearised.value * 0.05))
-    for seen in (linearised, crowded):
-        scene = DigitScene(
-            it.covariance, seen, seen.spread, seen.spread, rng.uniform(0.3, 0.98, size=(5, 3)),
-            Measurements(value, rng.uniform(0.01, 0.1, size=(blobs, 3))), np.ones(blobs, dtype=bool),
-            rng.uniform(10.0, 90.0, size=blobs), whole_px, whole_px * 1e-6, rng.uniform(0.6, 3.0, size=(5, 9)), 3e5,
-            it.seat.view, 0.2, np.arange(5) < 4,
-        )  # fmt: skip
-        both(lambda scene=scene: measured_as_named(scene, names, SETTINGS))
-
-
 @pytest.mark.parametrize("modes", [1, 2])
 def test_limits_of_joints(modes: int) -> None:
     it, rng = hand("right", 1), np.random.default_rng(15)
@@ -230,45 +206,6 @@ def test_limits_of_joints(modes: int) -> None:
     assert not np.all(misread)
     narrow = ModeMixture(0.3 + 0.0 * mean, 1e-9 * covariance, mixture.probability)
     both(lambda: settled(narrow, 0.5))
-
-
-def test_what_is_remembered_of_an_accepted_frame() -> None:
-    it = hand("right", 2)
-    fingers, points = it.fingers, it.points()
-    mixture = fingers.model.alike(it.mean, it.covariance)
-    seen = it.linearised().value.reshape(15, 3)[:9]
-    blobs = Measurements(seen, np.broadcast_to([0.05, 0.05, 1e-6], seen.shape).copy())
-    with choice.forced(choice.NUMPY):
-        picture = DigitPicture(0.033, it.seat, blobs, np.full(9, 60.0), np.ones(9, dtype=bool))
-        trial = fingers.naming._tried(mixture, points, picture)
-    assert (trial.blob >= 0).any()
-    for dt_s in (0.0, 0.033):
-
-        def remembered(dt_s: float = dt_s) -> tuple[object, ...]:
-            fingers.begin_at_neutral()
-            fingers.memory.unseen_s += 0.1
-            step = fingers.accept(trial, 1.0, dt_s)
-            told = fingers.memory
-            of_discs = told.visible, told.unseen_s, told.missing, told.noise_factor, told.disc_m2
-            return *of_discs, fingers._mean, fingers._covariance, fingers.known, step.shown
-
-        both(remembered)
-    fingers.begin_at_neutral()
-
-
-@pytest.mark.parametrize("side", ["right", "left"])
-def test_where_digits_are_expected(side: str) -> None:
-    it, estimate, view = hand(side, 1), moving(1), View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
-    digits = PredictedDigits(it.fingers.known, it.points(), it.seat.palm)
-    both(lambda: digits.image(estimate, view, Spread()))
-
-
-@pytest.mark.parametrize("count", [2, 9])
-def test_the_posture_that_explains_most(count: int) -> None:
-    rng = np.random.default_rng(18)
-    disc_m = rng.normal(scale=0.02, size=(200, 3, 3))
-    for point_m in (disc_m[7, :2] + 0.001, rng.normal(scale=0.02, size=(count, 3)), np.full((count, 3), 9.0)):
-        both(lambda point_m=point_m: _best_posture(disc_m, point_m))
 
 
 @pytest.mark.parametrize("flexion_deg", [10.0, 70.0])

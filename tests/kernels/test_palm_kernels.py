@@ -14,7 +14,6 @@ from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.kernels import choice
 from carpus.core.tracking import palm_association
-from carpus.core.tracking.association import AssociationSettings, log_odds
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import MotionNoise, PalmMotion
 from carpus.core.tracking.palm_association import Measurements, associate_and_update, measurements_of
@@ -40,7 +39,6 @@ from carpus.core.tracking.surface_fit import SurfaceSettings, reset_and_levelled
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import Detections, FloatArray, Side, SurfaceSamples
 from tests.kernels.pairs import LEVELS, both
-from tests.kernels.test_filter_kernels import covariances
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, calibration
 from tests.tracking.test_palm_filter import moving
 from tests.tracking.test_surface_fit import place_on
@@ -86,20 +84,6 @@ def test_a_palm_that_is_not_known_at_all_is_no_covariance(level: str) -> None:
     broken = replace(estimate, covariance=-estimate.covariance)
     with choice.forced(level), pytest.raises(np.linalg.LinAlgError):
         predicted_measurement(broken, mixture_about(broken, rng, 2), view_of(rng), Spread())
-
-
-@pytest.mark.parametrize("blobs", [0, 1, 25])
-def test_odds_of_names(blobs: int) -> None:
-    rng = np.random.default_rng(4)
-    scale = np.array([1.0, 1.0, 0.003])
-    covariance = covariances(rng, 6, 3) * scale[:, None] * scale
-    expected = rng.normal(size=(6, 3)) * [20.0, 20.0, 0.01] + [320.0, 240.0, 0.7]
-    measured = expected[rng.integers(0, 6, blobs)] + rng.normal(size=(blobs, 3)) * 3.0 * scale
-    measured[1::4, 2] = np.nan
-    measured[2::4, 2] += 0.2
-    variance = np.broadcast_to([0.04, 0.04, 1e-6], (blobs, 3)).copy()
-    found = both(lambda: log_odds(expected, covariance, measured, variance, 3e5, 1e-4, AssociationSettings()))
-    assert blobs < 25 or (found.with_depth.any() and not found.with_depth.all())
 
 
 @pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.name)

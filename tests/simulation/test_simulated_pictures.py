@@ -11,7 +11,7 @@ from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.render import corner_light
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trace import Box, TracedSurface
+from carpus.core.simulation.trace import Box, TracedSurface, trace
 from carpus.core.types import ByteImage, FloatArray
 from tests.simulation.skin_shown import discs_found_on_the_surface, gaps_m
 from tests.suites import few
@@ -179,3 +179,10 @@ def test_the_last_column_of_a_hand_that_leaves_can_be_lit() -> None:
     light = corner_light(sliver, depth_m)
     assert light.shape == (40, 1)
     assert np.all(light == 1.0)
+
+
+def test_skin_outside_the_picture_is_none() -> None:
+    scene = Scene(RecordingSpec(seed=7))
+    cones = scene.cones_cam(scene.pose(np.array([0.0])), 0)
+    assert trace(scene.camera, cones) is not None
+    assert trace(scene.camera, cones.moved(np.eye(3), np.array([3.0, 0.0, 0.0]))) is None
