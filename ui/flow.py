@@ -14,7 +14,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.records.library import Library
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.camera_state import Cameras, CameraState
@@ -135,7 +135,7 @@ class Flow(QObject):
     def show_research(self, *, on: bool) -> None:
         """Show what only research needs, or fold it away; no value changes by it."""
 
-    def open_patient(self, patient_id: str) -> PatientRecord:
+    def open_patient(self, patient_id: str) -> Patient:
         """From now on this patient is open."""
         now = self.context.now
         if now.patient is None or now.patient.patient_id != patient_id:

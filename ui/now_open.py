@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui.ports import Calibrator
 from carpus.ui.translate import tr
 
@@ -45,7 +45,7 @@ class OpenSource:
 class NowOpen:
     """``choice`` is the source last asked for, ``source`` the one that runs, ``session_id`` the session looked at."""
 
-    patient: PatientRecord | None = None
+    patient: Patient | None = None
     set_up: SetUp | None = None
     source: OpenSource | None = None
     session_id: str = ""

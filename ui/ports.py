@@ -10,7 +10,7 @@ from typing import Literal, Protocol
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.pipeline.live_values import StartMode
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.core.session.values import AngleOrder
 from carpus.core.types import ByteImage, FloatArray, Frame, Side
 
@@ -35,7 +35,7 @@ class ResultLine:
 class PatientCard:
     """What the therapist must recall before the next session."""
 
-    record: PatientRecord
+    patient: Patient
     results: Sequence[ResultLine] = ()
     last_set: str = ""
     note: str = ""

@@ -52,7 +52,7 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
         if not patient_id:
             if path.suffix == ".h5":
                 raise RecordingMissing(path)
-            pseudonyms = [one.entry.pseudonym for one in library.patients.listed(archived=True)]
+            pseudonyms = [one.pseudonym for one in library.patients.listed(archived=True)]
             raise PatientUnknown(what, known_names(what, pseudonyms))
         plan = records.plan_patient(patient_id)
     pseudonym = plan.pseudonym

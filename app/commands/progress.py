@@ -110,7 +110,7 @@ def _listed(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionFigures
 
     with closing(library_of(folder, only_reads=True)) as library:
         FilesOfSessions(library.store).take_in(tells=False)  # also what was copied in since the last look
-        people = {one.patient_id: one.entry.pseudonym for one in library.patients.listed(archived=True)}
+        people = {one.patient_id: one.pseudonym for one in library.patients.listed(archived=True)}
         if subject == EVERYBODY:
             wanted = ["", *(one.patient_id for one in library.patients.listed())]
         else:

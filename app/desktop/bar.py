@@ -38,7 +38,7 @@ class Bar(QObject):
     def show(self) -> None:
         """All of it, for the place."""
         bar, row, set_up, place = self._shell.bar, self._now.patient, self._now.set_up, self._way.place
-        side = set_up.side if set_up is not None else row.entry.side if row is not None else ""
+        side = set_up.side if set_up is not None else row.side if row is not None else ""
         words = [terms.hand_name(side)] if side else []
         if place == "live" and set_up is not None:
             words.append(terms.exercise_name(set_up.exercise.id))

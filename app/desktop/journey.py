@@ -20,7 +20,7 @@ from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.errors import CarpusFault
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.library import Library
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui.background import Background
 from carpus.ui.camera_state import CameraState
 from carpus.ui.flow import STEPS, TABS, Flow, Navigator, ScreenContext
@@ -165,7 +165,7 @@ class Journey(Screens):
             self.messages.fault(fault)
             return
         if not found.patient_id:  # of nobody here: shown under the name in its file
-            self.now.patient = PatientRecord.unlisted(found.subject_id.strip(), found.side)
+            self.now.patient = Patient(found.subject_id.strip() or "?", found.side)
         self.review.show(found.session_id, found.patient_id)
 
     def _take_key(self, name: str) -> None:

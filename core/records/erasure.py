@@ -87,7 +87,7 @@ def _plan(store: Store, kind: Kind, identity: str, patient_id: str, results: Seq
         raise ErasureLeadsOut(links[0])
     files = sorted(_files(store, going, sessions))
     return ErasurePlan(
-        kind, identity, patient_id, Patients(store).one(patient_id).entry.pseudonym if patient_id else "",
+        kind, identity, patient_id, Patients(store).one(patient_id).pseudonym if patient_id else "",
         tuple(results), len({one.recording_id for one in results}), tuple(files),
         sum(path.lstat().st_size for path in files), tuple(made_from(store, sessions)),
         _outside(store, patient_id) if kind == "patient" else (),

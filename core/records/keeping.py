@@ -137,11 +137,11 @@ class Records:
         library, found = self._library, []
         for patient_id, since in library.patients.archived().items():
             entries = library.index.of_patient(patient_id, archived=True)
-            pseudonym = library.patients.one(patient_id).entry.pseudonym
+            pseudonym = library.patients.one(patient_id).pseudonym
             found.append(Archived(patient_id, pseudonym, since, len({one.recording_id for one in entries}), patient_id))
         for entry, owner, since in library.index.archived():
             if owner:
-                pseudonym, session_id = library.patients.one(owner).entry.pseudonym, entry.session_id
+                pseudonym, session_id = library.patients.one(owner).pseudonym, entry.session_id
                 found.append(Archived(session_id, pseudonym, since, 1, owner, entry.recorded, session_id))
         return sorted(found, key=lambda one: one.since, reverse=True)
 
@@ -160,7 +160,7 @@ class Records:
         was erased there is none."""
         known = {}
         for record in self._library.patients.listed(archived=True):
-            pseudonym = record.entry.pseudonym
+            pseudonym = record.pseudonym
             known[fingerprint(record.patient_id)] = pseudonym
             for entry in self._library.index.of_patient(record.patient_id, archived=True):
                 known[fingerprint(entry.session_id)] = f"{pseudonym}, {entry.recorded:%Y-%m-%d %H:%M}"

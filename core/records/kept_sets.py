@@ -69,7 +69,7 @@ def last_set_up(store: Store, patient_id: str) -> SetUp | None:
         return None
     exercise = exercise_named(row.exercise)
     last = SetUp(
-        patient_id, Patients(store).one(patient_id).entry.pseudonym, row.side, exercise, row.repetitions,
+        patient_id, Patients(store).one(patient_id).pseudonym, row.side, exercise, row.repetitions,
         *read_targets_deg((known(row.positive_deg), known(row.negative_deg)), exercise), bool(row.keep_pictures),
         bool(row.ends_free), row.discs, bool(row.for_child),
     )  # fmt: skip

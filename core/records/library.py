@@ -150,11 +150,10 @@ class Library:
     def pseudonyms(self) -> Sequence[str]:
         """Every pseudonym and name there is, for what must not hold them."""
         with suppress(CarpusFault):  # those known last, while the store cannot be read
-            entries = [record.entry for record in self.patients.listed(archived=True)]
             self._names = [
                 text
-                for entry in entries
-                for text in (entry.pseudonym, entry.pseudonym.replace(" ", "-"), entry.name)
+                for one in self.patients.listed(archived=True)
+                for text in (one.pseudonym, one.pseudonym.replace(" ", "-"), one.name)
                 if text
             ]
         return self._names

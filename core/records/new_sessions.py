@@ -96,7 +96,7 @@ def recover(library: Library) -> tuple[Sequence[Recovered], Sequence[CarpusFault
         header = outline.header
         library.notes.session("recovered", header.session_id)
         owner = library.owner(header.session_id)
-        pseudonym = library.patients.one(owner).entry.pseudonym if owner else header.subject_id
+        pseudonym = library.patients.one(owner).pseudonym if owner else header.subject_id
         found.append(Recovered(owner, header.session_id, pseudonym, header.when, outline.duration_s))
     if len(apart) > MOST_TOLD:
         names = ", ".join(Path(fault.subject).name for fault in apart[:MOST_TOLD])

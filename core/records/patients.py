@@ -8,8 +8,9 @@ import math
 import random
 import time
 from collections.abc import Collection, Iterable
+from dataclasses import fields
 from datetime import UTC, date, datetime
-from typing import Any
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from sqlalchemy import ColumnElement, Row, select
 
@@ -21,17 +22,7 @@ from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, RowChange, changed, kept, new
 from carpus.core.records.schema import GOAL, HOME_PLAN, MEASURED, PATIENT
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import (
-    AGE_BANDS,
-    DOMINANCES,
-    ONSETS,
-    SIDES,
-    HomePlan,
-    PatientEntry,
-    PatientRecord,
-    moment,
-    one_of,
-)
+from carpus.core.records.values import HomePlan, Patient, moment, one_of
 from carpus.core.results.progress import Goals
 from carpus.core.types import Side
 
@@ -71,7 +62,7 @@ class Patients:
     def __init__(self, store: Store) -> None:
         self._store = store
 
-    def listed(self, search: str = "", *, archived: bool = False, most: int | None = None) -> list[PatientRecord]:
+    def listed(self, search: str = "", *, archived: bool = False, most: int | None = None) -> list[Patient]:
         """Patients whose pseudonym, name, diagnosis or note holds every word of ``search``; last session first,
         ``most`` of them.
 
@@ -88,15 +79,15 @@ class Patients:
             found = select(PATIENT.c.id).with_hint(PATIENT, "INDEXED BY patient_copy_found", "sqlite").where(*these)
             found = found.order_by(*order).limit(most)
             rows = self._store.rows(select(PATIENT).where(PATIENT.c.id.in_(found)))
-            return [_record(row) for row in sorted(rows, key=lambda row: (-row.last_s, -row.added_s))]
-        return [_record(row) for row in self._store.rows(query.order_by(*order).limit(most))]
+            return [_patient(row) for row in sorted(rows, key=lambda row: (-row.last_s, -row.added_s))]
+        return [_patient(row) for row in self._store.rows(query.order_by(*order).limit(most))]
 
-    def one(self, patient_id: str) -> PatientRecord:
+    def one(self, patient_id: str) -> Patient:
         """Raises KeyError for an identity that is not in the store."""
         row = self._store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
         if row is None:
             raise KeyError(patient_id)
-        return _record(row)
+        return _patient(row)
 
     def has(self, patient_id: str) -> bool:
         """Whether there is one of this identity."""
@@ -111,23 +102,23 @@ class Patients:
         """A random pseudonym that no patient has."""
         return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))], chance)
 
-    def add(self, entry: PatientEntry, now: datetime | None = None) -> str:
+    def add(self, patient: Patient, now: datetime | None = None) -> str:
         """Enter a new patient; returns the identity given. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
         patient_id = new_id()
-        self._store.do([new(PATIENT, patient_id, **columns(entry), added_s=(now or datetime.now(UTC)).timestamp())])
+        self._store.do([new(PATIENT, patient_id, **columns(patient), added_s=(now or datetime.now(UTC)).timestamp())])
         return patient_id
 
-    def change(self, patient_id: str, entry: PatientEntry, version: int = 0) -> None:
-        """Replace what is written of a patient, as it was read in ``version``; the sessions stay.
+    def change(self, patient: Patient) -> None:
+        """Replace what is written of a patient, as it was read in its ``version``, 0 for any; the sessions stay.
 
         Raises :class:`PseudonymTaken`, :class:`NameUnsuited`, :class:`ChangedMeanwhile`. Files recorded under an
         earlier pseudonym keep it.
         """
-        values = columns(entry)
-        row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former).where(PATIENT.c.id == patient_id))
+        values = columns(patient)
+        row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former).where(PATIENT.c.id == patient.patient_id))
         if row is not None and row.pseudonym != values["pseudonym"]:
             values["former"] = "\n".join(dict.fromkeys([*row.former.split("\n"), row.pseudonym])).strip()
-        self._store.do([changed(PATIENT, patient_id, version, **values)])
+        self._store.do([changed(PATIENT, patient.patient_id, patient.version, **values)])
         self._store.leave_no_trace()  # of a name that was taken away
 
     def archive(self, patient_id: str, now: datetime | None = None) -> None:
@@ -142,26 +133,38 @@ class Patients:
         return {str(row.id): moment(row.archived, row.added_s) for row in rows}
 
 
-def columns(entry: PatientEntry) -> dict[str, Any]:
-    """An entry as it is stored. Raises :class:`NameUnsuited`."""
-    own = entry.as_kept()
+_WRITTEN = {one.name: get_type_hints(Patient)[one.name] for one in fields(Patient) if not one.kw_only}
+"""What a person writes down of a patient, each with the kind that its column is read as."""
+
+
+def columns(patient: Patient) -> dict[str, Any]:
+    """What is written of a patient as it is stored. Raises :class:`NameUnsuited`."""
+    kept = patient.as_kept()
+    search = f"{kept.pseudonym} {kept.name} {kept.diagnosis} {kept.note}"
     return {
-        "pseudonym": own.pseudonym, "name": own.name, "side": own.side, "dominance": own.dominance,
-        "age_band": own.age_band, "note": own.note, "folded": folded(own.pseudonym),
-        "diagnosis": own.diagnosis, "onset": own.onset,
-        "onset_day": own.onset_day.isoformat() if own.onset_day is not None else "",
-        "search": folded(f"{own.pseudonym} {own.name} {own.diagnosis} {own.note}"),
+        **{name: _stored(getattr(kept, name)) for name in _WRITTEN},
+        "folded": folded(kept.pseudonym), "search": folded(search),
     }  # fmt: skip
 
 
-def _record(row: Row[Any]) -> PatientRecord:
-    entry = PatientEntry(
-        row.pseudonym.strip() or "?", one_of(SIDES, row.side), one_of(DOMINANCES, row.dominance),
-        one_of(AGE_BANDS, row.age_band), row.note, row.name,
-        row.diagnosis, one_of(ONSETS, row.onset), day_of(row.onset_day),
+def _stored(value: str | date | None) -> str:
+    return value if isinstance(value, str) else value.isoformat() if value is not None else ""
+
+
+def _patient(row: Row[Any]) -> Patient:
+    written = {name: _read(kind, getattr(row, name)) for name, kind in _WRITTEN.items()}
+    return Patient(
+        **written | {"pseudonym": row.pseudonym.strip() or "?"}, patient_id=row.id, session_count=row.sessions,
+        result_count=row.results, last_session=moment(row.last, row.last_s) if row.last else None,
+        last_exercise=row.last_exercise, version=row.version,
     )  # fmt: skip
-    last = moment(row.last, row.last_s) if row.last else None
-    return PatientRecord(row.id, entry, row.sessions, last, row.last_exercise, row.results, row.version)
+
+
+def _read(kind: Any, stored: str) -> Any:
+    """A column as a text, one of some choices, or a day."""
+    if get_origin(kind) is Literal:
+        return one_of(get_args(kind), stored)
+    return stored if kind is str else day_of(stored)
 
 
 def enter_by_hand(store: Store, patient_id: str, values: Iterable[HandValue]) -> None:

@@ -27,7 +27,7 @@ from carpus.core.records.changes import NOWHERE, PRACTICE, Change, changed, kept
 from carpus.core.records.patients import Patients, columns
 from carpus.core.records.schema import PATIENT, SEEN, SESSION
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import AffectedSide, PatientEntry, Rebuilt, SessionEntry, moment
+from carpus.core.records.values import AffectedSide, Patient, Rebuilt, SessionEntry, moment
 from carpus.core.session.disk import below, free_name
 from carpus.core.session.reader import read_outline, write_anew
 from carpus.core.session.values import SessionOutline
@@ -214,7 +214,7 @@ class ListedSessions:
         Raises :class:`SessionUnreadable` for a file that is not whole, :class:`ChangedMeanwhile`, the faults of
         writing; then all is as it was.
         """
-        entry, pseudonym = self.one(session_id), Patients(self._store).one(patient_id).entry.pseudonym
+        entry, pseudonym = self.one(session_id), Patients(self._store).one(patient_id).pseudonym
         if not entry.path.exists():
             self._store.do([changed(SESSION, session_id, patient_id=patient_id)])
             return
@@ -342,9 +342,9 @@ class FilesOfSessions:
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
             faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is no text")) for one in nameless]
         gone = [path for path in before if path not in there and not self._is_part(path)]
-        taken, added = self._enter(found, known, there.keys(), now_seen)
+        taken = self._enter(found, known, there.keys(), now_seen)
         remember(self._store, now_seen, gone)
-        return Rebuilt(taken, added, tuple(faults))
+        return Rebuilt(taken, tuple(faults))
 
     def _enter(
         self,
@@ -352,9 +352,9 @@ class FilesOfSessions:
         known: dict[str, Row[Any]],
         there: Iterable[str],
         now_seen: dict[str, SeenFile],
-    ) -> tuple[int, int]:
-        """Put what was read into the list; a further copy of a session counts once: the one that is known, of new ones
-        the longest, then the first by name."""
+    ) -> int:
+        """Put what was read into the list; how many sessions changed it. A further copy of a session counts once: the
+        one that is known, of new ones the longest, then the first by name."""
         there, rows = set(there), {row.id: row for row in known.values()}
         holds = {path: outline.header.session_id for path, outline in found}
         other = {row.id for path, row in known.items() if holds.get(path, row.id) != row.id}
@@ -364,7 +364,7 @@ class FilesOfSessions:
         former = {str(row.id): {folded(one) for one in row.former.split("\n")} for row in rows_of_people}
         gone = {str(row[0]) for row in self._store.rows(changes.ERASED)} if found else set()
         change: list[changes.RowChange] = []
-        added = taken = 0
+        taken = 0
         for path, outline in sorted(found, key=lambda one: (one[0] not in known, -one[1].frames, one[0])):
             session_id = outline.header.session_id
             if place.get(session_id, path) != path:
@@ -382,11 +382,11 @@ class FilesOfSessions:
             if owner is None and subject and (before is None or before.patient_id is None):
                 # The folder has the identity that was given while the server was away.
                 given = folder if changes.is_identity(folder) and folder not in former else new_id()
-                owner, added = people.setdefault(folded(subject), given), added + 1
+                owner = people.setdefault(folded(subject), given)
                 former[owner] = set()
                 hands = {one.header.hand for _, one in found if folded(one.header.subject_id) == folded(subject)}
                 side: AffectedSide = "both" if len(hands) == 2 else outline.header.hand
-                change.append(new(PATIENT, owner, **columns(PatientEntry(subject, side)), added_s=0.0))
+                change.append(new(PATIENT, owner, **columns(Patient(subject, side)), added_s=0.0))
             values = _columns(path, owner, outline)
             if before is not None:  # what a person said of it stays
                 values |= {"patient_id": before.patient_id or owner, "exercise": before.exercise}
@@ -397,7 +397,7 @@ class FilesOfSessions:
         change = [changed(SESSION, one, path=f"{NOWHERE}{one}") for one in sorted(other)] + change
         for start in range(0, len(change), AT_ONCE):
             self._store.do(change[start : start + AT_ONCE])
-        return taken, added
+        return taken
 
     def _there(self) -> tuple[dict[str, SeenFile], list[str]]:
         """Files named like sessions, but for those that are being erased; and those whose names cannot be kept."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from datetime import UTC, date, datetime
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Literal, TypeVar, get_args
 
 from carpus.core.dates import is_moment
 from carpus.core.errors import CarpusFault, ServerGone
@@ -14,37 +14,48 @@ from carpus.core.names import name_of
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
 
-AffectedSide = Literal["right", "left", "both"]
-Dominance = Literal["right", "left", "both", "unknown"]
+AffectedSide = Literal["both", "right", "left"]
+Dominance = Literal["unknown", "right", "left", "both"]
+AgeBand = Literal["", "0-9", "10-19", "20-29", "30-39", "40-49", "50-59", "60-69", "70-79", "80 and over"]
 Onset = Literal["", "operation", "injury"]
-SIDES: tuple[AffectedSide, ...] = ("both", "right", "left")
-ONSETS: tuple[Onset, ...] = ("", "operation", "injury")
-DOMINANCES: tuple[Dominance, ...] = ("unknown", "right", "left", "both")
-AGE_BANDS = ("", "0-9", "10-19", "20-29", "30-39", "40-49", "50-59", "60-69", "70-79", "80 and over")
+"""Of each the first is taken where another program stored what is none."""
 
 
 @dataclass(frozen=True, slots=True)
-class PatientEntry:
-    """What a person writes down of a patient. ``name`` is optional and stays in the store, as the diagnosis does, or
-    the operation, with the day of ``onset``."""
+class Patient:
+    """A patient, the same from the store to the screens.
+
+    What a person writes down comes first, each a column of the store by its name; ``name`` is optional and stays in the
+    store, as the diagnosis does, or the operation, with the day of ``onset``. What the store adds is given by name:
+    ``last_session`` None and ``last_exercise`` empty before the first session; ``session_count`` counts a recording
+    once, however often it was tracked; ``result_count`` counts every file. Sessions of a simulated hand are nobody's
+    movement: they are neither counted nor the last one. ``version`` rises with every change by a person.
+    """
 
     pseudonym: str
     side: AffectedSide
     dominance: Dominance = "unknown"
-    age_band: str = ""
+    age_band: AgeBand = ""
     note: str = ""
     name: str = ""
     diagnosis: str = ""
     onset: Onset = ""
     onset_day: date | None = None
+    _: KW_ONLY
+    patient_id: str = ""
+    session_count: int = 0
+    result_count: int = 0
+    last_session: datetime | None = None
+    last_exercise: str = ""
+    version: int = 0
 
     def __post_init__(self) -> None:
         if not self.pseudonym.strip():
             raise ValueError("no pseudonym")
-        if self.age_band not in AGE_BANDS:
+        if self.age_band not in get_args(AgeBand):
             raise ValueError(f"age band {self.age_band!r}")
 
-    def as_kept(self) -> PatientEntry:
+    def as_kept(self) -> Patient:
         """The same with names as they are kept. Raises :class:`NameUnsuited`."""
         return replace(
             self, pseudonym=name_of(self.pseudonym), name=name_of(self.name), diagnosis=name_of(self.diagnosis)
@@ -64,33 +75,6 @@ class HomePlan:
     at: str
     note: str
     language: str
-
-
-@dataclass(frozen=True, slots=True)
-class PatientRecord:
-    """A patient of the store; ``last_session`` None and ``last_exercise`` empty before the first session.
-
-    ``session_count`` counts a recording once, however often it was tracked; ``result_count`` counts every file.
-    Sessions of a simulated hand are nobody's movement: they are neither counted nor the last one. ``version`` rises
-    with every change of the entry.
-    """
-
-    patient_id: str
-    entry: PatientEntry
-    session_count: int
-    last_session: datetime | None
-    last_exercise: str
-    result_count: int = 0
-    version: int = 0
-
-    @classmethod
-    def unlisted(cls, pseudonym: str, side: AffectedSide, patient_id: str = "") -> PatientRecord:
-        """Somebody of whom no list says more."""
-        return cls(patient_id, PatientEntry(pseudonym or "?", side), 0, None, "")
-
-    @property
-    def pseudonym(self) -> str:
-        return self.entry.pseudonym
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,11 +100,9 @@ class SessionEntry:
 
 @dataclass(frozen=True, slots=True)
 class Rebuilt:
-    """What a look at the files found: sessions entered, patients added, and one fault for each file it could not
-    read."""
+    """What a look at the files found: sessions entered, and one fault for each file it could not read."""
 
     sessions: int
-    patients_added: int
     faults: tuple[CarpusFault, ...]
 
 

@@ -21,7 +21,7 @@ from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover
 from carpus.core.records.session_list import remembered
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import opened as opened_store
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
@@ -46,7 +46,7 @@ def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
     """The program's start on a folder: patients, and what it tells of its files."""
     with closing(Library(folder)) as library:
         faults = [one for one in recover(library)[1] if not isinstance(one, RegisterMissing)]
-        return [record.entry.pseudonym for record in library.patients.listed()], faults
+        return [record.pseudonym for record in library.patients.listed()], faults
 
 
 BAD: dict[str, Callable[[h5py.File], object]] = {
@@ -203,10 +203,12 @@ def test_a_damaged_register_does_not_keep_the_program_from_starting(
 
 def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
     with opened_store(tmp_path) as house:
-        key = house.patients.add(PatientEntry("Linden 42", "right", name="Wilhelmina Featherstone", note="a note"))
+        key = house.patients.add(Patient("Linden 42", "right", name="Wilhelmina Featherstone", note="a note"))
         for number in range(50):
-            house.patients.change(key, PatientEntry("Linden 42", "right", name=f"Wilhelmina Featherstone {number}"))
-        house.patients.change(key, PatientEntry("Linden 42", "right"))
+            house.patients.change(
+                Patient("Linden 42", "right", name=f"Wilhelmina Featherstone {number}", patient_id=key)
+            )
+        house.patients.change(Patient("Linden 42", "right", patient_id=key))
         found = [path.name for path in tmp_path.iterdir() if path.is_file() and b"Featherstone" in path.read_bytes()]
         assert found == []
 

@@ -38,7 +38,7 @@ from carpus.core.records.new_sessions import recover
 from carpus.core.records.schema import SESSION
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.store import Store
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.session.disk import publish
@@ -103,7 +103,7 @@ class Kept:
 
 
 def entered(library: Library, stored: Stored, corrected: Path) -> Kept:
-    patient = library.patients.add(PatientEntry("Linden 42", "right"))
+    patient = library.patients.add(Patient("Linden 42", "right"))
     when = datetime(2026, 11, 20, 11, 36).astimezone()
     path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
     shutil.copyfile(stored.path, path)

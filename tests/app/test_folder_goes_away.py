@@ -24,7 +24,7 @@ from carpus.core.records.erasure import erase, plan_patient
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import NewSessions, recover
 from carpus.core.records.recordings import recordings_folder
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
 from tests.records.samples import record
 from tests.session.samples import CREATED, stored_journal
@@ -42,7 +42,7 @@ def library(tmp_path: Path) -> Iterator[Library]:
 
 
 def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, library: Library) -> None:
-    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.log_fault = told.append
     path = recorded(library, key)
@@ -65,7 +65,7 @@ def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, libra
 def test_session_that_is_being_published_is_not_brought_home_as_well(
     library: Library, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    key = library.patients.add(Patient("Linden 42", "left"))
     found: list[object] = []
     copy = new_sessions.copy_session
 
@@ -80,7 +80,7 @@ def test_session_that_is_being_published_is_not_brought_home_as_well(
 
 
 def test_share_that_hangs_is_not_waited_for(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
-    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.log_fault = told.append
     monkeypatch.setattr(new_sessions, "PUBLISHED_WITHIN_S", 0.1)
@@ -110,7 +110,7 @@ def test_full_data_folder_keeps_the_session_here_until_there_is_room(
     def full(_: Path, folder: Path) -> Path:
         raise DiskFull(folder)
 
-    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.log_fault = told.append
     with monkeypatch.context() as patched:
@@ -122,7 +122,7 @@ def test_full_data_folder_keeps_the_session_here_until_there_is_room(
 
 
 def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(library: Library) -> None:
-    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    key = library.patients.add(Patient("Linden 42", "left"))
     path = NewSessions(library).new_path(set_up(key, "Linden 42"))
     stored_journal(path.with_suffix(".journal"), 40)
     stored_journal(path.with_name("first second.journal"), 0)
@@ -140,7 +140,7 @@ def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: P
         assert [type(fault) for fault in recover(library)[1]] == [FolderMissing]
         told: list[CarpusFault] = []
         library.log_fault = told.append
-        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        linden = library.patients.add(Patient("Linden 42", "left"))
         path = recorded(library, linden)
         NewSessions(library).entered(set_up(linden, "Linden 42"), path)
         assert [type(fault) for fault in told] == [RecordingWaits]
@@ -160,7 +160,7 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
     share.chmod(0o770)
     with closing(Library(tmp_path / "data", sessions=share)) as library:
         assert share.stat().st_mode & 0o777 == 0o770
-        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        linden = library.patients.add(Patient("Linden 42", "left"))
         NewSessions(library).entered(set_up(linden, "Linden 42"), recorded(library, linden))
     assert share.stat().st_mode & 0o777 == 0o770
     assert (share / linden).stat().st_mode & 0o777 == 0o700
@@ -169,20 +169,20 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
 def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     with closing(Library(data, sessions=share)) as library:
-        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        linden = library.patients.add(Patient("Linden 42", "left"))
         path = recorded(library, linden)
         path.with_name("damaged.h5").write_bytes(b"of a kill")
         path.with_name("pictures.carpusraw").write_bytes(b"without a session")
         stored_journal(path.with_name("killed.journal"), 3)
-        heron = library.patients.add(PatientEntry("Heron 17", "left"))
+        heron = library.patients.add(Patient("Heron 17", "left"))
         recorded(library, heron, "Heron 17")
-        library.patients.change(heron, PatientEntry("Heron 18", "left"))
+        library.patients.change(Patient("Heron 18", "left", patient_id=heron))
         erase(library.store, plan_patient(library.store, linden), library.log)
         share.mkdir()
         told = [type(fault) for fault in recover(library)[1]]
         assert (told.count(WaitingErased), told.count(RecordingReturned)) == (1, 1)
         assert not path.parent.exists(), "also what cannot be read"
-        assert [one.entry.pseudonym for one in library.patients.listed()] == ["Heron 18"], "by identity, not by name"
+        assert [one.pseudonym for one in library.patients.listed()] == ["Heron 18"], "by identity, not by name"
         assert len(library.sessions(heron)) == 1
 
 
@@ -191,7 +191,7 @@ def test_the_empty_place_of_a_share_is_not_taken_for_the_share(tmp_path: Path) -
     share.mkdir()
     with closing(Library(data, sessions=share)) as library:
         assert recover(library) == ([], []), "a new one is empty"
-        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        linden = library.patients.add(Patient("Linden 42", "left"))
         choice, places = set_up(linden, "Linden 42"), NewSessions(library)
         places.entered(choice, recorded(library, linden))
         share.rename(tmp_path / "unplugged")

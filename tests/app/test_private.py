@@ -18,7 +18,7 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import RecordingUnreadable, SettingsInvalid
 from carpus.core.formats.new_output import TableForm, new_table, plain_cell
 from carpus.core.records.library import Library
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
 from carpus.ui.controls.text import plain_tooltip
 from tests.commands import Command
@@ -52,7 +52,7 @@ def test_what_a_command_writes_is_for_its_owner(tmp_path: Path, command: Command
 
 def test_the_log_names_nobody(tmp_path: Path, own_folders: Path) -> None:
     library = Library(tmp_path)
-    library.patients.add(PatientEntry("Linden Birke", "right", name="Ada Miller"))
+    library.patients.add(Patient("Linden Birke", "right", name="Ada Miller"))
     lines = NobodysLines()
     lines.names = library.pseudonyms
     try:

@@ -27,7 +27,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.restoring import put_in_place
-from carpus.core.records.values import BackupSettings, PatientEntry
+from carpus.core.records.values import BackupSettings, Patient
 from carpus.ui.messages.messages import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
@@ -39,8 +39,8 @@ Open = Callable[..., Desktop]
 def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two patients, the first with two sessions."""
     with closing(Library(tmp_path_factory.mktemp("prepared") / "data")) as library:
-        linden = library.patients.add(PatientEntry("Linden 42", "right", name="Erika Mustermann"))
-        library.patients.add(PatientEntry("Heron 17", "left"))
+        linden = library.patients.add(Patient("Linden 42", "right", name="Erika Mustermann"))
+        library.patients.add(Patient("Heron 17", "left"))
         for _ in range(2):
             store(library, set_up(linden, "Linden 42"))
     return library.folder
@@ -57,7 +57,7 @@ def opened(open_desktop: Open, data: Path) -> Open:
 
 
 def patient(desktop: Desktop, pseudonym: str) -> str:
-    return next(one.patient_id for one in desktop.library.patients.listed() if one.entry.pseudonym == pseudonym)
+    return next(one.patient_id for one in desktop.library.patients.listed() if one.pseudonym == pseudonym)
 
 
 def linden(desktop: Desktop) -> str:
@@ -65,7 +65,7 @@ def linden(desktop: Desktop) -> str:
 
 
 def names(desktop: Desktop) -> list[str]:
-    return [one.entry.pseudonym for one in desktop.library.patients.listed()]
+    return [one.pseudonym for one in desktop.library.patients.listed()]
 
 
 def visible_words(window: QWidget) -> set[str]:
@@ -324,7 +324,7 @@ def test_back_up_now_reminder_and_restore(
     assert old is not None, "what was there is kept"
     assert old.is_dir()
     with closing(Library(data)) as restored:
-        assert {one.entry.pseudonym for one in restored.patients.listed()} == {"Heron 17"}
+        assert {one.pseudonym for one in restored.patients.listed()} == {"Heron 17"}
 
 
 def test_back_up_now_without_a_folder_asks_for_one_and_backs_up(

@@ -21,7 +21,7 @@ from carpus.app.commands import COMMANDS
 from carpus.core.capture.devices import cameras
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from tests.commands import Command
 from tests.formats.takes import stored
 from tests.records.samples import opened
@@ -200,7 +200,7 @@ def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     for name in ("file", "junk"):
         names[name].write_bytes(b"neither this nor that")
     with opened(names["data"]) as house:
-        house.patients.add(PatientEntry("Fern 12", "right"))
+        house.patients.add(Patient("Fern 12", "right"))
     return names | {"session": stored(tmp_path_factory.mktemp("session"), frames=30, moving=True)}
 
 

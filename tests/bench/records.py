@@ -28,7 +28,7 @@ from carpus.core.records.patients import WORDS, Patients
 from carpus.core.records.schema import COMMENT, PATIENT, SESSION
 from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.store import Store
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from tests.records.postgres import Cluster
 from tests.records.samples import opened
 
@@ -98,9 +98,7 @@ def of_server(patients: int, folder: Path) -> None:
             print(f"list of the last 200: {timed(lambda: house.patients.listed(most=200))}")
             print(f"search: {timed(lambda: house.patients.listed('oak 77', most=200))}")
             number = itertools.count()
-            print(
-                f"a patient entered: {timed(lambda: house.patients.add(PatientEntry(f'New {next(number)}', 'left')))}"
-            )
+            print(f"a patient entered: {timed(lambda: house.patients.add(Patient(f'New {next(number)}', 'left')))}")
         with psycopg.connect(url) as line:
             there = line.execute("SELECT pg_database_size('bench')").fetchone()
         print(f"size on the server {there[0] / 1e6 if there else 0:.0f} MB")

@@ -14,7 +14,7 @@ from carpus.app.settings import load_settings
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.errors import OutputNotWritable
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import at, click, click_discs, still_hand
 
@@ -136,8 +136,8 @@ def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
     assert panel.again_button.isEnabled()
 
 
-def _somebody() -> PatientEntry:
-    return PatientEntry("Heron 17", "right", "right")
+def _somebody() -> Patient:
+    return Patient("Heron 17", "right", "right")
 
 
 def test_the_look_opens_nothing_makes_no_folder_and_calls_no_drivers_own_code_in_the_windows_process(

@@ -27,7 +27,7 @@ from carpus.core.pipeline import measuring
 from carpus.core.pipeline.looking_back import LookingBack
 from carpus.core.records.recordings import recordings_folder
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_session
 from carpus.ui.messages.messages import NoticeStrip, StopCard
 from carpus.ui.now_open import SourceChoice
@@ -390,7 +390,7 @@ def cut_short(data_folder: Path) -> None:
 
 def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
     journey = (desktop := open_desktop()).journey
-    linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
+    linden = desktop.library.patients.add(Patient("Linden 42", "right"))
     journey.patients.show()
     cut_short(desktop.library.folder)
     journey.patients.show(linden)
@@ -406,7 +406,7 @@ def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
     journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, journey, "markers")
     journey.patients.show()
-    linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
+    linden = desktop.library.patients.add(Patient("Linden 42", "right"))
     for _ in range(2):
         journey.exercise.show(linden)
         click(qtbot, journey.exercise.screen.primary)

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.app.desktop import server_watch
 from carpus.app.settings import RecordingSettings, RecordsSettings, ScreenSettings, Settings
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import at, click, click_discs, reviewed, wait
 from tests.records.postgres import Cluster
@@ -58,8 +58,8 @@ def test_a_server_that_stops_hides_the_list_and_measuring_goes_on(
     )  # fmt: skip
     desktop = open_desktop(settings)
     journey, screen = desktop.journey, desktop.journey.patients.screen
-    linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
-    desktop.library.patients.add(PatientEntry("Heron 17", "right"))
+    linden = desktop.library.patients.add(Patient("Linden 42", "right"))
+    desktop.library.patients.add(Patient("Heron 17", "right"))
     screen.refresh(linden)
     assert not desktop.shell.sign.isVisible()
 

@@ -9,7 +9,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -26,7 +26,7 @@ from carpus.core.records.patients import Patients
 from carpus.core.records.session_list import FilesOfSessions, ListedSessions
 from carpus.core.records.set_up import SetUp
 from carpus.core.records.store import Store
-from carpus.core.records.values import HomePlan, PatientEntry
+from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import new_header
 from carpus.core.types import SIMULATED
@@ -34,16 +34,21 @@ from tests.session.samples import begun
 
 LONG_S = 120.0
 T0 = datetime(2026, 10, 9, 9, 51, tzinfo=UTC)
-LINDEN = PatientEntry(
+LINDEN = Patient(
     "Linden 42", "right", "left", "40-49", "flexor tendon", "Erika Mustermann", "Flexor tendon repair", "operation",
     date(2026, 8, 21),
 )  # fmt: skip
 NAMES = ("Linden", "Erika Mustermann", "flexor tendon")
 """Of Linden 42."""
-HERON = PatientEntry("Heron 17", "left", name="Otto Normal")
+HERON = Patient("Heron 17", "left", name="Otto Normal")
 _RECORDED: dict[tuple[Any, ...], list[bytes]] = {}
 """Contents of session files by their kind, and how many of a kind a test has asked for."""
 _ASKED = Counter[tuple[str, tuple[Any, ...]]]()
+
+
+def written(patient: Patient) -> Patient:
+    """What a person wrote of a patient, without what the store adds."""
+    return Patient(**{one.name: getattr(patient, one.name) for one in fields(Patient) if not one.kw_only})
 
 
 @dataclass(frozen=True)
@@ -58,7 +63,7 @@ class House:
 
     def names(self, search: str = "") -> list[str]:
         """Who is in the list."""
-        return [record.entry.pseudonym for record in self.patients.listed(search)]
+        return [record.pseudonym for record in self.patients.listed(search)]
 
 
 @contextmanager
@@ -110,7 +115,7 @@ def record(
 
 def measure(house: House, patient_id: str, when: datetime, recording_id: str = "") -> str:
     """One session of a patient with all that may lie beside it; its identity."""
-    pseudonym = house.patients.one(patient_id).entry.pseudonym
+    pseudonym = house.patients.one(patient_id).pseudonym
     path = house.index.new_path(patient_id, pseudonym, "WRIST_FE", "right", when)
     record(path, pseudonym, when, recording_id=recording_id)
     path.with_suffix(".carpusraw").write_bytes(b"pictures of " + pseudonym.encode())
@@ -121,7 +126,7 @@ def measure(house: House, patient_id: str, when: datetime, recording_id: str = "
 def fill(house: House, patient_id: str) -> list[str]:
     """Everything that can be written about a patient; the identities of the sessions."""
     sessions = [measure(house, patient_id, T0 + timedelta(days=day)) for day in range(3)]
-    entry = house.patients.one(patient_id).entry
+    entry = house.patients.one(patient_id)
     for session_id in sessions:
         of_sessions.add_comment(house.store, session_id, f"{entry.pseudonym} is well", "AB")
         of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
@@ -148,7 +153,7 @@ def traces(folder: Path, *words: str) -> list[str]:
     return found
 
 
-def kept(folder: Path, patient: PatientEntry, *sessions: tuple[Path, datetime, str]) -> str:
+def kept(folder: Path, patient: Patient, *sessions: tuple[Path, datetime, str]) -> str:
     """Copies of session files, each with its moment and who recorded it, in a data folder as those of a new patient,
     whose identity is given."""
     with closing(Library(folder)) as library:

@@ -48,7 +48,7 @@ from carpus.core.records.log import read_log
 from carpus.core.records.patients import Patients
 from carpus.core.records.restoring import Past, is_restored, plan_restore, put_in_place, read_past, restore
 from carpus.core.records.store import Store
-from tests.records.samples import HERON, LINDEN, NAMES, T0, measure, opened, traces
+from tests.records.samples import HERON, LINDEN, NAMES, T0, measure, opened, traces, written
 
 NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
 
@@ -130,7 +130,7 @@ def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_wri
         }[trouble]  # fmt: skip
         return
     with Store(data, copy=copied(store)) as kept:
-        assert [record.entry for record in Patients(kept).listed()] == [LINDEN]
+        assert [written(record) for record in Patients(kept).listed()] == [LINDEN]
     made = backed_up(data, tmp_path / "place")
     monkeypatch.undo()
     restored(tmp_path / "place", made, tmp_path / "again")
@@ -166,7 +166,7 @@ def test_everything_is_restored_on_another_computer(data: Path, place: Path, tmp
     assert {path.stat().st_mode & 0o077 for path in new.rglob("*")} == {0}
     with opened(new) as house:
         (patient,) = house.patients.listed()
-        assert patient.entry == LINDEN
+        assert written(patient) == LINDEN
         assert [entry.session_id for entry in house.index.of_patient(patient.patient_id)] == first
         assert house.files.take_in().sessions == 0
     with pytest.raises(OutputExists):

@@ -36,9 +36,9 @@ from carpus.core.records.keeping import due, kept_until
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_outline, read_session, verify
-from tests.records.samples import HERON, LINDEN, NAMES, T0, House, fill, measure, opened, record, traces
+from tests.records.samples import HERON, LINDEN, NAMES, T0, House, fill, measure, opened, record, traces, written
 
 
 @pytest.fixture
@@ -142,7 +142,7 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         assert traces(folder, *words) == [], "while it is open: also free pages and journals"
         assert house.names() == ["Heron 17"]
         (other,) = house.patients.listed()
-        assert (other.entry, other.session_count) == (HERON, 3)
+        assert (written(other), other.session_count) == (HERON, 3)
         kept = [of_sessions.comments(house.store, one.session_id) for one in house.index.of_patient(heron)]
         assert [len(comments) for comments in kept] == [1, 1, 1]
         assert of_clinic.last_place(folder, "He") == f"/papers/{HERON.name}"
@@ -294,7 +294,7 @@ def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(fol
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     for patient, when in ((linden, T0), (heron, T0 + timedelta(days=1))):
         path = folder / "sessions" / patient / "wrist.h5"
-        record(path, house.patients.one(patient).entry.pseudonym, when)
+        record(path, house.patients.one(patient).pseudonym, when)
     house.files.take_in()
     damaged = folder / "corrections" / "wrist-2.h5"
     damaged.parent.mkdir()
@@ -394,7 +394,7 @@ def test_the_archive_takes_out_of_lists_and_counts_and_gives_back(house: House) 
     assert house.patients.one(linden).session_count == 1
     house.patients.archive(linden, T0)
     assert [record.patient_id for record in house.patients.listed()] == [heron]
-    assert house.patients.one(linden).entry == LINDEN
+    assert written(house.patients.one(linden)) == LINDEN
     assert house.patients.archived() == {linden: T0}
     assert [entry.session_id for entry, _, _ in house.index.archived()] == [second]
     again = measure(house, linden, T0 + timedelta(days=2), house.index.one(second).recording_id)
@@ -459,7 +459,7 @@ def test_what_another_program_still_reads_is_told_as_left(
 
 def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(folder: Path) -> None:
     with opened(folder) as house:
-        gone = house.patients.add(PatientEntry("Fir 11", "right", name="Li"))
+        gone = house.patients.add(Patient("Fir 11", "right", name="Li"))
         for words in ("Ligament repair", "Zweizeitige Naht", "Li, second operation", "as of Fir 11"):
             of_clinic.list_diagnosis(house.store, words, listed=True)
         erase_patient(house, gone)
@@ -472,7 +472,7 @@ def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_
     for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
         for address in (*kept, "Family Li\nAsh Street 3"):
             of_clinic.remember_recipient(house.store, address)
-        erase_patient(house, house.patients.add(PatientEntry(pseudonym, "right", name="Li")))
+        erase_patient(house, house.patients.add(Patient(pseudonym, "right", name="Li")))
         assert set(of_clinic.recipients(house.store)) == set(kept), pseudonym
         assert of_clinic.diagnoses(house.store) == ["Flexor tendon, zone 2"]
 

@@ -13,6 +13,7 @@ import time
 import uuid
 from collections.abc import Iterator
 from contextlib import closing, suppress
+from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 
@@ -42,10 +43,10 @@ from carpus.core.records.new_sessions import NewSessions, recover
 from carpus.core.records.restoring import Past, put_in_place, restore
 from carpus.core.records.schema import PATIENT, TABLES
 from carpus.core.records.store import Store
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
 from tests.records.postgres import Cluster
-from tests.records.samples import HERON, LINDEN, LONG_S, T0, fill, measure, opened, record, traces
+from tests.records.samples import HERON, LINDEN, LONG_S, T0, fill, measure, opened, record, traces, written
 from tests.torture.kills import ROOT
 from tests.torture.wire import Wire
 
@@ -82,13 +83,13 @@ def test_what_one_computer_enters_the_other_has_at_once(tmp_path: Path, cluster:
     with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
         linden = a.patients.add(LINDEN)
         session_ids = fill(a, linden)
-        assert (b.patients.one(linden).entry, b.patients.one(linden).session_count) == (LINDEN, 3)
+        assert (written(b.patients.one(linden)), b.patients.one(linden).session_count) == (LINDEN, 3)
         assert b.names("erika MUSTER") == ["Linden 42"]
         assert b.index.one(session_ids[0]) == a.index.one(session_ids[0])
         assert b.files.take_in().sessions == 0, "what one computer has looked at the other need not read"
         assert [one.did for one in read_log(b.store)] == ["opened"]
         with pytest.raises(PseudonymTaken):
-            b.patients.add(PatientEntry("LINDEN 42", "left"))
+            b.patients.add(Patient("LINDEN 42", "left"))
         erasure.erase(b.store, erasure.plan_patient(b.store, linden), b.log)
         assert a.names() == []
     for folder in (sessions, tmp_path / "b"):
@@ -100,8 +101,9 @@ RACING = """
 import sys
 from pathlib import Path
 from carpus.core.errors import ChangedMeanwhile, PseudonymTaken
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from tests.records.samples import T0, measure, opened
+from dataclasses import replace
 from datetime import timedelta
 folder, url, share, name = sys.argv[1:]
 told, kept, taken = 0, [], 0
@@ -112,13 +114,12 @@ with opened(Path(folder), url, sessions=Path(share)) as house:
     for number in range(25):
         read = house.patients.one(linden)
         try:
-            entry = PatientEntry("Linden 42", "right", note=f"{read.entry.note} {name}{number}")
-            house.patients.change(linden, entry, read.version)
+            house.patients.change(replace(read, note=f"{read.note} {name}{number}"))
             kept.append(f"{name}{number}")
         except ChangedMeanwhile:
             told += 1
         try:
-            house.patients.add(PatientEntry(f"Both {number}", "left"))
+            house.patients.add(Patient(f"Both {number}", "left"))
         except PseudonymTaken:
             taken += 1
         if number % 5 == 0:
@@ -130,7 +131,7 @@ print(told, taken, *kept, flush=True)
 def test_two_programs_race_and_each_change_is_there_once_or_told(tmp_path: Path, there: str) -> None:
     (tmp_path / "share").mkdir()
     with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
-        linden = house.patients.add(PatientEntry("Linden 42", "right"))
+        linden = house.patients.add(Patient("Linden 42", "right"))
     running = [
         subprocess.Popen(
             [sys.executable, "-c", RACING, str(tmp_path / name), there, str(tmp_path / "share"), name], cwd=ROOT,
@@ -144,7 +145,7 @@ def test_two_programs_race_and_each_change_is_there_once_or_told(tmp_path: Path,
         one.stdin.flush()  # type: ignore[union-attr]
     said = [one.communicate(timeout=120.0)[0].split() for one in running]
     with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
-        kept = house.patients.one(linden).entry.note.split()
+        kept = house.patients.one(linden).note.split()
         assert sorted(kept) == sorted(mark for _, _, *marks in said for mark in marks), "none lost, none twice"
         assert sum(int(told) for told, *_ in said) + len(kept) == 50
         assert sum(int(taken) for _, taken, *_ in said) == 25, "each name was given to one of the two"
@@ -177,10 +178,10 @@ def test_a_server_that_is_away_is_told_and_what_was_measured_is_listed_when_it_i
         library.store.server.look()  # type: ignore[union-attr]
         assert not library.store.is_away
         assert recover(library) == ([], [])
-        assert {one.entry.pseudonym: one.session_count for one in library.patients.listed()} == {
+        assert {one.pseudonym: one.session_count for one in library.patients.listed()} == {
             "Linden 42": 1, "Typed 7": 1,
         }  # fmt: skip
-        assert library.patients.one(linden).entry == LINDEN
+        assert written(library.patients.one(linden)) == LINDEN
 
 
 def test_who_was_typed_while_it_was_away_and_ends_a_recording_later_is_the_listed_patient(
@@ -306,7 +307,9 @@ def test_a_back_up_holds_what_the_server_has(tmp_path: Path, there: str) -> None
     with opened(tmp_path / "alone") as house:
         for name, table in TABLES.items():
             assert house.store.rows(select(table).order_by(table.c.id)) == wanted[name], name
-        assert house.files.take_in().patients_added == 0
+        names = house.names()
+        house.files.take_in()
+        assert house.names() == names
 
 
 # --- what a computer has of its own -------------------------------------------------------------------------
@@ -316,7 +319,7 @@ def test_a_server_of_the_first_version_is_raised(tmp_path: Path, cluster: Cluste
         connection.execute(text("INSERT INTO patient (id, folded, pseudonym) VALUES ('a', 'linden 42', 'Linden 42')"))
     with opened(tmp_path, url) as house:
         assert house.names() == ["Linden 42"]
-        house.patients.change("a", LINDEN, house.patients.one("a").version)
+        house.patients.change(replace(LINDEN, patient_id="a", version=house.patients.one("a").version))
         columns = inspect(engine_of(url))
         for table in schema.METADATA.tables.values():
             assert {one["name"] for one in columns.get_columns(table.name)} == set(table.c.keys())
@@ -367,9 +370,9 @@ def test_what_waited_in_a_copy_of_the_first_version_arrives_once(tmp_path: Path,
     )  # fmt: skip
     with opened(tmp_path / "a", url, told.append) as a:
         assert sorted(a.names()) == ["Heron 17", "Heron 17 (2)", "Linden 42"]
-        assert a.patients.one(heron).entry.pseudonym == "Heron 17 (2)"
-        assert (a.patients.one(linden).entry.note, a.patients.one(linden).session_count) == ("typed while away", 1)
-        assert a.patients.one(other).entry.note == ""
+        assert a.patients.one(heron).pseudonym == "Heron 17 (2)"
+        assert (a.patients.one(linden).note, a.patients.one(linden).session_count) == ("typed while away", 1)
+        assert a.patients.one(other).note == ""
         assert [one.text for one in of_sessions.comments(a.store, "s")] == ["Less swelling."]
     assert [type(one) for one in told] == [ChangedMeanwhile, PseudonymGiven, ChangedMeanwhile, ChangedMeanwhile]
     assert list((tmp_path / "a").glob("records*.sqlite3*")) == [], "it would keep the names of who is erased elsewhere"
@@ -404,7 +407,7 @@ def test_a_damaged_copy_is_rescued_before_it_goes_to_the_server(tmp_path: Path, 
     told: list[CarpusFault] = []
     with opened(tmp_path) as house:
         for number in range(300):
-            house.patients.add(PatientEntry(f"Oak {number}", "left"))
+            house.patients.add(Patient(f"Oak {number}", "left"))
     content = bytearray((tmp_path / STORE_FILE).read_bytes())
     content[40960:45056] = bytes(4096)
     (tmp_path / STORE_FILE).write_bytes(content)

@@ -43,10 +43,10 @@ from carpus.core.records.log import read_log
 from carpus.core.records.of_clinic import diagnoses, list_diagnosis
 from carpus.core.records.patients import WORDS, columns, suggest_pseudonym
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import HomePlan, PatientEntry
+from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
-from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record
+from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record, written
 
 BESIDE = (".jpg", ".carpusraw")
 """What :func:`measure` puts beside a session, as the tests write it."""
@@ -59,7 +59,7 @@ def test_what_is_entered_is_found_again(tmp_path: Path) -> None:
         session_id = measure(house, patient_id, T0)
     with opened(tmp_path) as house:
         (found,) = house.patients.listed()
-        assert (found.patient_id, found.entry) == (patient_id, LINDEN)
+        assert (found.patient_id, written(found)) == (patient_id, LINDEN)
         assert (found.session_count, found.last_session, found.last_exercise) == (1, T0, "WRIST_FE")
         (session,) = house.index.of_patient(patient_id)
         assert (session.session_id, session.created, session.hand, session.frames) == (session_id, T0, "right", 4)
@@ -71,7 +71,9 @@ def test_what_is_entered_is_found_again(tmp_path: Path) -> None:
         assert row.size == session.path.stat().st_size
         version = house.patients.one(patient_id).version
         measure(house, patient_id, T0)
-        house.patients.change(patient_id, PatientEntry("Oak 11", "right"), version)  # a session is no change of it
+        house.patients.change(
+            Patient("Oak 11", "right", patient_id=patient_id, version=version)
+        )  # a session is no change of it
         house.files.take_in()
         assert house.names() == ["Oak 11"], "a new name keeps its sessions"
         assert len(house.index.of_patient(patient_id)) == 2
@@ -79,7 +81,7 @@ def test_what_is_entered_is_found_again(tmp_path: Path) -> None:
 
 def test_the_last_session_comes_first(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
-        never = house.patients.add(PatientEntry("Fir 12", "left"), T0 + timedelta(days=9))
+        never = house.patients.add(Patient("Fir 12", "left"), T0 + timedelta(days=9))
         linden, heron = house.patients.add(LINDEN, T0), house.patients.add(HERON, T0)
         measure(house, linden, T0 + timedelta(days=2))
         measure(house, heron, T0 + timedelta(days=1))
@@ -111,15 +113,15 @@ def test_a_pseudonym_belongs_to_one_patient(tmp_path: Path) -> None:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         for taken in ("LINDEN 42", " linden 42", "Ｌinden 42"):
             with pytest.raises(PseudonymTaken):
-                house.patients.add(PatientEntry(taken, "left"))
+                house.patients.add(Patient(taken, "left"))
         with pytest.raises(PseudonymTaken):
-            house.patients.change(heron, PatientEntry("linden 42", "left"))
-        house.patients.change(linden, PatientEntry("linden 42", "both", note="changed"))
-        assert house.patients.one(linden).entry.note == "changed"
-        assert house.patients.one(heron).entry == HERON
+            house.patients.change(Patient("linden 42", "left", patient_id=heron))
+        house.patients.change(Patient("linden 42", "both", note="changed", patient_id=linden))
+        assert house.patients.one(linden).note == "changed"
+        assert written(house.patients.one(heron)) == HERON
         assert house.patients.called("LINDEN 42") == linden
         with pytest.raises(ChangedMeanwhile):
-            house.patients.change("nobody", PatientEntry("Oak 11", "left"))
+            house.patients.change(Patient("Oak 11", "left", patient_id="nobody"))
         with pytest.raises(KeyError):
             house.patients.one("nobody")
         with pytest.raises(KeyError):
@@ -133,11 +135,11 @@ def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) ->
     for path in tmp_path.glob(f"{STORE_FILE}*"):
         path.unlink()
     with opened(tmp_path) as house:
-        assert house.files.take_in().patients_added == 2
+        house.files.take_in()
         assert house.names() == ["Linden 42", "Heron 17"]
         people = house.patients.listed()
         assert {e.session_id for one in people for e in house.index.of_patient(one.patient_id)} == before
-        entry = people[0].entry
+        entry = people[0]
         assert (entry.side, entry.name, entry.note) == ("right", "", "")  # names were only in the store
 
 
@@ -155,15 +157,15 @@ def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tm
         (folder / "junk.h5").write_text("not a session")
         (folder / "s.h5.12345678.part").write_text("being recorded")
         found = house.files.take_in()
-        assert (found.sessions, found.patients_added) == (5, 1)
+        assert (found.sessions, sorted(house.names())) == (5, ["Linden 42", "Wren 33"])
         assert [fault.subject for fault in found.faults] == [str(folder / "junk.h5")]
-        assert house.patients.one(linden).entry == LINDEN
+        assert written(house.patients.one(linden)) == LINDEN
         assert [entry.path.name for entry in house.index.of_patient(linden)] == ["a.h5", "moved.h5"]
         assert house.patients.one(house.patients.called("Wren 33")).session_count == 2
-        assert house.patients.one(house.patients.called("Wren 33")).entry.side == "both"
+        assert house.patients.one(house.patients.called("Wren 33")).side == "both"
         (folder / "moved.h5").unlink()
         again = house.files.take_in()
-        assert (again.sessions, again.patients_added, again.faults) == (0, 0, ())
+        assert (again.sessions, again.faults, len(house.names())) == (0, (), 2)
         assert house.index.one(away.session_id).path == folder / "moved.h5", "opening it tells that its file is away"
         assert [one.text for one in of_sessions.comments(house.store, away.session_id)] == ["still written"]
 
@@ -253,7 +255,7 @@ def test_paths_of_new_sessions_are_free_and_speak_and_no_two_patients_share_a_fo
         assert second.parent == first.parent
         folders = set()
         for pseudonym in ("Fir 11", "Fir-11", "Fir_11", "fir.11"):
-            patient_id = house.patients.add(PatientEntry(pseudonym, "left"))
+            patient_id = house.patients.add(Patient(pseudonym, "left"))
             folders.add(house.index.new_path(patient_id, pseudonym, "WRIST_FE", "left", T0).parent)
         assert len(folders) == 4
 
@@ -264,7 +266,7 @@ def test_several_threads_and_two_programs_at_once(tmp_path: Path) -> None:
     def work(house: House, start: int) -> None:
         try:
             for number in range(start, start + 20):
-                house.patients.add(PatientEntry(f"Oak {number}", "left"))
+                house.patients.add(Patient(f"Oak {number}", "left"))
                 house.patients.listed("oak")
         except BaseException as fault:
             faults.append(fault)
@@ -299,15 +301,15 @@ def test_pseudonyms_are_speakable_free_and_without_end(tmp_path: Path) -> None:
     assert len({suggest_pseudonym((), random.Random(seed)) for seed in range(50)}) > 40
     with opened(tmp_path) as house:
         first = house.patients.suggest_pseudonym(random.Random(3))
-        house.patients.add(PatientEntry(first, "left"))
+        house.patients.add(Patient(first, "left"))
         assert house.patients.suggest_pseudonym(random.Random(3)) != first
 
 
 def test_an_entry_needs_a_pseudonym_and_a_known_age_band() -> None:
     with pytest.raises(ValueError, match="pseudonym"):
-        PatientEntry("  ", "left")
+        Patient("  ", "left")
     with pytest.raises(ValueError, match="age band"):
-        PatientEntry("Oak 11", "left", age_band="43")
+        Patient("Oak 11", "left", age_band="43")
 
 
 def test_what_a_damaged_file_says_of_itself_keeps_no_start_from_going_on(tmp_path: Path) -> None:
@@ -327,10 +329,10 @@ def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, url:
         linden = one.patients.add(LINDEN)
         session_id = measure(one, linden, T0)
         read = other.patients.one(linden)
-        one.patients.change(linden, PatientEntry("Linden 42", "right", note="mine"), read.version)
+        one.patients.change(replace(read, note="mine"))
         with pytest.raises(ChangedMeanwhile):
-            other.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), read.version)
-        assert other.patients.one(linden).entry.note == "mine"
+            other.patients.change(replace(read, note="yours"))
+        assert other.patients.one(linden).note == "mine"
         for mine, yours in (({0: "pain"}, {1: ""}), ({2: ""}, {3: ""})):
             _, version = of_sessions.choices(other.store, session_id)
             of_sessions.keep_choices(one.store, session_id, RepetitionChoices(mine), version)
@@ -370,7 +372,7 @@ def test_names_are_composed_of_any_language_and_without_signs_that_nobody_sees(t
         assert name_of(f"  {name} ") == name
     with opened(tmp_path) as house:
         for text in (*(f"Lin{sign}den" for sign in UNSEEN), "\u202eLinden", "Fir\ufe0f", "x" * 101):
-            for entry in (PatientEntry(text, "left"), PatientEntry("Oak 11", "left", name=text)):
+            for entry in (Patient(text, "left"), Patient("Oak 11", "left", name=text)):
                 with pytest.raises(NameUnsuited):
                     house.patients.add(entry)
                 assert house.names() == [], repr(text)
@@ -410,7 +412,7 @@ def test_a_store_that_is_gone_while_sessions_are_there_is_told(tmp_path: Path, h
 def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
     """One page of two hundred patients is lost; all others stay, with what was written of them."""
     with opened(tmp_path) as house:
-        people = [new(schema.PATIENT, f"{one:032x}", **columns(PatientEntry(f"Oak {one}", "left", note="x" * 300)))
+        people = [new(schema.PATIENT, f"{one:032x}", **columns(Patient(f"Oak {one}", "left", note="x" * 300)))
                   for one in range(200)]  # fmt: skip
         house.store.do(people)
         ends = [measure(house, people[place].id, T0) for place in (0, 100, -1)]
@@ -430,7 +432,7 @@ def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
         for place, session_id in zip((0, -1), (ends[0], ends[-1]), strict=True):
             assert house.index.owner(session_id) == people[place].id
             assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["Less swelling."]
-        assert house.patients.one(house.index.owner(ends[1])).entry.pseudonym == "Oak 100"
+        assert house.patients.one(house.index.owner(ends[1])).pseudonym == "Oak 100"
         assert [one.did for one in read_log(house.store)] == ["locked"]
 
 
@@ -452,7 +454,7 @@ def test_the_first_version_is_read(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         (linden,) = house.patients.listed("muster")
         (session,) = house.index.of_patient(linden.patient_id)
-        assert (linden.entry, session.exercise) == (LINDEN, "WRIST_FE")
+        assert (written(linden), session.exercise) == (LINDEN, "WRIST_FE")
         assert [one.text for one in of_sessions.comments(house.store, session.session_id)] == ["Less swelling."]
 
 
@@ -465,11 +467,11 @@ def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_
         assert diagnoses(house.store) == [LINDEN.diagnosis, "Wrist sprain", "Mallet finger"]
         assert (house.names("tendon repair"), house.names("SPRAIN")) == (["Linden 42"], ["Heron 17"])
         list_diagnosis(house.store, "mallet FINGER", listed=False)
-        house.patients.change(linden, replace(LINDEN, diagnosis="", onset="", onset_day=None))
+        house.patients.change(replace(LINDEN, diagnosis="", onset="", onset_day=None, patient_id=linden))
         assert diagnoses(house.store) == ["Wrist sprain", LINDEN.diagnosis], "nobody has it now, and it stays listed"
         assert house.names("repair") == []
         house.store.own(update(schema.PATIENT).values(onset="fall", onset_day="soon"))
-        one = house.patients.one(linden).entry
+        one = house.patients.one(linden)
         assert (one.onset, one.onset_day) == ("", None), "what another program wrote is left out"
 
 
@@ -480,8 +482,8 @@ def test_a_patient_met_by_file_is_who_the_folder_says(tmp_path: Path, url: str) 
         house.files.take_in()
         (met,) = house.patients.listed()
         assert (met.patient_id, met.session_count) == (given, 1), "the folder says who it is"
-        assert house.patients.one(given).entry.name == ""
-        house.patients.change(given, replace(HERON, pseudonym="Heron 18"))
+        assert house.patients.one(given).name == ""
+        house.patients.change(replace(HERON, pseudonym="Heron 18", patient_id=given))
         record(house.store.sessions_folder / given / "t.h5", HERON.pseudonym, T0)
         house.files.take_in()
         assert [(one.patient_id, one.session_count) for one in house.patients.listed()] == [(given, 2)]

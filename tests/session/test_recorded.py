@@ -11,7 +11,7 @@ import pytest
 
 from carpus.core.dates import iso, time_of_day
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.records.values import PatientEntry, newest_results
+from carpus.core.records.values import Patient, newest_results
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import new_header
 from tests.records.samples import opened
@@ -79,7 +79,7 @@ def test_a_camera_s_own_clock_is_no_date() -> None:
 
 def test_a_recording_counts_once_by_its_newest_result(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
-        patient = house.patients.add(PatientEntry("Linden 42", "right"))
+        patient = house.patients.add(Patient("Linden 42", "right"))
         recording = str(uuid.uuid4())
         folder = house.store.sessions_folder / "Linden-42"
         for number, tracked in enumerate((TRACKED, TRACKED + timedelta(days=9), TRACKED + timedelta(days=2))):

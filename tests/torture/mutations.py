@@ -20,7 +20,7 @@ from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.session.values import RawPictures
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import Frame
@@ -80,7 +80,7 @@ def sound(kind: str, folder: Path) -> Path:
         return folder / "settings.toml"
     if kind == "register":
         with opened(folder / "data") as house:
-            key = house.patients.add(PatientEntry("Linden 42", "left", name="A Name", note="a note"))
+            key = house.patients.add(Patient("Linden 42", "left", name="A Name", note="a note"))
             path = house.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
             with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
                 writer.append(make_frame(0))

@@ -14,7 +14,7 @@ import threading
 import time
 from collections import Counter
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from datetime import timedelta
 from pathlib import Path
 
@@ -25,7 +25,7 @@ from carpus.core.errors import ChangedMeanwhile, PseudonymTaken, RegisterBusy, S
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.records import of_sessions, patients
 from carpus.core.records.schema import COMMENT, CORRECTION, MEASURED, PATIENT, SESSION
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import verify
 from tests.records.postgres import Cluster
@@ -86,15 +86,14 @@ def _do(house: House, kind: str, mark: str, number: int, chance: random.Random) 
     elif kind == "entry":
         read = house.patients.one(patient_id)
         time.sleep(chance.uniform(0.0, 0.05))  # somebody types
-        entry = PatientEntry(read.entry.pseudonym, "right", note=f"{read.entry.note} {mark}")
-        house.patients.change(patient_id, entry, read.version)
+        house.patients.change(replace(read, note=f"{read.note} {mark}"))
     elif kind == "correction":
         before, version = of_sessions.choices(store, session_id)
         time.sleep(chance.uniform(0.0, 0.05))
         kept = RepetitionChoices({0: mark}, {}, True, f"{before.not_counted_reason} {mark}")
         of_sessions.keep_choices(store, session_id, kept, version)
     elif kind == "patient":
-        return house.patients.add(PatientEntry(mark if number % 2 else f"Both {number // 20}", "left"))
+        return house.patients.add(Patient(mark if number % 2 else f"Both {number // 20}", "left"))
     else:
         return measure(house, patient_id, T0 + timedelta(days=400 * (mark[0] == "b"), seconds=number + 1))
     return mark
@@ -162,7 +161,7 @@ def line(count: int, seconds: float, longest_s: float, folder: Path) -> str:
         url = direct.replace(str(cluster.port), str(wire.port))
         with opened(folder / "a", url, sessions=share) as house:
             for number in range(SHARED_PATIENTS):
-                measure(house, house.patients.add(PatientEntry(f"Shared {number}", "right")), T0)
+                measure(house, house.patients.add(Patient(f"Shared {number}", "right")), T0)
             ids = {str(row.id) for row in house.store.rows(select(SESSION.c.id))}
         ledgers, trouble = _run(cluster, wire, url, folder, count, seconds, longest_s)
         conflicts = _check(direct, share, ledgers, ids)

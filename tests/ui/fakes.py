@@ -20,7 +20,7 @@ from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.records.values import Onset, PatientEntry, PatientRecord, SessionEntry
+from carpus.core.records.values import Onset, Patient, SessionEntry
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, motion_of
@@ -410,13 +410,15 @@ WHY = {
 }  # fmt: skip
 
 
-def _rows() -> list[PatientRecord]:
-    def row(key: str, name: str, side: str, exercise: str, days: int, count: int) -> PatientRecord:
+def _rows() -> list[Patient]:
+    def row(key: str, name: str, side: str, exercise: str, days: int, count: int) -> Patient:
         why, since = WHY.get(name, ("", 0))
         day = (NOW - timedelta(weeks=since)).date() if since else None
         onset: Onset = "operation" if since else ""
-        entry = PatientEntry(name, side, "right", diagnosis=why, onset=onset, onset_day=day)  # type: ignore[arg-type]
-        return PatientRecord(key, entry, count, NOW - timedelta(days=days), exercise)
+        return Patient(
+            name, side, "right", diagnosis=why, onset=onset, onset_day=day,  # type: ignore[arg-type]
+            patient_id=key, session_count=count, last_session=NOW - timedelta(days=days), last_exercise=exercise,
+        )  # fmt: skip
 
     return [
         row("heron", "Heron 17", "left", "FOREARM_PS", 1, 3),
@@ -432,13 +434,13 @@ def _rows() -> list[PatientRecord]:
 class FakeStore:
     """A register in memory."""
 
-    def __init__(self, rows: Sequence[PatientRecord] | None = None) -> None:
+    def __init__(self, rows: Sequence[Patient] | None = None) -> None:
         self.rows = list(_rows() if rows is None else rows)
-        self.added: list[PatientEntry] = []
+        self.added: list[Patient] = []
         self.in_archive: list[str] = []
         self.listed = ["Wrist fracture, plate", "Wrist fracture, cast", "Flexor tendon repair"]
 
-    def patients(self, search: str = "") -> list[PatientRecord]:
+    def patients(self, search: str = "") -> list[Patient]:
         words = search.casefold().split()
         return [one for one in self.rows if all(word in one.pseudonym.casefold() for word in words)][:MOST_ROWS]
 
@@ -447,7 +449,7 @@ class FakeStore:
 
     def card(self, patient_id: str) -> PatientCard:
         if patient_id == PRACTICE_PATIENT:
-            return PatientCard(PatientRecord.unlisted("practice", "right", PRACTICE_PATIENT))
+            return PatientCard(Patient("practice", "right", patient_id=PRACTICE_PATIENT))
         row = next(row for row in self.rows if row.patient_id == patient_id)
         if row.last_session is None:
             return PatientCard(row)
@@ -458,14 +460,14 @@ class FakeStore:
     def suggest_pseudonym(self) -> str:
         return f"Alder {51 + len(self.added)}"
 
-    def add(self, entry: PatientEntry) -> str:
-        self.added.append(entry)
+    def add(self, patient: Patient) -> str:
+        self.added.append(patient)
         key = f"new-{len(self.added)}"
-        self.rows.insert(0, PatientRecord(key, entry, 0, None, ""))
+        self.rows.insert(0, replace(patient, patient_id=key))
         return key
 
-    def change(self, shown: PatientRecord, entry: PatientEntry) -> None:
-        self.rows[self.rows.index(shown)] = replace(shown, entry=entry)
+    def change(self, patient: Patient) -> None:
+        self.rows = [patient if one.patient_id == patient.patient_id else one for one in self.rows]
 
     def diagnoses(self) -> list[str]:
         return list(self.listed)

@@ -18,7 +18,7 @@ from pytestqt.qtbot import QtBot
 from carpus.core.measures.by_hand import HandValue, counted
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
-from carpus.core.records.values import PatientEntry, PatientRecord
+from carpus.core.records.values import Patient
 from carpus.core.results.progress import progress
 from carpus.ui.background import Background
 from carpus.ui.by_hand.flow import ByHandFlow
@@ -142,13 +142,13 @@ def library(tmp_path: Path) -> Iterator[Library]:
 def test_what_is_saved_is_in_the_register_and_in_the_log(
     theme: Theme, host: QWidget, library: Library, background: Background, qtbot: QtBot
 ) -> None:
-    patient = library.patients.add(PatientEntry("Linden 42", "left"))
+    patient = library.patients.add(Patient("Linden 42", "left"))
     told = Told("progress", answer=0)
     closed: list[str] = []
     shell = SimpleNamespace(close_surely=lambda: closed.append("closed"))
     context = a_context(theme, host, told, background, library=library)
     now = context.now
-    now.patient = PatientRecord.unlisted("Linden 42", "left", patient)
+    now.patient = Patient("Linden 42", "left", patient_id=patient)
     flow = ByHandFlow(context)
     context.shell = cast("Shell", shell)
     screen = flow.screen
@@ -171,9 +171,9 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     flow.up()
     assert told.shown == [("progress", patient)]
     typed(screen, "FLEXION", "70")
-    heron = library.patients.add(PatientEntry("Heron 17", "right"))
+    heron = library.patients.add(Patient("Heron 17", "right"))
     for person, name, written in ((heron, "Heron 17", ""), (patient, "Linden 42", "70")):
-        now.patient = PatientRecord.unlisted(name, "left", person)
+        now.patient = Patient(name, "left", patient_id=person)
         flow.show()
         qtbot.waitUntil(lambda person=person: screen.record.patient_id == person)
         assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name

@@ -10,14 +10,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
 from tests.ui.fakes import set_up
 
-LINDEN = PatientRecord.unlisted("Linden 42", "right", "linden")
+LINDEN = Patient("Linden 42", "right", patient_id="linden")
 
 
 @pytest.fixture
@@ -58,12 +58,12 @@ def test_the_last_targets_come_back_and_never_those_of_another_patient(screen: E
     last = replace(set_up(), target_positive_deg=37.5, target_negative_deg=-20.0)
     screen.begin(LINDEN, last, "right", False)
     assert [field.value() for field in screen.targets] == [37.5, 20.0]
-    screen.begin(PatientRecord.unlisted("Fir 12", "left", "fir"), None, "left", False)
+    screen.begin(Patient("Fir 12", "left", patient_id="fir"), None, "left", False)
     assert all(math.isnan(field.value()) for field in screen.targets)
 
 
 def test_of_a_patient_with_two_hands_affected_one_must_be_chosen(qtbot: QtBot, screen: ExerciseScreen) -> None:
-    screen.begin(PatientRecord.unlisted("Ash 7", "both", "ash"), None, None, False)
+    screen.begin(Patient("Ash 7", "both", patient_id="ash"), None, None, False)
     assert not screen.primary.isEnabled()
     assert "hand" in screen.primary.text()
     qtbot.mouseClick(screen.side.buttons()[1], Qt.MouseButton.LeftButton)

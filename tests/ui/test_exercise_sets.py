@@ -20,7 +20,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, GOAL, PATIENT
 from carpus.core.records.set_up import USUAL_SETS, CoursePart, ExerciseSet, begun, next_part
 from carpus.core.records.store import Store
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.core.results.figures import session_figures
 from carpus.core.results.progress import progress
 from carpus.ui.background import Background
@@ -59,7 +59,7 @@ def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tm
 
 def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) -> None:
     library = Library(tmp_path)
-    patient = library.patients.add(PatientEntry("Heron 3", "left"))
+    patient = library.patients.add(Patient("Heron 3", "left"))
     keep_sets(library.store, (OWN,), USUAL_SETS)
     first = begun(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True), {})
     second = next_part(first)
@@ -76,7 +76,7 @@ def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) ->
 
 def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Path) -> None:
     library = Library(tmp_path)
-    patient = library.patients.add(PatientEntry("Heron 3", "left"))
+    patient = library.patients.add(Patient("Heron 3", "left"))
     one = replace(set_up(target_deg=50.0), patient_id=patient, pseudonym="Heron 3")
     keep_set_up(library.store, one)
     keep_set_up(library.store, replace(one, exercise=exercise_named("FREE"), side="left"))
@@ -93,7 +93,7 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
 
 def test_a_goal_of_supination_is_read_from_thumb_up_and_one_of_an_older_version_is_converted(tmp_path: Path) -> None:
     library = Library(tmp_path)
-    patient = library.patients.add(PatientEntry("Heron 3", "left"))
+    patient = library.patients.add(Patient("Heron 3", "left"))
     one = replace(set_up("FOREARM_PS", -30.0), patient_id=patient, pseudonym="Heron 3")
     keep_set_up(library.store, one)
     (stored,) = library.store.rows(select(GOAL))

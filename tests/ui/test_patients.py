@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.names import MOST_CHARACTERS
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry, PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui.controls.text import Text
 from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
@@ -28,10 +28,6 @@ from tests.ui.fakes import FakeStore
 from tests.ui.geometry import shown_texts
 
 TODAY = date(2026, 11, 20)
-
-
-def renamed(record: PatientRecord, **names: str) -> PatientRecord:
-    return replace(record, entry=replace(record.entry, **names))  # type: ignore[arg-type]
 
 
 @pytest.fixture
@@ -61,7 +57,7 @@ def test_arrow_and_enter_start_a_session_while_the_search_has_the_keyboard(
 def test_typing_narrows_the_list_by_name_real_name_and_exercise(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore
 ) -> None:
-    store.rows[5] = renamed(store.rows[5], name="Rosa Muster")
+    store.rows[5] = replace(store.rows[5], name="Rosa Muster")
     screen.refresh()
     for typed, expected in (
         ("lind", ["linden"]),
@@ -100,7 +96,7 @@ def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
 def test_a_real_name_is_shown_in_list_and_card_where_it_was_searched_for(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore, typed: str, is_shown: bool
 ) -> None:
-    store.rows[5] = renamed(store.rows[5], name="Rosa Muster Wu")
+    store.rows[5] = replace(store.rows[5], name="Rosa Muster Wu")
     screen.refresh("linden")
     qtbot.keyClicks(screen.search, typed)
     row = screen.list.rows.find("linden")
@@ -211,7 +207,7 @@ def test_a_long_name_moves_no_button_and_widens_nothing(qtbot: QtBot, screen: Pa
     edit, card = screen.card.edit_button, screen.card
     before = edit.geometry(), card.geometry(), screen.list.geometry()
     place = next(n for n, row in enumerate(store.rows) if row.patient_id == "linden")
-    store.rows[place] = renamed(store.rows[place], pseudonym="Blue Hummingbird Mountain 42 and more of it")
+    store.rows[place] = replace(store.rows[place], pseudonym="Blue Hummingbird Mountain 42 and more of it")
     screen.refresh("linden")
     screen.layout().activate()
     qtbot.wait(1)
@@ -257,9 +253,7 @@ def test_after_midnight_it_is_another_day_without_a_new_start(theme: Theme, stor
 def test_of_very_many_patients_the_first_are_shown_and_searching_finds_the_others(
     screen: PatientsScreen, store: FakeStore
 ) -> None:
-    store.rows = [
-        replace(renamed(store.rows[0], pseudonym=f"Oak {n}"), patient_id=str(n)) for n in range(MOST_ROWS + 200)
-    ]
+    store.rows = [replace(store.rows[0], pseudonym=f"Oak {n}", patient_id=str(n)) for n in range(MOST_ROWS + 200)]
     screen.refresh()
     assert screen.list.rows.rowCount() == MOST_ROWS + 1
     screen.search.setText(f"oak {MOST_ROWS + 150}")
@@ -269,7 +263,7 @@ def test_of_very_many_patients_the_first_are_shown_and_searching_finds_the_other
 # --- the sheet of a patient's facts ----------------------------------------------------------------------
 
 
-Given = list[PatientEntry]
+Given = list[Patient]
 
 
 @pytest.fixture
@@ -287,7 +281,7 @@ def given(form: PatientForm) -> Given:
 
 @pytest.mark.parametrize("letters", [5, MOST_CHARACTERS])
 def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given: Given, letters: int) -> None:
-    form.begin(PatientEntry("n" * letters, "left", "right"), frozenset())
+    form.begin(Patient("n" * letters, "left", "right"), frozenset())
     form.save.click()
     assert [entry.pseudonym for entry in given] == ["n" * letters]
     too_long = "m" * (MOST_CHARACTERS + 5)
@@ -314,7 +308,7 @@ def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Giv
 def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     qtbot: QtBot, form: PatientForm, given: Given, store: FakeStore
 ) -> None:
-    form.begin(PatientEntry("Fir 12", "left", "right"), frozenset())
+    form.begin(Patient("Fir 12", "left", "right"), frozenset())
     assert (form.listed.isVisible(), form.save.isEnabled()) == (False, True), "nobody must say why a patient comes"
     qtbot.keyClicks(form.diagnosis, "Mallet  finger")
     assert not form.listed.isChecked()
@@ -330,7 +324,7 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     assert form.since.text() == "13 weeks"
     form.save.click()
     assert given == [
-        PatientEntry("Fir 12", "left", "right", diagnosis="Mallet finger", onset="injury", onset_day=date(2026, 8, 21))
+        Patient("Fir 12", "left", "right", diagnosis="Mallet finger", onset="injury", onset_day=date(2026, 8, 21))
     ]
     form.begin(given[0], frozenset())
     form.onset_day.clear()
@@ -374,7 +368,7 @@ def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_o
 def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_lost(
     form: PatientForm, given: Given, store: FakeStore
 ) -> None:
-    form.begin(PatientEntry("Fir 12", "left", "right"), frozenset())
+    form.begin(Patient("Fir 12", "left", "right"), frozenset())
     form.note.setPlainText("a long note")
     form.diagnosis.setText("Radius\u00adfracture")
     before = list(store.listed)
@@ -404,9 +398,7 @@ def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, form: PatientForm, host
 def test_no_field_is_cut_at_its_right(qtbot: QtBot, host: QWidget, code: str) -> None:
     with speaking(code):
         form = PatientForm(host, Theme("dark", 1.5), FakeStore(), lambda: TODAY)
-        form.begin(
-            PatientEntry("Fir 12", "both", "left", diagnosis="Radius", onset="injury", onset_day=TODAY), frozenset()
-        )
+        form.begin(Patient("Fir 12", "both", "left", diagnosis="Radius", onset="injury", onset_day=TODAY), frozenset())
         qtbot.waitUntil(lambda: form._fields.width() > 0)
         assert form._fields.minimumSizeHint().width() <= form._scroll.viewport().width()
         form.close_sheet()

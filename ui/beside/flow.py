@@ -24,7 +24,7 @@ class BesideFlow(Flow):
         if self.context.way.place != "beside":
             self.back_to = self.context.way.place
         patient = self.context.now.patient
-        self.screen.begin((one, other), patient.entry.side if patient is not None else "")
+        self.screen.begin((one, other), patient.side if patient is not None else "")
         self.context.way.go("beside")
 
     def up(self) -> None:

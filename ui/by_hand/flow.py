@@ -80,7 +80,7 @@ class ByHandFlow(Flow):
         if patient is None:
             return
         patient_id, initials = patient.patient_id, self.context.report.therapist
-        side: Side = "left" if patient.entry.side == "left" else "right"
+        side: Side = "left" if patient.side == "left" else "right"
 
         def read() -> HandRecord:
             figures = sorted(library.history(patient_id), key=lambda one: one.when)

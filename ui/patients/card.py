@@ -11,7 +11,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
@@ -97,16 +97,14 @@ class PatientCardView(Card):
         self.setVisible(card is not None)
         if card is None:
             return
-        row = card.record
+        row = card.patient
         practice = row.patient_id == PRACTICE_PATIENT
         self._name.setText(row.pseudonym)
-        self._name.setToolTip(plain_tooltip(" · ".join(part for part in (row.pseudonym, row.entry.name) if part)))
+        self._name.setToolTip(plain_tooltip(" · ".join(part for part in (row.pseudonym, row.name) if part)))
         self.edit_button.setVisible(not practice)
         self._found_by.say(self.tr("Name: {name}").format(name=found_by) if found_by else "")
         self._hand.setText(
-            self.tr("Simulated: nothing counts")
-            if practice
-            else terms.affected_phrase(row.entry.side, row.entry.dominance)
+            self.tr("Simulated: nothing counts") if practice else terms.affected_phrase(row.side, row.dominance)
         )
         self._show_why(row)
         day = numbers.day_month(row.last_session) if row.last_session else ""
@@ -130,11 +128,11 @@ class PatientCardView(Card):
         self.progress_button.setEnabled(row.session_count > 0 or not practice)  # values by hand come first
         self.sessions_button.setEnabled(row.session_count > 0 or card.has_sessions)
 
-    def _show_why(self, row: PatientRecord) -> None:
-        shown, day = row.entry.diagnosis, row.entry.onset_day
+    def _show_why(self, row: Patient) -> None:
+        shown, day = row.diagnosis, row.onset_day
         for text, words in (
             (self._diagnosis, shown),
-            (self._since, terms.onset_words(row.entry.onset, day)),
+            (self._since, terms.onset_words(row.onset, day)),
             (self._weeks, numbers.weeks_since(day, self._today()) if day is not None else ""),
         ):
             text.say(words)
@@ -149,7 +147,7 @@ class PatientCardView(Card):
         return self.tr("Start session, same set-up") if same else self.tr("Start first session")
 
     def _last_words(self, card: PatientCard, practice: bool) -> str:
-        row = card.record
+        row = card.patient
         if row.last_session is None:
             if practice:
                 return self.tr(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import date
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,7 @@ from PySide6.QtWidgets import QCompleter, QLineEdit, QPlainTextEdit, QWidget
 
 from carpus.core.errors import NameUnsuited
 from carpus.core.names import MOST_CHARACTERS, folded, name_of
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import Patient
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button, Tick, is_enter
 from carpus.ui.controls.field import Choices, Labelled
@@ -37,14 +38,15 @@ MADE_UP_NAME = re.compile(r"\w+ \d+")
 
 
 class PatientForm(Sheet):
-    """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes. The clinic's list of
+    """Emits ``accepted`` with the patient; Enter in any line accepts, Esc closes. The clinic's list of
     diagnoses is changed at once."""
 
-    accepted = Signal(PatientEntry)
+    accepted = Signal(Patient)
 
     def __init__(self, host: QWidget, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 740)
         self._store, self._today = store, today
+        self.patient = Patient("?", "both")
         self._taken: frozenset[str] = frozenset()
         self._asked: Choices | None = None
         self._words = ""
@@ -121,36 +123,37 @@ class PatientForm(Sheet):
         self.listed.clicked.connect(self._list)
         self.set_default(self.save)
 
-    def begin(self, entry: PatientEntry | None, taken: frozenset[str], name: str = "") -> None:
-        """Open for a new patient or with an entry to change.
+    def begin(self, patient: Patient | None, taken: frozenset[str], name: str = "") -> None:
+        """Open for a new patient or with one to change.
 
         A name that was searched for becomes the real name, which no file and no report holds, unless it is made up.
         """
         self._taken = taken
-        self._title.setText(self.tr("New patient") if entry is None else self.tr("Change patient"))
-        self._words = self.tr("Add patient") if entry is None else self.tr("Keep changes")
-        self.remove.setVisible(entry is not None)
-        is_new = entry is None
-        if entry is None:
+        self._title.setText(self.tr("New patient") if patient is None else self.tr("Change patient"))
+        self._words = self.tr("Add patient") if patient is None else self.tr("Keep changes")
+        self.remove.setVisible(patient is not None)
+        is_new = patient is None
+        if patient is None:
             is_made_up = bool(MADE_UP_NAME.fullmatch(name.strip()))
             pseudonym = name if is_made_up else self._store.suggest_pseudonym()
-            entry = PatientEntry(pseudonym, "right", "unknown", name="" if is_made_up else name)
-        self.name.setText(entry.pseudonym)
-        self.side.choose(entry.side)
-        self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")
+            patient = Patient(pseudonym, "right", "unknown", name="" if is_made_up else name)
+        self.patient = patient
+        self.name.setText(patient.pseudonym)
+        self.side.choose(patient.side)
+        self.dominance.choose(patient.dominance if patient.dominance != "both" else "unknown")
         self._known.setStringList(list(self._store.diagnoses()))
-        self.diagnosis.setText(entry.diagnosis)
+        self.diagnosis.setText(patient.diagnosis)
         self._look_into_list()
-        self.onset_day.setText(numbers.day_of_year(entry.onset_day) if entry.onset_day is not None else "")
+        self.onset_day.setText(numbers.day_of_year(patient.onset_day) if patient.onset_day is not None else "")
         self.onset.choose_nothing()
-        if entry.onset:
-            self.onset.choose(entry.onset)
+        if patient.onset:
+            self.onset.choose(patient.onset)
         if is_new:  # a hand that nobody chose would be a wrong record
             self.side.choose_nothing()
             self.dominance.choose_nothing()
         self._judge()
-        self.real_name.setText(entry.name)
-        self.note.setPlainText(entry.note)
+        self.real_name.setText(patient.name)
+        self.note.setPlainText(patient.note)
         self._fault.hide()
         self._fit()
         self._scroll.verticalScrollBar().setValue(0)
@@ -243,19 +246,19 @@ class PatientForm(Sheet):
             self._show_fault(words)
             self.name.setFocus(Qt.FocusReason.OtherFocusReason)
             return
-        side, dominance = str(self.side.value()), str(self.dominance.value())
-        note, real_name = self.note.toPlainText().strip(), " ".join(self.real_name.text().split())
-        entry = PatientEntry(
-            name, side, dominance, note=note, name=real_name,  # type: ignore[arg-type]
+        patient = replace(
+            self.patient, pseudonym=name, name=" ".join(self.real_name.text().split()),
+            side=self.side.value(), dominance=self.dominance.value(),  # type: ignore[arg-type]
             diagnosis=self._why(), onset=self.onset.value() or "", onset_day=self._day(),  # type: ignore[arg-type]
+            note=self.note.toPlainText().strip(),
         )  # fmt: skip
         try:
-            entry.as_kept()
+            patient.as_kept()
         except NameUnsuited as fault:  # told here: what was typed stays
             self._say(fault)
         else:
             self.close_sheet()
-            self.accepted.emit(entry)
+            self.accepted.emit(patient)
 
     def _say(self, fault: NameUnsuited) -> None:
         words = fault_words(fault)

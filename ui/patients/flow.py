@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.store import new_id
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import put_off_last
 from carpus.ui.patients.screen import PatientsScreen
@@ -48,7 +48,7 @@ class PatientsFlow(Flow):
         if self.context.way.place == "patients":
             self.screen.refresh()
 
-    def _measure_unlisted(self, row: PatientRecord) -> None:
+    def _measure_unlisted(self, row: Patient) -> None:
         """Somebody whom the list cannot tell now: the file says who it is, by identity and pseudonym."""
         row = row if row.patient_id else replace(row, patient_id=new_id())
         self.context.now.patient = row

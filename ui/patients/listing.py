@@ -11,7 +11,7 @@ from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QR
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui import numbers, terms
 from carpus.ui.controls.text import ElidedText
 from carpus.ui.fonts import MEDIUM, font
@@ -32,18 +32,18 @@ class PatientModel(QAbstractListModel):
 
     def __init__(self, today: Callable[[], date]) -> None:
         super().__init__()
-        self._rows: tuple[PatientRecord, ...] = ()
+        self._rows: tuple[Patient, ...] = ()
         self.found_by: Mapping[str, str] = {}
         """Real names of those that a search found by it alone, by identity."""
         self.today = today
 
-    def show_rows(self, rows: Sequence[PatientRecord], found_by: Mapping[str, str] = MappingProxyType({})) -> None:
+    def show_rows(self, rows: Sequence[Patient], found_by: Mapping[str, str] = MappingProxyType({})) -> None:
         self.beginResetModel()
         self.found_by = found_by
         self._rows = tuple(rows)
         self.endResetModel()
 
-    def row(self, number: int) -> PatientRecord:
+    def row(self, number: int) -> Patient:
         return self._rows[number]
 
     def find(self, patient_id: str) -> int:
@@ -61,19 +61,19 @@ class PatientModel(QAbstractListModel):
             return ", ".join(part for part in self.cells(row) if part)
         return row if role == Qt.ItemDataRole.UserRole else None
 
-    def cells(self, row: PatientRecord) -> tuple[str, str, str, str, str, str, str]:
+    def cells(self, row: Patient) -> tuple[str, str, str, str, str, str, str]:
         """As :func:`cells`, today."""
         return cells(row, self.today(), self.found_by.get(row.patient_id, ""))
 
 
-def cells(row: PatientRecord, today: date, found_by: str = "") -> tuple[str, str, str, str, str, str, str]:
+def cells(row: Patient, today: date, found_by: str = "") -> tuple[str, str, str, str, str, str, str]:
     """Pseudonym, hand, diagnosis (after the name that it was found by), how long since, date of the last session, how
     long ago, number of sessions."""
-    side = terms.side_name(row.entry.side)
+    side = terms.side_name(row.side)
     if row.patient_id == PRACTICE_PATIENT:
         return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
-    about = " · ".join(part for part in (found_by, row.entry.diagnosis) if part)
-    since = numbers.weeks_since(row.entry.onset_day, today) if row.entry.onset_day is not None else ""
+    about = " · ".join(part for part in (found_by, row.diagnosis) if part)
+    since = numbers.weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
         return row.pseudonym, side, about, since, tr("No session counted yet"), "", ""
     when = row.last_session
@@ -129,7 +129,7 @@ class PatientRowPainter(QStyledItemDelegate):
         painter.strokePath(corners, QPen(theme.color("line"), 1))
         painter.restore()
 
-    def _paint_cells(self, painter: QPainter, box: QRectF, row: PatientRecord) -> None:
+    def _paint_cells(self, painter: QPainter, box: QRectF, row: Patient) -> None:
         scale = self._theme.text_scale
         *texts, when, ago, count = self._model.cells(row)
         end = box.right() - RIGHT_PAD_PX

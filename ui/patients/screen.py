@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from carpus.core.errors import ServerGone
 from carpus.core.names import folded, name_of
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry, PatientRecord
+from carpus.core.records.values import Patient
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import KeyCaps, Line
@@ -47,13 +47,13 @@ class PatientsScreen(QWidget):
     sessions = Signal(str)
     erase_wanted = Signal(str)
     unlisted = Signal(object)
-    """A :class:`PatientRecord` is to be measured while the list cannot be read, without identity for a typed name."""
+    """A :class:`Patient` is to be measured while the list cannot be read, without identity for a typed name."""
 
     def __init__(self, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
         super().__init__()
         self._theme, self._store, self._today = theme, store, today
-        self._rows: tuple[PatientRecord, ...] = ()
+        self._rows: tuple[Patient, ...] = ()
         self._camera_ready = False
         self.search = SearchField(theme, self.tr("Name or diagnosis"), self.tr("Ctrl+F"))
         self.new_button = Button(theme, self.tr("New patient"), icon="plus", hint=self.tr("Ctrl+N"))
@@ -68,12 +68,11 @@ class PatientsScreen(QWidget):
         self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
         self._away = _Away(theme)
-        self._chosen_last: PatientRecord | None = None
+        self._chosen_last: Patient | None = None
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
         self._archived: tuple[str, ...] = ()
         self.form = PatientForm(self, theme, store, today)
-        self._changing: PatientRecord | None = None
         self._lay_out()
         self._connect()
         self.look_at_day()
@@ -126,12 +125,11 @@ class PatientsScreen(QWidget):
         self.card.progress_button.clicked.connect(lambda: self.progress.emit(self._chosen_id()))
         self.card.sessions_button.clicked.connect(lambda: self.sessions.emit(self._chosen_id()))
         self.card.edit_button.clicked.connect(lambda: self.change_patient(self._chosen_id()))
-        self.form.accepted.connect(self._store_entry)
+        self.form.accepted.connect(self._keep)
         self.form.remove.clicked.connect(self._erase)
 
     def _erase(self) -> None:
-        if self._changing is not None:
-            self.erase_wanted.emit(self._changing.patient_id)
+        self.erase_wanted.emit(self.form.patient.patient_id)
 
     def look_at_day(self) -> None:
         """After midnight another day stands here, and everything is a day longer ago."""
@@ -142,7 +140,7 @@ class PatientsScreen(QWidget):
 
     def refresh(self, choose: str = "") -> None:
         self.look_at_day()
-        practice = PatientRecord.unlisted(self.tr("Practice patient"), "right", PRACTICE_PATIENT)
+        practice = Patient(self.tr("Practice patient"), "right", patient_id=PRACTICE_PATIENT)
         was_away = not self._away.isHidden()
         try:
             rows, archived = (*self._store.patients(), practice), tuple(self._store.archived())
@@ -175,7 +173,7 @@ class PatientsScreen(QWidget):
             return
         last = self._chosen_last
         is_last = last is not None and folded(last.pseudonym) == folded(name)
-        self.unlisted.emit(last if is_last else PatientRecord.unlisted(name, "both"))
+        self.unlisted.emit(last if is_last else Patient(name, "both"))
 
     def set_camera_ready(self, ready: bool) -> None:
         """Whether a camera answers; without one the button says that only files can be used."""
@@ -197,23 +195,21 @@ class PatientsScreen(QWidget):
 
     def new_patient(self, name: str | bool = "") -> None:
         """Open the form. What a button sends with its click is no name."""
-        self._changing = None
         taken = frozenset(name.casefold() for name in (*(row.pseudonym for row in self._rows), *self._archived))
         self.form.begin(None, taken, name if isinstance(name, str) else "")
 
     def change_patient(self, patient_id: str) -> None:
         row = next(row for row in self._rows if row.patient_id == patient_id)
-        self._changing = row
         others = (other.pseudonym for other in self._rows if other is not row)
         taken = frozenset(name.casefold() for name in (*others, *self._archived))
-        self.form.begin(row.entry, taken)
+        self.form.begin(row, taken)
 
-    def _store_entry(self, entry: PatientEntry) -> None:
-        if self._changing is not None:
-            self._store.change(self._changing, entry)
-            chosen = self._changing.patient_id
+    def _keep(self, patient: Patient) -> None:
+        chosen = patient.patient_id
+        if chosen:
+            self._store.change(patient)
         else:
-            chosen = self._store.add(entry)
+            chosen = self._store.add(patient)
         self.search.clear()
         self.refresh(chosen)
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -230,7 +226,7 @@ class PatientsScreen(QWidget):
         if wanted and len(rows) > MOST_ROWS:  # with the practice patient: there may be more than are shown
             rows = (*self._store.patients(self.search.text()), rows[-1])
         shown = [row for row in rows if _matches(row, wanted)]
-        self.list.rows.show_rows(shown, {row.patient_id: row.entry.name for row in shown if _by_name(row, wanted)})
+        self.list.rows.show_rows(shown, {row.patient_id: row.name for row in shown if _by_name(row, wanted)})
         self.list.setVisible(bool(shown))
         self.header.setVisible(bool(shown))
         only_practice = len(self._rows) == 1 and self.welcome is None
@@ -259,8 +255,7 @@ class PatientsScreen(QWidget):
         elif chosen == PRACTICE_PATIENT:
             card = self._store.card(chosen)  # its results count nowhere, and can be looked at all the same
             name = self._rows[-1].pseudonym
-            record = replace(card.record, entry=replace(card.record.entry, pseudonym=name))
-            self.card.show_card(replace(card, record=record), self._camera_ready)
+            self.card.show_card(replace(card, patient=replace(card.patient, pseudonym=name)), self._camera_ready)
         else:
             self.card.show_card(self._store.card(chosen), self._camera_ready, self.list.rows.found_by.get(chosen, ""))
 
@@ -333,18 +328,18 @@ class _Away(QWidget):
         self.button.set_face(words if name.strip() else self.tr("Measure without the list"))
 
 
-def _matches(row: PatientRecord, wanted: list[str]) -> bool:
-    text = f"{_shown_text(row)} {row.entry.name}".casefold()
+def _matches(row: Patient, wanted: list[str]) -> bool:
+    text = f"{_shown_text(row)} {row.name}".casefold()
     return all(word in text for word in wanted)
 
 
-def _by_name(row: PatientRecord, wanted: list[str]) -> bool:
+def _by_name(row: Patient, wanted: list[str]) -> bool:
     """Whether a word was found in the real name alone, which is shown then. One or two letters are in many names, and
     show none, unless they are one."""
-    text, names = _shown_text(row).casefold(), row.entry.name.casefold().split()
+    text, names = _shown_text(row).casefold(), row.name.casefold().split()
     return any(len(one) > 2 or one in names for one in wanted if one not in text)
 
 
-def _shown_text(row: PatientRecord) -> str:
+def _shown_text(row: Patient) -> str:
     exercise = terms.exercise_name(row.last_exercise) if row.last_exercise else ""
-    return f"{row.pseudonym} {row.entry.diagnosis} {exercise}"
+    return f"{row.pseudonym} {row.diagnosis} {exercise}"

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from carpus.core.errors import SessionUnreadable
 from carpus.core.records import of_clinic
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry, PatientRecord
+from carpus.core.records.values import Patient
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare, compare_rows, unfair_reasons
 from carpus.ui.ports import MOST_ROWS, PatientCard, ResultLine
@@ -29,7 +28,7 @@ class StoredPatients:
     def __init__(self, library: Library) -> None:
         self._library = library
 
-    def patients(self, search: str = "") -> Sequence[PatientRecord]:
+    def patients(self, search: str = "") -> Sequence[Patient]:
         return self._library.patients.listed(search, most=MOST_ROWS)
 
     def archived(self) -> Sequence[str]:
@@ -37,40 +36,38 @@ class StoredPatients:
 
     def card(self, patient_id: str) -> PatientCard:
         """What the therapist must recall, of the last session against the first that compares."""
-        record = self._library.patients.one(patient_id)
+        patient = self._library.patients.one(patient_id)
         entries = self._library.sessions(patient_id)
         if not entries:
             archived = any(one.patient_id == patient_id for one in Records(self._library).archived())
-            return PatientCard(record, has_sessions=archived)  # the way to the archive is the list of sessions
+            return PatientCard(patient, has_sessions=archived)  # the way to the archive is the list of sessions
         picture = self._library.marker_picture(patient_id)
         real = [entry for entry in entries if not entry.simulated]
         if not real and patient_id != PRACTICE_PATIENT:
-            return PatientCard(record, marker_picture_rgb=picture, has_sessions=True)
+            return PatientCard(patient, marker_picture_rgb=picture, has_sessions=True)
         try:
             last = self._library.figures((real or entries)[0])
             first = self._first_alike(patient_id, last)
         except SessionUnreadable:
-            return PatientCard(record, marker_picture_rgb=picture, has_sessions=True)
+            return PatientCard(patient, marker_picture_rgb=picture, has_sessions=True)
         note = last.notes[-1][1] if last.notes else ""
         said = () if patient_id == PRACTICE_PATIENT else warnings(last)
         # A reach or a touch is not told by how far the joints bend.
         about = main_words(last)
         results = () if about else _results(first, last)
-        return PatientCard(record, results, repetition_words(last), note, last.when, picture, said, True, about)
+        return PatientCard(patient, results, repetition_words(last), note, last.when, picture, said, True, about)
 
     def suggest_pseudonym(self) -> str:
         return self._library.patients.suggest_pseudonym()
 
-    def add(self, entry: PatientEntry) -> str:
-        patient_id = self._library.patients.add(entry)
+    def add(self, patient: Patient) -> str:
+        patient_id = self._library.patients.add(patient)
         self._library.notes.patient("added", patient_id)
         return patient_id
 
-    def change(self, shown: PatientRecord, entry: PatientEntry) -> None:
-        """Change what a person wrote over what was ``shown``; what the form does not show stays."""
-        new = replace(entry, age_band=shown.entry.age_band)
-        self._library.patients.change(shown.patient_id, new, shown.version)
-        self._library.notes.patient("changed", shown.patient_id)
+    def change(self, patient: Patient) -> None:
+        self._library.patients.change(patient)
+        self._library.notes.patient("changed", patient.patient_id)
 
     def diagnoses(self) -> Sequence[str]:
         return of_clinic.diagnoses(self._library.store)

@@ -87,14 +87,13 @@ class ReportFlow(Flow):
                 choices=stored.choices(session_id),
                 history=stored.history(row.patient_id),
                 pseudonym=name,
-                dominance=row.entry.dominance,
+                dominance=row.dominance,
                 therapist=self.context.report.therapist,
                 by_hand=stored.by_hand(row.patient_id),
                 comment=stored.comment(session_id),
                 form=self.forms.form,
             )
-            about = row.entry
-            report = replace(report, diagnosis=about.diagnosis, onset=about.onset, onset_day=about.onset_day)
+            report = replace(report, diagnosis=row.diagnosis, onset=row.onset, onset_day=row.onset_day)
             return report if self._research else replace(report, motion=None)
 
         def show(report: SessionReport) -> None:
@@ -126,7 +125,7 @@ class ReportFlow(Flow):
             self._letter_of = report
             self.letter.begin(
                 self._tried(lambda: of_clinic.recipients(self.context.library.store)) or [],
-                has_name=bool(row.entry.name),
+                has_name=bool(row.name),
             )
 
     def _show_letter(self, recipient: str, language: str, named: bool) -> None:
@@ -136,7 +135,7 @@ class ReportFlow(Flow):
             return
         if recipient:
             self._tried(lambda: of_clinic.remember_recipient(self.context.library.store, recipient))
-        self._begin(LetterReport(report, recipient, self.context.today(), row.entry.name if named else "", language))
+        self._begin(LetterReport(report, recipient, self.context.today(), row.name if named else "", language))
 
     def _ask_home(self, report: SessionReport) -> None:
         row = self.context.now.patient

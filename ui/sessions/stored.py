@@ -61,7 +61,7 @@ class StoredSessions:
 
     def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
         rows = self._library.patients.listed()
-        return [(row.patient_id, row.entry.pseudonym) for row in rows if row.patient_id != patient_id]
+        return [(row.patient_id, row.pseudonym) for row in rows if row.patient_id != patient_id]
 
     def archived(self, patient_id: str) -> int:
         found = Records(self._library).archived()

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
 from carpus.core.records.set_up import PRACTICE_PATIENT, ExerciseSet, SetUp, begun
-from carpus.core.records.values import PatientRecord
+from carpus.core.records.values import Patient
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import GoalProposal, Goals, proposals
 from carpus.core.rounding import written
@@ -41,7 +41,7 @@ class ExerciseScreen(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self._row: PatientRecord | None = None
+        self._row: Patient | None = None
         self._goals: Goals = {}
         self._history: tuple[SessionFigures, ...] = ()
         self._proposed: tuple[GoalProposal, ...] = ()
@@ -137,7 +137,7 @@ class ExerciseScreen(QWidget):
         self._card.setFixedWidth(self._theme.px(376))
 
     def begin(
-        self, row: PatientRecord, last: SetUp | None, side: Side | None, keep_pictures: bool,
+        self, row: Patient, last: SetUp | None, side: Side | None, keep_pictures: bool,
         mb_per_minute: float = math.nan, room_minutes: float = math.nan, goals: Goals | None = None,
     ) -> None:  # fmt: skip
         """Show for a patient, with the last set-up or the usual one; ``side`` None must be chosen by the person.

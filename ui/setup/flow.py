@@ -47,7 +47,7 @@ class ExerciseFlow(Flow):
         context.opener.close_source()
         row = self.open_patient(patient_id)
         last = context.now.set_up or unless_away(lambda: last_set_up(library.store, patient_id), None)
-        affected: Side | None = None if row.entry.side == "both" else row.entry.side
+        affected: Side | None = None if row.side == "both" else row.side
         free = free_bytes(library.folder)
         usual = context.keep_pictures and free >= ROOM_FOR_PICTURES_BYTES
         self.screen.begin(
