@@ -5,10 +5,10 @@ from __future__ import annotations
 from carpus.core.phrase import phrase
 
 PURPOSE = (
-    (phrase("Measure"), phrase("how wrist and fingers move, live, every angle with how sure it is")),
-    (phrase("Review"), phrase("picture and curves of a session, each repetition put right where need be")),
-    (phrase("Progress"), phrase("from session to session, beyond measurement error or not")),
+    (phrase("Measure"), phrase("wrist and finger angles while the patient moves")),
+    (phrase("Review"), phrase("the curves and camera images, and correct single repetitions")),
+    (phrase("Progress"), phrase("over weeks, compared with the measurement error (MDC95)")),
     (phrase("Report"), phrase("a session or the progress as a PDF in English, German or Italian")),
-    (phrase("Export"), phrase("to open formats (CSV, JSON, C3D, TRC, MOT, BIDS)")),
+    (phrase("Export"), phrase("to CSV, JSON, C3D, TRC, MOT and BIDS")),
 )
 """A word for each, and what it means; together one sentence."""

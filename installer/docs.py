@@ -21,6 +21,7 @@ BESIDE = ("LICENSE", "CITATION.cff")
 LANGUAGES = {"en": "Guide", "de": "Anleitung", "it": "Guida"}
 RESOURCES = {
     "Method": ("method", "accuracy", "performance", "untried", "decisions"),
+    "Research notes": ("research-notes/accuracy", "research-notes/performance"),
     "For researchers": ("api", "formats", "session-format", "validation", "clusters", "glossary"),
 }
 OTHERS = "Keeping it running"
@@ -42,7 +43,7 @@ def lay_out() -> None:
         shutil.copy(ROOT / name, PAGES / name)
     for path in (ROOT / "resources").glob("*.md"):
         shutil.copy(path, PAGES / "resources")
-    for name in ("guide", "pictures"):
+    for name in ("guide", "pictures", "research-notes"):
         shutil.copytree(ROOT / "resources" / name, PAGES / "resources" / name)
     for page in (PAGES / "resources/guide").glob("*/*.md"):  # the window looks for pictures in their own folder
         text = page.read_text(encoding="utf-8")

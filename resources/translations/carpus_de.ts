@@ -4832,8 +4832,8 @@
         <translation>Formatversion {version}, dieses Carpus liest {newest}</translation>
     </message>
     <message>
-        <source>from session to session, beyond measurement error or not</source>
-        <translation>von Sitzung zu Sitzung, über den Messfehler hinaus oder nicht</translation>
+        <source>over weeks, compared with the measurement error (MDC95)</source>
+        <translation>über Wochen, verglichen mit dem Messfehler (MDC95)</translation>
     </message>
     <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
@@ -5312,8 +5312,8 @@
         <translation>diese Einstellung gibt es nicht, in {file}</translation>
     </message>
     <message>
-        <source>to open formats (CSV, JSON, C3D, TRC, MOT, BIDS)</source>
-        <translation>in offene Formate (CSV, JSON, C3D, TRC, MOT, BIDS)</translation>
+        <source>to CSV, JSON, C3D, TRC, MOT and BIDS</source>
+        <translation>in CSV, JSON, C3D, TRC, MOT und BIDS</translation>
     </message>
     <message>
         <source>{angle} at {time} s: the hand was not still, or not seen</source>
@@ -5812,8 +5812,8 @@
         <translation>eine Sitzung oder der Verlauf als PDF auf Englisch, Deutsch oder Italienisch</translation>
     </message>
     <message>
-        <source>how wrist and fingers move, live, every angle with how sure it is</source>
-        <translation>wie sich Handgelenk und Finger bewegen, live, jeder Winkel mit seiner Unsicherheit</translation>
+        <source>wrist and finger angles while the patient moves</source>
+        <translation>Winkel von Handgelenk und Fingern, während sich die Hand bewegt</translation>
     </message>
     <message>
         <source>{count} pairs, {kind}</source>
@@ -5908,8 +5908,8 @@
         <translation>nur {time} s sind gemeinsam: die Verschiebung der Uhren ist nicht sicher</translation>
     </message>
     <message>
-        <source>picture and curves of a session, each repetition put right where need be</source>
-        <translation>Bild und Kurven einer Sitzung, jede Wiederholung berichtigt, wo es nötig ist</translation>
+        <source>the curves and camera images, and correct single repetitions</source>
+        <translation>Kurven und Kamerabilder ansehen, einzelne Wiederholungen korrigieren</translation>
     </message>
     <message>
         <source>the best shift lies at the end of what was searched: it may be further</source>

@@ -4820,8 +4820,8 @@
         <translation>versione del formato {version}, questo Carpus legge {newest}</translation>
     </message>
     <message>
-        <source>from session to session, beyond measurement error or not</source>
-        <translation>di seduta in seduta, oltre l’errore di misura o no</translation>
+        <source>over weeks, compared with the measurement error (MDC95)</source>
+        <translation>nel corso delle settimane, a confronto con l’errore di misura (MDC95)</translation>
     </message>
     <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
@@ -5300,8 +5300,8 @@
         <translation>quell’impostazione non esiste, in {file}</translation>
     </message>
     <message>
-        <source>to open formats (CSV, JSON, C3D, TRC, MOT, BIDS)</source>
-        <translation>in formati aperti (CSV, JSON, C3D, TRC, MOT, BIDS)</translation>
+        <source>to CSV, JSON, C3D, TRC, MOT and BIDS</source>
+        <translation>in CSV, JSON, C3D, TRC, MOT e BIDS</translation>
     </message>
     <message>
         <source>{angle} at {time} s: the hand was not still, or not seen</source>
@@ -5804,8 +5804,8 @@
         <translation>una seduta o i progressi in PDF in inglese, tedesco o italiano</translation>
     </message>
     <message>
-        <source>how wrist and fingers move, live, every angle with how sure it is</source>
-        <translation>come si muovono polso e dita, dal vivo, ogni angolo con la sua incertezza</translation>
+        <source>wrist and finger angles while the patient moves</source>
+        <translation>gli angoli di polso e dita mentre il paziente si muove</translation>
     </message>
     <message>
         <source>{count} pairs, {kind}</source>
@@ -5908,8 +5908,8 @@
         <translation>solo {time} s in comune: lo sfasamento degli orologi non è sicuro</translation>
     </message>
     <message>
-        <source>picture and curves of a session, each repetition put right where need be</source>
-        <translation>immagine e curve di una seduta, ogni ripetizione corretta dove serve</translation>
+        <source>the curves and camera images, and correct single repetitions</source>
+        <translation>le curve e le immagini, correggendo singole ripetizioni</translation>
     </message>
     <message>
         <source>the best shift lies at the end of what was searched: it may be further</source>

@@ -15,7 +15,7 @@ from carpus.core.provenance import revision
 from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
-from tests.accuracy.pages import marked
+from tests.accuracy.pages import marked, ruled
 from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.robustness import robustness_verdicts
 from tests.accuracy.runs import Run
@@ -87,7 +87,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         read += some
         print("", told, sep="\n")
     if options.group == "all" and pictures and not options.only:
-        print("", marked("short", readings_table.short(_kinds(read))), sep="\n")
+        for name, rows in _patient_tables(read):
+            print("", marked(name, ruled(rows)), sep="\n")
         print("", marked("made", _made(seeds, pictures)), sep="\n")
     print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
     return 0
@@ -143,8 +144,8 @@ def _made(seeds: int, pictures: int) -> str:
     )
 
 
-def _kinds(read: Sequence[ReadRow]) -> list[tuple[str, list[ReadRow]]]:
-    """The rendered rows of a run by the kind of hand."""
+def _patient_tables(read: Sequence[ReadRow]) -> Iterator[tuple[str, list[tuple[str, ...]]]]:
+    """The tables of both patients, and the README's: the second patient's wrist."""
 
     def of(*names: str) -> list[ReadRow]:
         return [row for row in read if row.name in names]
@@ -159,17 +160,28 @@ def _kinds(read: Sequence[ReadRow]) -> list[tuple[str, list[ReadRow]]]:
         rows = [row.name for row in second.ROWS if row.protocol == protocol and row.rigid is rigid]
         return of(*(f"second: {name}{part}" for name in rows for part in ("", ", joints")))
 
-    return [
-        ("rigid hands, 6 discs: exercises, reaching, fast", first(WRIST_ROWS["wrist"])),
-        ("rigid hands, 6 discs: in trouble", first(WRIST_ROWS["trouble"])),
-        ("rigid hands, 21 discs", hands(HAND_ROWS["hand"])),
-        ("soft hands, 6 discs", first(SOFT_WRIST)),
-        ("soft hands, 21 discs", hands(SOFT_HAND)),
-        ("second patient, rigid, 6 discs", judged("wrist6", rigid=True)),
-        ("second patient, soft, 6 discs", judged("wrist6", rigid=False)),
-        ("second patient, rigid, 21 discs", judged("hand21", rigid=True)),
-        ("second patient, soft, 21 discs", judged("hand21", rigid=False)),
-    ]
+    yield (
+        "first patient",
+        readings_table.patient_rows(
+            [
+                ("rigid, 6 markers: exercises, reaching, fast", first(WRIST_ROWS["wrist"])),
+                ("rigid, 6 markers: in trouble", first(WRIST_ROWS["trouble"])),
+                ("rigid, 21 markers", hands(HAND_ROWS["hand"])),
+                ("soft, 6 markers", first(SOFT_WRIST)),
+                ("soft, 21 markers", hands(SOFT_HAND)),
+            ]
+        ),
+    )
+    rows = readings_table.patient_rows(
+        [
+            ("rigid, 6 markers", judged("wrist6", rigid=True)),
+            ("soft, 6 markers", judged("wrist6", rigid=False)),
+            ("rigid, 21 markers", judged("hand21", rigid=True)),
+            ("soft, 21 markers", judged("hand21", rigid=False)),
+        ]
+    )
+    yield "second patient", rows
+    yield "readme", [row[:5] for row in rows]
 
 
 if __name__ == "__main__":

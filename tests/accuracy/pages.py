@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PAGES = (ROOT / "README.md", ROOT / "resources" / "accuracy.md")
+PAGES = tuple(ROOT / page for page in ("README.md", "resources/accuracy.md", "resources/research-notes/accuracy.md"))
 _MARKED = re.compile(r"<!-- table: (?P<name>[\w ]+) -->\n.*?<!-- end of table -->", re.DOTALL)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,37 +62,41 @@ def markdown(rows: Sequence[ReadRow]) -> str:
     return ruled(lines)
 
 
-_SHORT_HEAD = (
-    "rendered recordings", "how many", "wrist RMSE", "truth within 2 sd, %",
-    "range of motion misread, mean", "at worst", "MCP, PIP",
+_PATIENT_HEAD = (
+    "hand", "recordings", "deviation", "flexion–extension", "pronation–supination", "MCP", "PIP",
+    "truth within 2 SD, %", "error of the range of motion: mean", "largest",
 )  # fmt: skip
-_SHORT_COLUMNS: tuple[tuple[Callable[[ReadFigures], float], int], ...] = (
-    (lambda f: f.rmse, 2),
-    (lambda f: 100.0 * f.inside, 0),
-    (lambda f: f.range_mean, 1),
-    (lambda f: f.range_worst, 1),
-)
-_SHORT_JOINTS = ("MCP flexion", "PIP flexion")
 
 
-def short(kinds: Sequence[tuple[str, Sequence[ReadRow]]]) -> str:
-    """The short table of the README: one line for every kind of hand by its name, all rows of it pooled, wrists and
-    joints."""
-    lines = [_SHORT_HEAD]
+def patient_rows(kinds: Sequence[tuple[str, Sequence[ReadRow]]]) -> list[tuple[str, ...]]:
+    """Head and one row for each kind of hand: RMSE of each angle, degrees, then the worst of the wrist's three angles.
+
+    ``kinds`` are names with their recordings' rows, which are pooled.
+    """
+    lines: list[tuple[str, ...]] = [_PATIENT_HEAD]
     for name, rows in kinds:
         wrists = [one for row in rows if "deviation" in row.columns for one in row.readings]
-        joints = [row for row in rows if "MCP flexion" in row.columns]
         if not wrists:
             continue
         found = [read_figures(wrists, some) for some in WRIST_COLUMNS.values()]
-        told = (" / ".join(f"{of(one):.{digits}f}" for one in found) for of, digits in _SHORT_COLUMNS)
-        lines.append((name, str(len(wrists)), *told, _joints(joints)))
-    return ruled(lines)
+        joints = _joint_rmse([row for row in rows if "MCP flexion" in row.columns])
+        worst = min(100.0 * one.inside for one in found)
+        ranges = (max(one.range_mean for one in found), max(one.range_worst for one in found))
+        lines.append(
+            (
+                name, str(len(wrists)), *(f"{one.rmse:.2f}" for one in found), *joints,
+                f"{worst:.0f}", *(f"{value:.1f}" for value in ranges),
+            )
+        )  # fmt: skip
+    return lines
 
 
-def _joints(rows: Sequence[ReadRow]) -> str:
-    """RMSE of knuckles and middle joints while seen."""
+_JOINTS = ("MCP flexion", "PIP flexion")
+
+
+def _joint_rmse(rows: Sequence[ReadRow]) -> list[str]:
+    """RMSE of MCP and PIP flexion while their markers are visible."""
     if not rows:
-        return "-"
+        return ["-", "-"]
     readings = [one for row in rows for one in row.readings]
-    return ", ".join(f"{read_figures(readings, rows[0].columns[name]).rmse:.1f}" for name in _SHORT_JOINTS)
+    return [f"{read_figures(readings, rows[0].columns[name]).rmse:.1f}" for name in _JOINTS]
