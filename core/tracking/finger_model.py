@@ -336,7 +336,7 @@ class FingerModel:
     def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """What becomes of the slots of digits at ``mean`` (5, n) that nothing shows; None where all are shown.
 
-        The angle is spread over the range of the joint in :data:`RANGE_AFTER_S`, slowly at first. The rate fades, and as
+        The angle is spread over the joint's range in :data:`RANGE_AFTER_S`, slowly at first. The rate fades, and as
         much of it as is given up becomes possible in either direction.
         """
         is_unseen = (unseen_s > 0.0) & self._moves
