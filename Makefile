@@ -7,12 +7,16 @@ export OMP_NUM_THREADS := 1
 
 PACKAGE_PY := $(or $(PYTHON),python3)
 
-.PHONY: run test lint pytest unit window journey thorough coverage bench accuracy validation torture screenshots fresh package package-test windows-test release docs translations setup setup-test lock clean
+.PHONY: run test compiled lint pytest unit window journey thorough coverage bench accuracy validation torture screenshots fresh package package-test windows-test release docs translations setup setup-test lock clean
 
 run: setup                      ## the application on a simulated camera and patient
 	.venv/bin/carpus demo
 
 test: lint pytest               ## everything that must hold before a change lands
+
+compiled:                       ## core/compiled built anew after a change; with every index checked too: make compiled checked=1
+	$(PY) setup.py -q build_ext --inplace --parallel 2
+	$(if $(checked),CARPUS_BOUNDS_CHECKED=1 $(PY) setup.py -q build_ext --parallel 2)
 
 lint: setup-test                ## style, types, layers
 	$(PY) -m ruff check .
@@ -97,5 +101,5 @@ hashes:                         ## the hashes of the pins that are there, after 
 
 clean:                          ## all that was built here, except what `make run` recorded
 	rm -rf .venv build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
-	rm -f core/kernels/kernels-*.shared
+	rm -f core/kernels/kernels-*.shared core/compiled/*.so
 	find app core ui resources tests -name __pycache__ -type d -prune -exec rm -rf {} +

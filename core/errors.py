@@ -147,6 +147,14 @@ class ExtraMissing(CarpusFault):
     do = _INSTALL
 
 
+class NotCompiled(CarpusFault):
+    """Modules of ``core/compiled`` that are there as source alone; ``subject`` names them."""
+
+    happened = phrase("Carpus was not installed completely: a compiled part of it is missing ({subject}).")
+    safe = _UNCHANGED
+    do = phrase("Install Carpus anew.")
+
+
 class SchedulerUnreachable(CarpusFault):
     happened = phrase("The scheduler at {subject} does not answer ({detail}).")
     safe = _UNCHANGED

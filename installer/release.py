@@ -119,7 +119,7 @@ def release(key: str, *, with_tests: bool) -> list[Path]:
         run("make", "test")
     shutil.rmtree(DIST, ignore_errors=True)
     DIST.mkdir()
-    backend = "from hatchling.build import build_sdist, build_wheel; build_wheel('dist'); build_sdist('dist')"
+    backend = "from setuptools.build_meta import build_sdist, build_wheel; build_wheel('dist'); build_sdist('dist')"
     run(ROOT / ".venv" / "bin" / "python", "-c", backend)
     for path in (*DIST.glob("*.whl"), *DIST.glob("*.tar.gz")):
         try_installed(path)

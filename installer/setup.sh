@@ -18,10 +18,18 @@ say() { printf 'setup: %s\n' "$*"; }
 fail() { printf 'setup: %s\n' "$@" >&2; exit 1; }
 
 # --- done before? -------------------------------------------------------------------------------
-mark() { { pwd; cat "$1" requirements-alone.lock requirements-build.lock installer/hashes.lock pyproject.toml installer/setup.sh; } | sha256sum | cut -d' ' -f1; }
+mark() { { pwd; cat "$1" requirements-alone.lock requirements-build.lock installer/hashes.lock pyproject.toml setup.py installer/setup.sh; } | sha256sum | cut -d' ' -f1; }
 ready() { [ -x .venv/bin/carpus ] && [ "$(cat ".venv/.ready-for-$1" 2>/dev/null)" = "$(mark "$2")" ]; }
+is_compiled() {  # whether every module of core/compiled is there, and none of another source
+    local source
+    for source in core/compiled/[!_]*.py; do
+        [ "${source%.py}.abi3.so" -nt "$source" ] || return 1
+    done
+}
+compile() { .venv/bin/python setup.py -q build_ext --inplace || fail "core/compiled could not be built; a C compiler is needed (Debian: gcc libc6-dev)."; }
 if ready "$purpose" "$lock" || { [ "$purpose" = run ] && ready test requirements-dev.lock; }; then
     .venv/bin/python core/kernels/build.py >/dev/null || true  # their source may be another one by now
+    is_compiled || compile
     exit 0
 fi
 
@@ -140,7 +148,7 @@ if [ -n "$missing" ]; then
         *)
             [ "$purpose" = run ] || fail "the tests need these system packages: $missing" "Install them and start again."
             say "these system packages are missing: $missing"
-            say "going on: tracking files works without them; the window or a live camera may not, and without a compiler all is slower" ;;
+            say "going on: tracking files works without them; the window or a live camera may not, and without a compiler Carpus cannot be built" ;;
     esac
 fi
 
@@ -157,7 +165,9 @@ locks=("$lock" requirements-build.lock)
 installer/with_hashes.sh "${locks[@]}" >.venv/locked.txt || fail "nothing was installed."
 say "installing the packages of $lock ($(grep -c == .venv/locked.txt) of them, about a minute)"
 install --require-hashes --no-deps -r .venv/locked.txt
-.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+say "building Carpus"
+.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e . ||
+    fail "Carpus could not be built; a C compiler is needed (Debian: gcc libc6-dev)."
 .venv/bin/python core/kernels/build.py | sed 's/^/setup: /' || true
 mark "$lock" >".venv/.ready-for-$purpose"
 say "ready: .venv/bin/carpus starts it (. .venv/bin/activate, then: carpus)"

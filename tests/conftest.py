@@ -49,7 +49,7 @@ _SERVES_ALL = "carpus-reading"
 _GRACE_S = 60.0
 """How long a thread may take to end after its test; a leak never ends, so the figure only delays the report."""
 
-_UNITS = {"agreement", "calibration", "detection", "formats", "hand", "kernels", "measures", "tracking"}
+_UNITS = {"agreement", "calibration", "compiled", "detection", "formats", "hand", "kernels", "measures", "tracking"}
 """Folders of tests that need no window, no process, no server; those of them that ask for a recording are journeys."""
 _WINDOWS = {"ui", "app", "results"}
 _OLD_S = 86_400.0
@@ -58,10 +58,30 @@ _PATIENCE_MS = 60_000
 """How long a window may take to what a test waits for; what never comes only fails later."""
 
 
+_SOURCES = Path(__file__).parents[1] / "core" / "compiled"
+_CHECKED = "CARPUS_BOUNDS_CHECKED"
+"""Set: what is compiled runs as built by ``make compiled checked=1``, with every index checked."""
+
+
+def _take_compiled() -> None:
+    """Nothing is tested that was compiled of an older source."""
+    place = Path(__file__).parents[1] / "build/checked/carpus/core/compiled" if os.environ.get(_CHECKED) else _SOURCES
+    for source in _SOURCES.glob("[!_]*.py"):
+        library = place / f"{source.stem}.abi3.so"
+        if not library.exists() or library.stat().st_mtime < source.stat().st_mtime:
+            ask = "make compiled checked=1" if os.environ.get(_CHECKED) else "make compiled"
+            raise pytest.UsageError(f"{source.name} has changed since it was compiled; run: {ask}")
+    if os.environ.get(_CHECKED):
+        from carpus.core import compiled
+
+        compiled.__path__.insert(0, str(place))
+
+
 def pytest_configure() -> None:
     """A busy computer is no fault of the program: five seconds, as the plug-in has it, are too few there."""
     from pytestqt.qtbot import QtBot
 
+    _take_compiled()
     tqdm.monitor_interval = 0  # the bars' own thread would outlive the test
     QtBot.waitUntil.__kwdefaults__["timeout"] = _PATIENCE_MS
     QtBot.waitSignal.__kwdefaults__["timeout"] = _PATIENCE_MS

@@ -12,6 +12,7 @@ import threading
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from itertools import pairwise
@@ -32,6 +33,7 @@ from carpus.core.errors import (
     CarpusFault,
     DriverMissing,
     ExtraMissing,
+    NotCompiled,
     OtherCamera,
 )
 from carpus.core.installing import Finding, how_to_install, is_packed
@@ -68,6 +70,7 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
     """All findings, each as soon as it is known; the camera is opened for ``measure_s`` seconds at the end."""
     yield python_finding(sys.version_info[:3])
     yield packages_finding()
+    yield compiled_finding()
     yield kernels_finding()
     yield window_finding()
     yield fonts_finding()
@@ -124,6 +127,16 @@ def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
     if missing:
         return Finding(phrase("Packages"), "bad", "missing: " + ", ".join(missing), how_to_install(*missing))
     return Finding(phrase("Packages"), "good", ", ".join(known))
+
+
+def compiled_finding() -> Finding:
+    """Whether the steps that must be compiled are: without them nothing is tracked."""
+    try:
+        import_module("carpus.core.compiled")
+    except NotCompiled as fault:
+        missing = phrase("missing: {name}", name=fault.subject)
+        return Finding(phrase("Compiled parts"), "bad", missing, phrase("Install Carpus anew."))
+    return Finding(phrase("Compiled parts"), "good", phrase("all there"))
 
 
 def kernels_finding() -> Finding:

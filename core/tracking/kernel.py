@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.compiled.mixture import merged
 from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.types import FloatArray
 
@@ -42,18 +43,7 @@ class ModeMixture:
         """Mean (C, n) and covariance (C, n, n) over the modes."""
         if self.probability.shape[1] == 1:
             return self.mean[:, 0], self.covariance[:, 0]
-        if (kernels := in_c()) is not None:
-            chains, modes, n = self.mean.shape
-            out = np.empty((chains, n)), np.empty((chains, n, n))
-            kernels.merged(chains, modes, n, self.mean, self.covariance, self.probability, *out)
-            return out
-        share = self.probability[:, None]
-        mean = (share @ self.mean)[:, 0]
-        apart = self.mean - mean[:, None]
-        chains, n = mean.shape
-        covariance = (share @ self.covariance.reshape(chains, -1, n * n)).reshape(chains, n, n)
-        covariance += np.swapaxes(apart, 1, 2) @ (apart * self.probability[..., None])
-        return mean, covariance
+        return merged(self)
 
 
 def switching(modes: int, dwell_s: float, dt_s: float) -> FloatArray:

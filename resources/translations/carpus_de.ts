@@ -6647,6 +6647,18 @@
         <source>the hand went out of sight during the movement</source>
         <translation>die Hand war während der Bewegung zeitweise nicht zu sehen</translation>
     </message>
+    <message>
+        <source>Carpus was not installed completely: a compiled part of it is missing ({subject}).</source>
+        <translation>Carpus wurde nicht vollständig installiert: Ein kompilierter Teil davon fehlt ({subject}).</translation>
+    </message>
+    <message>
+        <source>Compiled parts</source>
+        <translation>Kompilierte Teile</translation>
+    </message>
+    <message>
+        <source>all there</source>
+        <translation>alle vorhanden</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

@@ -6647,6 +6647,18 @@
         <source>the hand went out of sight during the movement</source>
         <translation>la mano è uscita di vista durante il movimento</translation>
     </message>
+    <message>
+        <source>Carpus was not installed completely: a compiled part of it is missing ({subject}).</source>
+        <translation>Carpus non è stato installato per intero: ne manca una parte compilata ({subject}).</translation>
+    </message>
+    <message>
+        <source>Compiled parts</source>
+        <translation>Parti compilate</translation>
+    </message>
+    <message>
+        <source>all there</source>
+        <translation>tutte presenti</translation>
+    </message>
 </context>
 <context>
     <name>BackingUp</name>

@@ -71,11 +71,6 @@ def test_a_number_unknown_is_not_passed_over_where_nothing_depends_on_it(
         assert not both(known).any()
 
 
-@pytest.mark.parametrize(("chains", "modes", "n"), [size[:3] for size in SIZES])
-def test_merging(chains: int, modes: int, n: int) -> None:
-    both(mixture_of(np.random.default_rng(8), chains, modes, n).merged)
-
-
 def small(modes: int = 2) -> tuple[ModeMixture, Linearisation]:
     """A chain of six numbers, four of them measured."""
     rng = np.random.default_rng(11)
@@ -110,10 +105,10 @@ def test_no_correction_by_what_is_no_covariance_and_unknown_stays_unknown(how: s
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_an_array_of_another_type_is_refused(level: str) -> None:
-    mixture, _ = small()
+    mixture, linearised = small()
     narrow = replace(mixture, mean=mixture.mean.astype(np.float32))
     with choice.forced(level), pytest.raises(TypeError):
-        narrow.merged()
+        kernel.corrected(narrow, linearised, ONES, ONES)
 
 
 def test_a_mode_that_is_far_off_keeps_the_same_little_chance() -> None:
