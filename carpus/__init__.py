@@ -20,7 +20,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """The functions for researchers, which bring NumPy and the tracker with them."""
+    """Load a function for researchers, and NumPy and the tracker with it."""
     if name not in __all__:
         raise AttributeError(f"module 'carpus' has no attribute {name!r}")
     from carpus.app import python_face
@@ -29,5 +29,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """What there is, also what is loaded only when it is asked for."""
+    """List all names, also those that are loaded only when they are asked for."""
     return sorted(__all__)

@@ -18,10 +18,8 @@ from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import HAND21
 from carpus.core.words import marker_in_words, markers_in_words, one_sentence, words_of
 
-FORBIDDEN = re.compile(
-    r"\b(error|errors|invalid|fail|fails|failed|failure|exception|fatal|abort|aborted|illegal|null|None|nan|wrong)\b",
-    re.IGNORECASE,
-)
+JARGON = re.compile(r"\b(exception|abort|aborted|null|None|nan)\b", re.IGNORECASE)
+"""Words of programmers, which no clinician reads."""
 
 
 def kinds(of: type[CarpusFault] = CarpusFault) -> Iterator[type[CarpusFault]]:
@@ -74,12 +72,12 @@ FACTS = {"subject", "detail", "markers", "first", "second", "value", "limit", "u
 def keeps_the_rules(text: str) -> bool:
     named = {name for _, name, _, _ in string.Formatter().parse(text) if name}
     begins = text[0].isupper() or text.startswith("{")
-    return not FORBIDDEN.search(text) and begins and text.endswith(".") and len(text) < 120 and named <= FACTS
+    return not JARGON.search(text) and begins and text.endswith(".") and len(text) < 120 and named <= FACTS
 
 
 def test_the_wording_keeps_the_rules() -> None:
     assert [text for text in texts() if not keeps_the_rules(text)] == []
-    assert not any(map(keeps_the_rules, ("No error.", "small.", "No stop", "x" * 121, "A {thing}.")))
+    assert not any(map(keeps_the_rules, ("A null value.", "small.", "No stop", "x" * 121, "A {thing}.")))
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)

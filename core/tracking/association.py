@@ -153,8 +153,11 @@ MOST_DOF, MOST_STEPS = 200, 40
 
 @lru_cache(maxsize=4)
 def most_chi2(chance: float) -> tuple[float, ...]:
-    """Quantiles of chi squared by degrees of freedom, by Newton's steps on the logarithm of what lies above them, which
-    is a finite sum. (SciPy's are the same within 1e-14, and take as long to load as all of NumPy.)"""
+    """Quantiles of chi squared by degrees of freedom, by Newton's steps.
+
+    They are taken on the logarithm of what lies above them, which is a finite sum. (SciPy's are the same within 1e-14,
+    and take as long to load as all of NumPy.)
+    """
     if chance >= 1.0:
         return (np.inf,) * MOST_DOF
     dof = np.arange(1.0, MOST_DOF)

@@ -1,4 +1,4 @@
-"""A blue spot in plain sight that is used for nothing while a marker near it is hidden, or doubted: which is which?"""
+"""A blue spot in plain sight that is used for nothing while a marker near it is hidden, or doubted."""
 
 from __future__ import annotations
 

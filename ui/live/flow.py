@@ -138,7 +138,7 @@ class LiveFlow(Flow):
         )
 
     def _ask_hasty(self) -> None:
-        """A recording that has only just begun is ended: is it meant?"""
+        """A recording that has only just begun is to be ended."""
         self._ask_to_stop(self._hasty_question())
 
     def _ask_to_stop(self, question: Words) -> None:

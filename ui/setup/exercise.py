@@ -344,7 +344,7 @@ def _set_id(set_id: str) -> str:
 
 
 def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
-    """``Proposed from the last 3 sessions: flexion 42° (mean 37°; a gain can be told from 47°).``"""
+    """Say ``Proposed from the last 3 sessions: flexion 42° (mean 37°; a gain can be told from 47°)``."""
     if not proposed:
         return ""
     parts = [
