@@ -114,7 +114,7 @@ def test_the_whole_journey_by_mouse(
 ) -> None:
     journey = (desktop := open_desktop()).journey
     click(qtbot, journey.patients.screen.new_button)
-    for chips in (journey.patients.screen.form.side, journey.patients.screen.form.dominance):
+    for chips in (journey.patients.screen.form.fields["side"], journey.patients.screen.form.fields["dominance"]):
         click(qtbot, chips.buttons()[0])
     click(qtbot, journey.patients.screen.form.save)
     name = journey.patients.screen.list.rows.row(0).pseudonym

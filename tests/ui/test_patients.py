@@ -113,10 +113,10 @@ def test_a_name_that_is_not_there_can_be_created_with_enter(
     qtbot.keyClicks(screen.search, "Fir 12")
     qtbot.keyClick(screen.search, Qt.Key.Key_Return)
     assert screen.form.isVisible()
-    assert screen.form.name.text() == "Fir 12"
-    screen.form.side.buttons()[1].click()
-    screen.form.dominance.buttons()[0].click()
-    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    assert screen.form.fields["pseudonym"].text() == "Fir 12"
+    screen.form.fields["side"].buttons()[1].click()
+    screen.form.fields["dominance"].buttons()[0].click()
+    qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Return)
     assert (store.added[0].pseudonym, store.added[0].side) == ("Fir 12", "left")
     assert screen.list.rows.row(screen.list.currentIndex().row()).pseudonym == "Fir 12"
     assert screen.search.text() == ""
@@ -124,14 +124,14 @@ def test_a_name_that_is_not_there_can_be_created_with_enter(
 
 def test_a_taken_name_is_refused_in_the_form_itself(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
     screen.new_patient("  heron 17 ")
-    screen.form.side.buttons()[0].click()
-    screen.form.dominance.buttons()[0].click()
-    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    screen.form.fields["side"].buttons()[0].click()
+    screen.form.fields["dominance"].buttons()[0].click()
+    qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Return)
     assert screen.form.isVisible()
     assert not store.added
-    screen.form.name.setText("Heron 18")
-    screen.form.real_name.setText("R. M.")
-    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    screen.form.fields["pseudonym"].setText("Heron 18")
+    screen.form.fields["name"].setText("R. M.")
+    qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Return)
     assert (store.added[0].pseudonym, store.added[0].name) == ("Heron 18", "R. M.")
 
 
@@ -147,7 +147,7 @@ def test_the_form_opens_at_its_first_field_keeps_the_keyboard_and_gives_it_back(
     for _ in range(25):
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Tab)
         assert screen.form.isAncestorOf(screen.focusWidget())
-    qtbot.keyClick(screen.form.name, Qt.Key.Key_Escape)
+    qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Escape)
     assert not screen.form.isVisible()
     assert screen.search.hasFocus()
 
@@ -164,8 +164,8 @@ def test_what_the_card_leads_to(qtbot: QtBot, screen: PatientsScreen, store: Fak
             button.click()
         assert sent.args == ["linden"]
     qtbot.mouseClick(card.edit_button, Qt.MouseButton.LeftButton)
-    screen.form.name.setText("Linden 43")
-    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    screen.form.fields["pseudonym"].setText("Linden 43")
+    qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Return)
     assert [row.pseudonym for row in store.rows if row.patient_id == "linden"] == ["Linden 43"]
     screen.set_camera_ready(False)
     assert "no camera" in card.start_button.text()
@@ -285,7 +285,7 @@ def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given
     form.save.click()
     assert [entry.pseudonym for entry in given] == ["n" * letters]
     too_long = "m" * (MOST_CHARACTERS + 5)
-    for line in (form.name, form.real_name, form.diagnosis):
+    for line in (form.fields["pseudonym"], form.fields["name"], form.fields["diagnosis"]):
         form.begin(given[0], frozenset())
         line.setText(too_long)
         assert (line.text(), form.save.isEnabled()) == (too_long, False), "nothing is cut"
@@ -295,13 +295,13 @@ def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given
 
 def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Given) -> None:
     form.begin(None, frozenset())
-    qtbot.keyClick(form.name, Qt.Key.Key_Return)
+    qtbot.keyClick(form.fields["pseudonym"], Qt.Key.Key_Return)
     assert (given, form.save.isEnabled(), form.save.text()) == ([], False, "Which hand is affected?")
-    assert form.focusWidget() is form.side.buttons()[0], "Enter leads to what is asked"
-    form.side.buttons()[1].click()
+    assert form.focusWidget() is form.fields["side"].buttons()[0], "Enter leads to what is asked"
+    form.fields["side"].buttons()[1].click()
     assert form.save.text() == "Which hand writes?"
-    form.dominance.buttons()[2].click()
-    qtbot.keyClick(form.name, Qt.Key.Key_Return)
+    form.fields["dominance"].buttons()[2].click()
+    qtbot.keyClick(form.fields["pseudonym"], Qt.Key.Key_Return)
     assert [(one.side, one.dominance) for one in given] == [("left", "unknown")]
 
 
@@ -310,24 +310,24 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
 ) -> None:
     form.begin(Patient("Fir 12", "left", "right"), frozenset())
     assert (form.listed.isVisible(), form.save.isEnabled()) == (False, True), "nobody must say why a patient comes"
-    qtbot.keyClicks(form.diagnosis, "Mallet  finger")
+    qtbot.keyClicks(form.fields["diagnosis"], "Mallet  finger")
     assert not form.listed.isChecked()
     form.listed.click()
     assert store.listed[-1] == "Mallet finger"
     form.listed.click()
     assert (form.listed.isChecked(), "Mallet finger" in store.listed) == (False, False)
     for typed, asked in (("21.8.", "Since"), ("20.12.2026", "Since when? It"), ("21.8.2026", "Operation or injury?")):
-        form.onset_day.setText(typed)
+        form.fields["onset_day"].setText(typed)
         assert form.save.text().startswith(asked), typed
         assert not form.save.isEnabled()
-    form.onset.buttons()[1].click()
+    form.fields["onset"].buttons()[1].click()
     assert form.since.text() == "13 weeks"
     form.save.click()
     assert given == [
         Patient("Fir 12", "left", "right", diagnosis="Mallet finger", onset="injury", onset_day=date(2026, 8, 21))
     ]
     form.begin(given[0], frozenset())
-    form.onset_day.clear()
+    form.fields["onset_day"].clear()
     form.save.click()
     assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
 
@@ -336,31 +336,31 @@ def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_o
     qtbot: QtBot, form: PatientForm, host: QWidget
 ) -> None:
     form.begin(None, frozenset())  # no hand is chosen yet: the button asks for that first
-    form.diagnosis.setFocus()
-    qtbot.keyClicks(form.diagnosis, "Mallet finger")
+    form.fields["diagnosis"].setFocus()
+    qtbot.keyClicks(form.fields["diagnosis"], "Mallet finger")
     form.focusNextPrevChild(True)
-    assert (form.listed.isVisible(), host.focusWidget()) == (True, form.onset_day)
+    assert (form.listed.isVisible(), host.focusWidget()) == (True, form.fields["onset_day"])
     none = "Since when? There is no such day"
     order = "Since when? Day, month, year"
     for typed, told in (
         ("31.2.2026", none), ("20.12.2026", "yet to come"), ("2026-02-31", none), ("12/20/2026", order),
         ("13/20/2026", none),
     ):  # fmt: skip
-        form.onset_day.setFocus()
-        form.onset_day.selectAll()
+        form.fields["onset_day"].setFocus()
+        form.fields["onset_day"].selectAll()
         for sign in typed[:-1]:
-            qtbot.keyClicks(form.onset_day, sign)
+            qtbot.keyClicks(form.fields["onset_day"], sign)
             assert not form._fault.isVisible(), "not while it is typed"
-        qtbot.keyClicks(form.onset_day, typed[-1])
+        qtbot.keyClicks(form.fields["onset_day"], typed[-1])
         assert form._fault.isVisible()
         assert told in form._fault.text()
-    form.onset_day.selectAll()
-    qtbot.keyClicks(form.onset_day, "31.2")
+    form.fields["onset_day"].selectAll()
+    qtbot.keyClicks(form.fields["onset_day"], "31.2")
     form.focusNextPrevChild(True)
     assert form._fault.isVisible(), "half a day is told on leaving its field"
-    form.onset_day.setFocus()
-    form.onset_day.selectAll()
-    qtbot.keyClick(form.onset_day, Qt.Key.Key_Delete)
+    form.fields["onset_day"].setFocus()
+    form.fields["onset_day"].selectAll()
+    qtbot.keyClick(form.fields["onset_day"], Qt.Key.Key_Delete)
     form.focusNextPrevChild(True)
     assert not form._fault.isVisible()
 
@@ -369,27 +369,31 @@ def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_los
     form: PatientForm, given: Given, store: FakeStore
 ) -> None:
     form.begin(Patient("Fir 12", "left", "right"), frozenset())
-    form.note.setPlainText("a long note")
-    form.diagnosis.setText("Radius\u00adfracture")
+    form.fields["note"].setPlainText("a long note")
+    form.fields["diagnosis"].setText("Radius\u00adfracture")
     before = list(store.listed)
     form.listed.click()
     assert store.listed == before
     form.save.click()
     assert form.isVisible()
     assert "soft hyphen" in form._fault.text()
-    assert form.note.toPlainText() == "a long note"
+    assert form.fields["note"].toPlainText() == "a long note"
     for typed in ("21.8.99999999999", "21.8.202"):
-        form.onset_day.setText(typed)
+        form.fields["onset_day"].setText(typed)
         assert not form.save.isEnabled(), typed
-    form.onset_day.clear()
-    form.diagnosis.setText("Radius fracture")
+    form.fields["onset_day"].clear()
+    form.fields["diagnosis"].setText("Radius fracture")
     form.save.click()
     assert [one.diagnosis for one in given] == ["Radius fracture"]
 
 
 def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, form: PatientForm, host: QWidget) -> None:
     form.begin(None, frozenset())
-    for letter, field in ((Qt.Key.Key_D, form.diagnosis), (Qt.Key.Key_S, form.onset_day), (Qt.Key.Key_N, form.name)):
+    for letter, field in (
+        (Qt.Key.Key_D, form.fields["diagnosis"]),
+        (Qt.Key.Key_S, form.fields["onset_day"]),
+        (Qt.Key.Key_N, form.fields["pseudonym"]),
+    ):
         qtbot.keyClick(host.focusWidget(), letter, Qt.KeyboardModifier.AltModifier)
         assert host.focusWidget() is field
 
@@ -399,8 +403,8 @@ def test_no_field_is_cut_at_its_right(qtbot: QtBot, host: QWidget, code: str) ->
     with speaking(code):
         form = PatientForm(host, Theme("dark", 1.5), FakeStore(), lambda: TODAY)
         form.begin(Patient("Fir 12", "both", "left", diagnosis="Radius", onset="injury", onset_day=TODAY), frozenset())
-        qtbot.waitUntil(lambda: form._fields.width() > 0)
-        assert form._fields.minimumSizeHint().width() <= form._scroll.viewport().width()
+        qtbot.waitUntil(lambda: form._asked.width() > 0)
+        assert form._asked.minimumSizeHint().width() <= form._scroll.viewport().width()
         form.close_sheet()
 
 
@@ -411,7 +415,7 @@ def test_new_patient_with_a_searched_name_keeps_a_real_name_out_of_the_files(
     screen: PatientsScreen, searched: str, is_real: bool
 ) -> None:
     screen.new_patient(searched)
-    names = screen.form.name.text().strip(), screen.form.real_name.text().strip()
+    names = screen.form.fields["pseudonym"].text().strip(), screen.form.fields["name"].text().strip()
     if is_real:
         assert names[0] not in ("", searched)
         assert names[1] == searched

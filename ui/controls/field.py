@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from datetime import date
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtWidgets import (
@@ -92,6 +93,9 @@ class Combo(QComboBox):
                 self.setCurrentIndex(number)
         self.blockSignals(False)
 
+    def choose(self, value: object) -> None:
+        self.setCurrentIndex(self.findData(value))
+
     def initStyleOption(self, option: QStyleOptionComboBox) -> None:
         super().initStyleOption(option)
         part = QStyle.SubControl.SC_ComboBoxEditField
@@ -104,14 +108,11 @@ class Labelled(QWidget):
 
     def __init__(self, theme: Theme, label: str, field: QWidget, *beside: QWidget) -> None:
         super().__init__()
-        name = Text(theme, label, 14, MEDIUM, "text2")
+        self.name = name = Text(theme, label, 14, MEDIUM, "text2")
         name.setBuddy(field)
         field.setAccessibleName(label.replace("&", ""))
-        column = in_column(name, gap=4, margins=(0, 0, 0, 0), within=self)
-        if beside:
-            column.addLayout(in_line((field, 1), *beside, gap=6))
-        else:
-            column.addWidget(field)
+        self.row = in_line((field, 1), *beside, gap=6)
+        in_column(name, self.row, gap=4, margins=(0, 0, 0, 0), within=self)
 
 
 def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -> QSpinBox:
@@ -124,6 +125,17 @@ def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -
     theme.follow(field, lambda: field.setFixedWidth(theme.px(110)))
     field.lineEdit().setTextMargins(10, 0, 10, 0)  # the style sheet's padding does not reach the text of a spin box
     return field
+
+
+class DayField(QLineEdit):
+    """A day as people type one, empty for none."""
+
+    def value(self) -> date | None:
+        """None where nothing, or no day, is typed."""
+        return numbers.day_typed(self.text())
+
+    def set_value(self, day: date | None) -> None:
+        self.setText(numbers.day_of_year(day) if day is not None else "")
 
 
 class DegreesField(QLineEdit):
@@ -215,20 +227,20 @@ class Choices(QWidget):
         self.choose(current if current in self._values else self._values[0])
 
     def choose(self, value: object) -> None:
-        self._group.button(self._values.index(value)).setChecked(True)
+        """One of the values; with another the choice is taken back: the person must make it."""
+        if value in self._values:
+            self._group.button(self._values.index(value)).setChecked(True)
+            return
+        self._group.setExclusive(False)
+        for button in self.buttons():
+            button.setChecked(False)
+        self._group.setExclusive(True)
 
     def _lead_tab(self) -> None:
         """Qt does it only once a button has had the keyboard."""
         at = max(self._group.checkedId(), 0)
         for number, button in enumerate(self.buttons()):
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if number == at else Qt.FocusPolicy.ClickFocus)
-
-    def choose_nothing(self) -> None:
-        """Take the choice back: the person must make it."""
-        self._group.setExclusive(False)
-        for button in self.buttons():
-            button.setChecked(False)
-        self._group.setExclusive(True)
 
     def value(self) -> object:
         """What is chosen; None before anything is."""

@@ -157,7 +157,7 @@ class ExerciseScreen(QWidget):
         else:
             self.choose(exercises_of(PROTOCOLS[0])[0])
         if side is None:
-            self.side.choose_nothing()
+            self.side.choose(None)
         else:
             self.side.choose(side)
         self.pictures.choose(keep_pictures)

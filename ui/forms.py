@@ -1,0 +1,105 @@
+"""A form as a table: each field is an attribute of a value with its label, its widget, and its rule with the words of
+its fault. One loop lays them out, fills them, checks them and reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, QWidget
+
+from carpus.ui.controls.button import Tick
+from carpus.ui.controls.field import Choices, Combo, DayField, DegreesField, Labelled
+from carpus.ui.controls.layouts import fill, in_line
+from carpus.ui.theme import Theme
+
+Rule = Callable[[Any], str]
+"""What is wrong with a value, in words; empty for nothing."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Field:
+    """``name`` is the attribute; ``beside`` stands behind the widget. One without a label stands there too, behind the
+    one before; one that ``follows`` in the same line, ``share`` of whose room it takes."""
+
+    name: str
+    label: str
+    widget: QWidget
+    rule: Rule = lambda _: ""
+    beside: Sequence[QWidget] = ()
+    follows: bool = False
+    share: int = 0
+
+
+def must_be_chosen(words: str) -> Rule:
+    """One of several, of which none is chosen by itself."""
+    return lambda value: words if value is None else ""
+
+
+def at_most(count: int, words: str) -> Rule:
+    """Nothing that is typed is ever cut; ``words`` name the ``{count}`` of letters that are too many."""
+    return lambda text: words.format(count=len(text) - count) if len(text) > count else ""
+
+
+_KINDS: Sequence[tuple[type[QWidget], Callable[[Any], Any], Callable[[Any, Any], object], str]] = (
+    (Choices, Choices.value, Choices.choose, "chosen"),
+    (Combo, Combo.currentData, Combo.choose, "currentIndexChanged"),
+    (Tick, Tick.isChecked, Tick.setChecked, "toggled"),
+    (QSpinBox, QSpinBox.value, QSpinBox.setValue, "valueChanged"),
+    (DayField, DayField.value, DayField.set_value, "textChanged"),
+    (DegreesField, DegreesField.value, DegreesField.set_value, "textChanged"),
+    (QLineEdit, lambda line: " ".join(line.text().split()), QLineEdit.setText, "textChanged"),
+    (QPlainTextEdit, lambda text: text.toPlainText().strip(), QPlainTextEdit.setPlainText, "textChanged"),
+)
+"""How each kind of widget is read and filled, and the signal by which it tells that it was changed."""
+
+
+class Form(QObject):
+    """The widgets of a table by the names of its fields. ``changed`` whenever something else is in one."""
+
+    changed = Signal()
+
+    def __init__(self, theme: Theme, fields: Sequence[Field]) -> None:
+        super().__init__()
+        self._fields = {field.name: field for field in fields}
+        self._kinds = {one.name: next(kind for kind in _KINDS if isinstance(one.widget, kind[0])) for one in fields}
+        self.labelled: dict[str, Labelled] = {}
+        """Each field under its label."""
+        self.lines: list[QWidget] = []
+        """The same with those that share one line in one, to be laid out."""
+        rows: list[QHBoxLayout] = []
+        for field in fields:
+            getattr(field.widget, self._kinds[field.name][3]).connect(lambda *_: self.changed.emit())
+            if not field.label:
+                fill(list(self.labelled.values())[-1].row, field.widget, *field.beside)
+                continue
+            self.labelled[field.name] = labelled = Labelled(theme, field.label, field.widget, *field.beside)
+            if not field.follows:
+                self.lines.append(QWidget())
+                rows.append(in_line(gap=24, margins=(0, 0, 0, 0), within=self.lines[-1]))
+            rows[-1].addWidget(labelled, field.share)
+        for row in rows:
+            if row.count() > 1 and not any(row.stretch(place) for place in range(row.count())):
+                row.addStretch(1)
+
+    def __getitem__(self, name: str) -> Any:
+        """The widget of a field."""
+        return self._fields[name].widget
+
+    def fill(self, value: object) -> None:
+        """Show what the attributes of a value are; none of several choices where it is not among them."""
+        for name, field in self._fields.items():
+            self._kinds[name][2](field.widget, getattr(value, name))
+
+    def values(self) -> dict[str, Any]:
+        """What is typed and chosen, by the names of the fields."""
+        return {name: self._kinds[name][1](field.widget) for name, field in self._fields.items()}
+
+    def fault(self) -> tuple[QWidget | None, str]:
+        """The first field that is wrong, and what is wrong with it; empty words where all is well."""
+        for name, value in self.values().items():
+            if words := self._fields[name].rule(value):
+                return self[name], words
+        return None, ""
