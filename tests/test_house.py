@@ -21,6 +21,8 @@ PROGRAM = ("app", "core", "ui")
 """What runs at the user's; ``resources`` also keeps the scripts that made its files."""
 EXTRAS = ("cluster", "tables", "stream", "realsense")
 """What is installed only when asked for; the code that needs it says so where it is missing."""
+BUILD_ONLY = {"cython"}
+"""What the compiled modules are built with; once built they do not import it."""
 BROUGHT_BY = {
     "_cffi_backend": "cffi",
     "argon2": "argon2-cffi",
@@ -64,7 +66,7 @@ def test_every_import_is_declared_as_a_run_time_need() -> None:
         name
         for path in modules(*PROGRAM)
         for name in imported_packages(path)
-        if name not in sys.stdlib_module_names | set(OWN)
+        if name not in sys.stdlib_module_names | set(OWN) | BUILD_ONLY
     }
     assert "numpy" in foreign
     known = declared(*EXTRAS) | set(pinned("requirements-alone.lock"))
