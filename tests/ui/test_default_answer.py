@@ -73,7 +73,7 @@ def _opened(kind: Callable[..., Sheet], answer: str, *begin: object, **named: ob
 def _patient(host: QWidget, theme: Theme) -> Opened:
     sheet = PatientForm(host, theme, FakeStore(), date.today)
     sheet.begin(None, frozenset())
-    for choices in (sheet.side, sheet.dominance):
+    for choices in (sheet.fields["side"], sheet.fields["dominance"]):
         choices.buttons()[0].click()
     return sheet, "Add patient"
 
