@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
@@ -18,7 +17,8 @@ from carpus.core.pipeline.track import FramePipeline, TrackSettings, build_pipel
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import FloatArray, Frame, TrackStatus
+from carpus.core.types import Frame, TrackStatus
+from tests.compiled.golden_tracks import damaged
 from tests.kernels.pairs import LEVELS, numbers
 from tests.rendered import LEFT_DEVIATION, WHOLE_HAND, Rendered
 
@@ -35,27 +35,6 @@ MOST_FRAMES = 30
 """Rendering costs more than all walks together: recordings that others show too, and the first of their pictures."""
 
 Pipeline = Callable[[], FramePipeline[Tracker]]
-
-
-def troubled(frame: Frame, clicks_px: FloatArray) -> Frame:
-    """Every third picture with a disc once more where there is none, and the next disc behind what lies beside it."""
-    if frame.index < 16 or frame.index % 3 or frame.depth_raw is None:  # those before are of the calibration
-        return frame
-    color, depth = frame.color_rgb.copy(), frame.depth_raw.copy()
-    first = frame.index // 3
-    disc, hidden = (np.rint(clicks_px[(first + k) % len(clicks_px)]).astype(int) for k in (0, 1))
-    for source, target in ((disc, disc + (45, 40)), (hidden + (30, 0), hidden)):
-        of, to = ((slice(v - 9, v + 9), slice(u - 9, u + 9)) for u, v in (source, target))
-        color[to], depth[to] = frame.color_rgb[of], frame.depth_raw[of]
-    return replace(frame, color_rgb=color, depth_raw=depth)
-
-
-def damaged(frames: list[Frame], clicks_px: FloatArray) -> list[Frame]:
-    """Some pictures without depth, some gone, one of nothing, some with false discs and a hidden one."""
-    dark = np.zeros_like(frames[0].color_rgb)
-    kept = [troubled(frame, clicks_px) for frame in frames if not 25 <= frame.index < 28]
-    kept = [replace(frame, depth_raw=None) if frame.index % 11 == 10 else frame for frame in kept]
-    return [replace(frame, color_rgb=dark) if frame.index == 23 else frame for frame in kept]
 
 
 def made(folder: Path) -> tuple[list[Frame], Pipeline]:
