@@ -21,8 +21,8 @@ Rule = Callable[[Any], str]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Field:
-    """``name`` is the attribute; ``beside`` stands behind the widget. One without a label stands there too, behind the
-    one before; one that ``follows`` in the same line, ``share`` of whose room it takes."""
+    """``name`` is the attribute; ``beside`` stands behind the widget. One that ``follows`` stands in the line of the
+    one before, right behind its widget where it has no label; ``share`` of the line's room is its own."""
 
     name: str
     label: str
@@ -31,6 +31,8 @@ class Field:
     beside: Sequence[QWidget] = ()
     follows: bool = False
     share: int = 0
+    tells: str = ""
+    """The signal of a change, where it is not that of its kind."""
 
 
 def must_be_chosen(words: str) -> Rule:
@@ -65,24 +67,29 @@ class Form(QObject):
         super().__init__()
         self._fields = {field.name: field for field in fields}
         self._kinds = {one.name: next(kind for kind in _KINDS if isinstance(one.widget, kind[0])) for one in fields}
-        self.labelled: dict[str, Labelled] = {}
+        self.parts: dict[str, QWidget] = {}
         """Each field under its label."""
-        self.lines: list[QWidget] = []
-        """The same with those that share one line in one, to be laid out."""
-        rows: list[QHBoxLayout] = []
         for field in fields:
-            getattr(field.widget, self._kinds[field.name][3]).connect(lambda *_: self.changed.emit())
-            if not field.label:
-                fill(list(self.labelled.values())[-1].row, field.widget, *field.beside)
-                continue
-            self.labelled[field.name] = labelled = Labelled(theme, field.label, field.widget, *field.beside)
-            if not field.follows:
-                self.lines.append(QWidget())
-                rows.append(in_line(gap=24, margins=(0, 0, 0, 0), within=self.lines[-1]))
-            rows[-1].addWidget(labelled, field.share)
-        for row in rows:
-            if row.count() > 1 and not any(row.stretch(place) for place in range(row.count())):
-                row.addStretch(1)
+            getattr(field.widget, field.tells or self._kinds[field.name][3]).connect(lambda *_: self.changed.emit())
+            labelled = self.parts[list(self.parts)[-1]] if field.follows and not field.label else None
+            if isinstance(labelled, Labelled):
+                fill(labelled.row, field.widget, *field.beside)
+            elif field.label:
+                self.parts[field.name] = Labelled(theme, field.label, field.widget, *field.beside)
+            else:
+                self.parts[field.name] = field.widget
+
+    def lines(self) -> list[QHBoxLayout]:
+        """All of it to be laid out from top to bottom."""
+        lines: list[QHBoxLayout] = []
+        for name, part in self.parts.items():
+            if not self._fields[name].follows:
+                lines.append(in_line(gap=24))
+            lines[-1].addWidget(part, self._fields[name].share)
+        for line in lines:
+            if line.count() > 1 and not any(line.stretch(place) for place in range(line.count())):
+                line.addStretch(1)
+        return lines
 
     def __getitem__(self, name: str) -> Any:
         """The widget of a field."""

@@ -28,10 +28,10 @@ def test_language_changes_only_while_nothing_is_at_work(qtbot: QtBot, desktop: D
     at_work = [True]
     desktop.keeper.keeps_language = lambda: "Not now." if at_work[0] else ""
     desktop.journey.way.show("settings")
-    german = desktop.keeper.screen.language.buttons()[list(language.LANGUAGES).index("de")]
+    german = desktop.keeper.screen.chosen["language"].buttons()[list(language.LANGUAGES).index("de")]
     german.click()
     assert "Not now." in texts(desktop)
-    assert desktop.keeper.screen.language.value() == "en"
+    assert desktop.keeper.screen.chosen["language"].value() == "en"
     assert desktop.why_no_other_language() == ""
     at_work[0] = False
     german.click()

@@ -167,7 +167,7 @@ def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[
     settings = with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")
     assert (settings.data_folder, settings.records.url, settings.backup.hour) == (tmp_path / "of one run", "", -1)
     desktop = open_desktop(settings)
-    desktop.keeper.screen.patient_sound.buttons()[1].click()
+    desktop.keeper.screen.chosen["patient_sound"].buttons()[1].click()
     desktop.keeper.keep(lock=LockSettings(5))
     stored = load_settings(tmp_path / "settings")
     assert (stored.data_folder, stored.backup.hour) == (Path("/clinic"), 18)
@@ -177,7 +177,7 @@ def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[
 
 def test_a_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
     desktop = open_desktop(is_demo=True)
-    desktop.keeper.screen.patient_sound.buttons()[1].click()
+    desktop.keeper.screen.chosen["patient_sound"].buttons()[1].click()
     assert not (tmp_path / "settings").exists()
 
 
@@ -202,7 +202,7 @@ def test_a_data_folder_that_changes_is_noticed_at_the_next_start(tmp_path: Path)
 
 def test_what_the_window_does_not_show_stays_as_a_file_said(open_desktop: Callable[..., Desktop]) -> None:
     desktop = open_desktop(Settings(screen=ScreenSettings("light"), report=ReportSettings("AB", "isb")))
-    desktop.keeper.screen.patient_sound.buttons()[1].click()
+    desktop.keeper.screen.chosen["patient_sound"].buttons()[1].click()
     assert desktop.journey.context.patient_sound
     assert desktop.journey.context.report == ReportSettings("AB", "isb")
 

@@ -164,7 +164,7 @@ def test_another_language_opens_the_window_again_with_the_settings_in_it(
         if len(shown) == 1:
             desktop.journey.way.show("settings")
             qtbot.waitUntil(lambda: not desktop.why_no_other_language())
-            desktop.keeper.screen.language.buttons()[list(language.LANGUAGES).index("de")].click()
+            desktop.keeper.screen.chosen["language"].buttons()[list(language.LANGUAGES).index("de")].click()
             qtbot.waitUntil(lambda: desktop.closed)
         return 0
 

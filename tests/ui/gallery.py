@@ -711,7 +711,7 @@ class Gallery(GalleryWindow):
     def settings_research(self) -> None:
         screen = self.settings()
         screen.choose("research")
-        screen.research.click()
+        screen.chosen["research"].click()
 
     def locked(self) -> None:
         self.patients()

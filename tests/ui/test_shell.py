@@ -193,10 +193,10 @@ def test_tab_leads_to_what_is_chosen_and_arrows_choose_another(qtbot: QtBot, the
 
 def test_settings_act_at_once_and_tell_what_was_chosen(settings: Settings) -> None:
     screen, told = settings(theme="light", data_folder="/data")
-    screen.looks.buttons()[1].click()
-    screen.text_scale.buttons()[2].click()
-    screen.therapist.setText("M. R.")
-    screen.therapist.editingFinished.emit()
+    screen.chosen["theme"].buttons()[1].click()
+    screen.chosen["text_scale"].buttons()[2].click()
+    screen.chosen["therapist"].setText("M. R.")
+    screen.chosen["therapist"].editingFinished.emit()
     now = told[-1]
     assert (now.theme, now.text_scale, now.therapist, now.data_folder) == ("dark", 1.5, "M. R.", "/data")
 
@@ -204,9 +204,9 @@ def test_settings_act_at_once_and_tell_what_was_chosen(settings: Settings) -> No
 def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(settings: Settings) -> None:
     screen, told = settings(stream=True, angle_order="isb")
     screen.choose("research")
-    folded = (screen.angle_order, screen.stream)
+    folded = (screen.chosen["angle_order"], screen.chosen["stream"])
     assert not any(widget.isVisible() for widget in folded)
-    screen.research.click()
+    screen.chosen["research"].click()
     assert all(widget.isVisible() for widget in folded)
     assert (told[-1].research, told[-1].stream, told[-1].angle_order) == (True, True, "isb"), "no value changes by it"
 

@@ -105,6 +105,7 @@ class PatientForm(Sheet):
             Field(
                 "onset", "", Choices(theme, [("operation", self.tr("Operation")), ("injury", self.tr("Injury"))]),
                 lambda onset: self.tr("Operation or injury?") if self._day() is not None and onset is None else "",
+                follows=True,
             ),
             Field("note", self.tr("N&ote (no names)"), QPlainTextEdit()),
         ]  # fmt: skip
@@ -114,7 +115,7 @@ class PatientForm(Sheet):
         cancel.clicked.connect(self.close_sheet)
         rule = self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth.")
         self._asked = QWidget()
-        in_column(*self.fields.lines, gap=14, margins=(0, 0, 0, 0), within=self._asked)
+        in_column(*self.fields.lines(), gap=14, margins=(0, 0, 0, 0), within=self._asked)
         self._scroll = ScrollArea(self._asked)  # large text on a small screen: the fields scroll, the buttons stay
         body = self.card.body
         body.setSpacing(16)

@@ -26,6 +26,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import Part, ScrollArea, ScrolledColumn, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.forms import Field, Form
 from carpus.ui.language import LANGUAGES
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.limits import limits_card
@@ -42,82 +43,113 @@ class SettingsScreen(QWidget):
     def __init__(self, theme: Theme, preferences: Preferences, measured: ErrorLimits = DEFAULT_LIMITS) -> None:
         super().__init__()
         self._theme, self.preferences, self._measured = theme, preferences, measured
-        self.looks = Choices(
-            theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), ("system", self.tr("As the computer"))],
-            preferences.theme,
-        )  # fmt: skip
-        self.text_scale = Choices(
-            theme, [(scale, f"{written(100 * scale)} %") for scale in TEXT_SCALES], preferences.text_scale
-        )
-        self.language = Choices(
-            theme, [*LANGUAGES.items(), ("system", self.tr("As the computer"))], preferences.language
-        )
+        table = self._table(theme)
+        self.chosen = Form(theme, [field for *_, fields in table for field in fields])
+        self.chosen.fill(preferences)
+        self.chosen["therapist"].setMaximumWidth(theme.px(220))
+        self.chosen["therapist"].setAccessibleName(self.tr("Initials on reports"))
         self.language_note = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.language_note.hide()
         self.folder = Text(theme, preferences.data_folder, 14)
         self.folder_button = Button(theme, self.tr("Change…"), height_px=40)
-        self.therapist = QLineEdit(preferences.therapist, maxLength=12)
-        self.therapist.setAccessibleName(self.tr("Initials on reports"))
-        self.angle_order = Choices(
-            theme,
-            [("zyx", self.tr("As in the papers: deviation first")), ("isb", self.tr("ISB: flexion first"))],
-            preferences.angle_order,
-        )
-        self.stream = Choices(
-            theme, [(False, self.tr("Off")), (True, self.tr("Stream live values"))], preferences.stream
-        )
-        self.patient_sound = Choices(
-            theme, [(False, self.tr("No sound")), (True, self.tr("One beep at the goal"))], preferences.patient_sound
-        )
-        self.start = Choices(
-            theme,
-            [
-                ("key", self.tr("At the key")), ("countdown", self.tr("3 s after the key")),
-                ("still", self.tr("When the hand lies still")),
-            ],
-            preferences.start,
-        )  # fmt: skip
-        self.research = Tick(theme, self.tr("For research"))
-        self.research.setChecked(preferences.research)
+        self.retest = Button(theme, self.tr("Compute from test-retest sessions…"), height_px=40)
         self.back = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"))
-        self._lay_out()
-        self._connect()
-
-    def _lay_out(self) -> None:
-        theme, narrow = self._theme, Qt.AlignmentFlag.AlignLeft
-        self._folded = self._research_cards()
-        self.therapist.setMaximumWidth(theme.px(220))
         self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
         self._limits.set_colors("canvas", "canvas")
-        self.retest = Button(theme, self.tr("Compute from test-retest sessions…"), height_px=40)
-        self.show_limits(self._measured)
+        self.show_limits(measured)
         self._pages: dict[PartName, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(PartName)}
-        cards: dict[PartName, tuple[QWidget, ...]] = {
-            "camera": (), "measuring": (*self._measuring_cards(), self._limits),
-            "report": (self._card(self.tr("Initials on reports"), "", self.therapist),),
-            "safety": (
-                self._card(
-                    self.tr("Data"),
-                    self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer."),
-                    in_line((self.folder, 1), self.folder_button),
+        self._folded: list[Card] = []
+        self._lay_out(table)
+        self.chosen.changed.connect(self._take)
+        self.folder_button.clicked.connect(self.ask_folder)
+
+    def _table(self, theme: Theme) -> list[tuple[PartName, str, str, list[Field]]]:
+        """The cards: part, title, what is said of it, and the preferences that are chosen on it."""
+        computer = ("system", self.tr("As the computer"))
+        looks = Choices(theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), computer])
+        sizes = Choices(theme, [(scale, f"{written(100 * scale)} %") for scale in TEXT_SCALES])
+        orders = [("zyx", self.tr("As in the papers: deviation first")), ("isb", self.tr("ISB: flexion first"))]
+        starts = [
+            ("key", self.tr("At the key")), ("countdown", self.tr("3 s after the key")),
+            ("still", self.tr("When the hand lies still")),
+        ]  # fmt: skip
+        sounds = [(False, self.tr("No sound")), (True, self.tr("One beep at the goal"))]
+        streams = [(False, self.tr("Off")), (True, self.tr("Stream live values"))]
+        return [
+            (
+                "measuring", self.tr("Start of a recording"),
+                self.tr(
+                    "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a "
+                    "slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by "
+                    "itself is counted down, and Space takes it back."
                 ),
+                [Field("start", "", Choices(theme, starts))],
             ),
-            "looks": (self._looks_card(),),
-            "research": (
-                self._card(
-                    self.tr("Research"),
-                    self.tr(
-                        "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in "
-                        "reports, all formats of an export, the order of the angles, streaming. No value changes by "
-                        "it."
-                    ),
-                    (self.research, 0, narrow),
+            (
+                "measuring", self.tr("The patient’s view"),
+                self.tr(
+                    "A second screen, or a window of its own, that shows the patient what to do. It opens from the "
+                    "screen one measures on; whether it speaks to a child or an adult is chosen with the exercise."
                 ),
-                *self._folded,
+                [Field("patient_sound", "", Choices(theme, sounds))],
             ),
-            "about": (self._about_card(),),
-        }  # fmt: skip
-        self._lay_out_index(cards)
+            (
+                "report", self.tr("Initials on reports"), "",
+                [Field("therapist", "", QLineEdit(maxLength=12), tells="editingFinished")],
+            ),
+            (
+                "looks", self.tr("Looks"), "",
+                [
+                    Field("theme", self.tr("Colours"), looks),
+                    Field("text_scale", self.tr("Text size"), sizes),
+                    Field("language", self.tr("Language"), Choices(theme, [*LANGUAGES.items(), computer])),
+                ],
+            ),
+            (
+                "research", self.tr("Research"),
+                self.tr(
+                    "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, "
+                    "all formats of an export, the order of the angles, streaming. No value changes by it."
+                ),
+                [Field("research", "", Tick(theme, self.tr("For research")))],
+            ),
+            (
+                "research", self.tr("Order of the angles"),
+                self.tr(
+                    "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ "
+                    "order; sessions in different orders are never compared."
+                ),
+                [Field("angle_order", "", Choices(theme, orders))],
+            ),
+            (
+                "research", self.tr("Other programs"),
+                self.tr(
+                    "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any "
+                    "computer in the same network can read them; no name and no picture is in them. From the next "
+                    "set-up on."
+                ),
+                [Field("stream", "", Choices(theme, streams))],
+            ),
+        ]  # fmt: skip
+
+    def _lay_out(self, table: list[tuple[PartName, str, str, list[Field]]]) -> None:
+        theme, narrow = self._theme, Qt.AlignmentFlag.AlignLeft
+        for part, title, words, fields in table:
+            card = self._card(title, words)
+            for field in fields:
+                one = self.chosen.parts[field.name]
+                fill(card.body, 0 if field is fields[0] else 8, (one, 0, narrow) if isinstance(one, Tick) else one)
+            self._pages[part].addWidget(card)
+            if part == "looks":
+                card.body.addWidget(self.language_note)
+            elif part == "research" and fields[0].name != "research":
+                self._folded.append(card)
+        self._pages["measuring"].addWidget(self._limits)
+        words = self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer.")
+        data = self._card(self.tr("Data"), words, in_line((self.folder, 1), self.folder_button))
+        self._pages["safety"].addWidget(data)
+        self._pages["about"].addWidget(self._about_card())
+        self._lay_out_index()
         self._fold()
         self.choose("looks")
         self.of_demo = Text(theme, self.tr("A demo: what is chosen here holds until it is closed."), 14, wrap=True)
@@ -127,59 +159,6 @@ class SettingsScreen(QWidget):
         )
         beside = in_line(self._left, (self._stack, 1), gap=GAP_PX)
         in_column(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
-
-    def _research_cards(self) -> tuple[Card, ...]:
-        return (
-            self._card(
-                self.tr("Order of the angles"),
-                self.tr(
-                    "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ "
-                    "order; sessions in different orders are never compared."
-                ),
-                self.angle_order,
-            ),
-            self._card(
-                self.tr("Other programs"),
-                self.tr(
-                    "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any "
-                    "computer in the same network can read them; no name and no picture is in them. From the next "
-                    "set-up on."
-                ),
-                self.stream,
-            ),
-        )
-
-    def _measuring_cards(self) -> tuple[Card, Card]:
-        start = self._card(
-            self.tr("Start of a recording"),
-            self.tr(
-                "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide "
-                "show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is "
-                "counted down, and Space takes it back."
-            ),
-            self.start,
-        )
-        words = self.tr(
-            "A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one "
-            "measures on; whether it speaks to a child or an adult is chosen with the exercise."
-        )
-        return start, self._card(self.tr("The patient’s view"), words, self.patient_sound)
-
-    def _looks_card(self) -> Card:
-        theme = self._theme
-        return self._card(
-            self.tr("Looks"),
-            "",
-            Text(theme, self.tr("Colours"), 14, REGULAR, "text2"),
-            self.looks,
-            8,
-            Text(theme, self.tr("Text size"), 14, REGULAR, "text2"),
-            self.text_scale,
-            8,
-            Text(theme, self.tr("Language"), 14, REGULAR, "text2"),
-            self.language,
-            self.language_note,
-        )
 
     def _about_card(self) -> Card:
         theme = self._theme
@@ -199,7 +178,7 @@ class SettingsScreen(QWidget):
             (self.licences, 0, Qt.AlignmentFlag.AlignLeft),
         )
 
-    def _lay_out_index(self, cards: dict[PartName, tuple[QWidget, ...]]) -> None:
+    def _lay_out_index(self) -> None:
         titles: dict[PartName, str] = {
             "camera": self.tr("Camera"), "measuring": self.tr("Measuring"), "report": self.tr("Report and clinic"),
             "safety": self.tr("Safety"), "looks": self.tr("Looks and language"),
@@ -212,8 +191,6 @@ class SettingsScreen(QWidget):
         for number, (part, page) in enumerate(self._pages.items()):
             page.setContentsMargins(0, 4, 12, 4)
             page.setSpacing(GAP_PX)
-            for card in cards[part]:
-                page.addWidget(card)
             page.addStretch(1)
             host = ScrolledColumn()
             host.setLayout(page)
@@ -248,9 +225,8 @@ class SettingsScreen(QWidget):
     def keep_language(self, code: str, why: str) -> None:
         """The language cannot be changed now: the old one stays chosen, and why is said."""
         self.preferences = replace(self.preferences, language=code)
-        self.language.choose(code)
-        self.language_note.setText(why)
-        self.language_note.show()
+        self.chosen["language"].choose(code)
+        self.language_note.say(why)
 
     def add_cards(self, part: PartName, *cards: Card) -> None:
         """Cards of others, before what else the part has."""
@@ -269,10 +245,6 @@ class SettingsScreen(QWidget):
         for part, page in self._pages.items():
             self.index[part].setVisible(page.count() > 1)
 
-    def _take_research(self, on: bool) -> None:
-        self._change(replace(self.preferences, research=on))
-        self._fold()
-
     def _card(self, title: str, words: str, *parts: Part) -> Card:
         card = Card(self._theme, 24)
         card.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
@@ -280,17 +252,6 @@ class SettingsScreen(QWidget):
             card.body.addWidget(Text(self._theme, words, 14, REGULAR, "text2", wrap=True))
         fill(card.body, *parts)
         return card
-
-    def _connect(self) -> None:
-        for name, choices in (
-            ("theme", self.looks), ("text_scale", self.text_scale), ("language", self.language),
-            ("angle_order", self.angle_order), ("stream", self.stream), ("start", self.start),
-            ("patient_sound", self.patient_sound),
-        ):  # fmt: skip
-            choices.chosen.connect(lambda value, name=name: self._change(replace(self.preferences, **{name: value})))
-        self.research.toggled.connect(self._take_research)
-        self.therapist.editingFinished.connect(self._take_therapist)
-        self.folder_button.clicked.connect(self.ask_folder)
 
     def show_newest(self, folder: str, newest: str | None) -> None:
         """What lies in the folder of packages that the clinic named: a version, empty for none, None where it cannot be
@@ -311,8 +272,9 @@ class SettingsScreen(QWidget):
             self.preferences = preferences
             self.changed.emit(preferences)
 
-    def _take_therapist(self) -> None:
-        self._change(replace(self.preferences, therapist=self.therapist.text().strip()))
+    def _take(self) -> None:
+        self._change(replace(self.preferences, **self.chosen.values()))
+        self._fold()
 
     def ask_folder(self) -> None:
         over = self if self.isVisible() else QApplication.activeWindow()  # the first start asks from another screen
