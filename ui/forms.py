@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, QWidget
 
 from carpus.ui.controls.button import Tick
-from carpus.ui.controls.field import Choices, Combo, DayField, DegreesField, Labelled
+from carpus.ui.controls.field import Choices, Combo, Labelled
 from carpus.ui.controls.layouts import fill, in_line
 from carpus.ui.theme import Theme
 
@@ -50,12 +51,11 @@ _KINDS: Sequence[tuple[type[QWidget], Callable[[Any], Any], Callable[[Any, Any],
     (Combo, Combo.currentData, Combo.choose, "currentIndexChanged"),
     (Tick, Tick.isChecked, Tick.setChecked, "toggled"),
     (QSpinBox, QSpinBox.value, QSpinBox.setValue, "valueChanged"),
-    (DayField, DayField.value, DayField.set_value, "textChanged"),
-    (DegreesField, DegreesField.value, DegreesField.set_value, "textChanged"),
     (QLineEdit, lambda line: " ".join(line.text().split()), QLineEdit.setText, "textChanged"),
     (QPlainTextEdit, lambda text: text.toPlainText().strip(), QPlainTextEdit.setPlainText, "textChanged"),
 )
-"""How each kind of widget is read and filled, and the signal by which it tells that it was changed."""
+"""How each kind of widget is read and filled, and the signal by which it tells that it was changed. One of ours may
+have a ``value`` of its own, and ``set_value``."""
 
 
 class Form(QObject):
@@ -66,11 +66,15 @@ class Form(QObject):
     def __init__(self, theme: Theme, fields: Sequence[Field]) -> None:
         super().__init__()
         self._fields = {field.name: field for field in fields}
-        self._kinds = {one.name: next(kind for kind in _KINDS if isinstance(one.widget, kind[0])) for one in fields}
+        self._ways: dict[str, tuple[Callable[[], Any], Callable[[Any], object]]] = {}
         self.parts: dict[str, QWidget] = {}
         """Each field under its label."""
         for field in fields:
-            getattr(field.widget, field.tells or self._kinds[field.name][3]).connect(lambda *_: self.changed.emit())
+            widget = field.widget
+            read, show, tells = next(kind[1:] for kind in _KINDS if isinstance(widget, kind[0]))
+            read, show = getattr(type(widget), "value", read), getattr(type(widget), "set_value", show)
+            self._ways[field.name] = partial(read, widget), partial(show, widget)
+            getattr(widget, field.tells or tells).connect(lambda *_: self.changed.emit())
             labelled = self.parts[list(self.parts)[-1]] if field.follows and not field.label else None
             if isinstance(labelled, Labelled):
                 fill(labelled.row, field.widget, *field.beside)
@@ -97,12 +101,12 @@ class Form(QObject):
 
     def fill(self, value: object) -> None:
         """Show what the attributes of a value are; none of several choices where it is not among them."""
-        for name, field in self._fields.items():
-            self._kinds[name][2](field.widget, getattr(value, name))
+        for name, (_, show) in self._ways.items():
+            show(getattr(value, name))
 
     def values(self) -> dict[str, Any]:
         """What is typed and chosen, by the names of the fields."""
-        return {name: self._kinds[name][1](field.widget) for name, field in self._fields.items()}
+        return {name: read() for name, (read, _) in self._ways.items()}
 
     def fault(self) -> tuple[QWidget | None, str]:
         """The first field that is wrong, and what is wrong with it; empty words where all is well."""

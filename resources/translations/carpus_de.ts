@@ -7723,6 +7723,21 @@
     </message>
 </context>
 <context>
+    <name>DayBox</name>
+    <message>
+        <source>No appointment yet</source>
+        <translation>Noch kein Termin</translation>
+    </message>
+    <message>
+        <source>When next? Day, month, year</source>
+        <translation>Wann wieder? Tag, Monat, Jahr</translation>
+    </message>
+    <message>
+        <source>When next? That day is over</source>
+        <translation>Wann wieder? Der Tag ist vorbei</translation>
+    </message>
+</context>
+<context>
     <name>DegreesField</name>
     <message>
         <source>Up to {most}°, or empty</source>
@@ -8350,18 +8365,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Show the sheet</source>
         <translation>Das Blatt zeigen</translation>
-    </message>
-    <message>
-        <source>No appointment yet</source>
-        <translation>Noch kein Termin</translation>
-    </message>
-    <message>
-        <source>When next? That day is over</source>
-        <translation>Wann wieder? Der Tag ist vorbei</translation>
-    </message>
-    <message>
-        <source>When next? Day, month, year</source>
-        <translation>Wann wieder? Tag, Monat, Jahr</translation>
     </message>
     <message>
         <source>Time: {count} letters too many</source>

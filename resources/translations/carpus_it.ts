@@ -7723,6 +7723,21 @@
     </message>
 </context>
 <context>
+    <name>DayBox</name>
+    <message>
+        <source>No appointment yet</source>
+        <translation>Ancora nessun appuntamento</translation>
+    </message>
+    <message>
+        <source>When next? Day, month, year</source>
+        <translation>Quando? Giorno, mese, anno</translation>
+    </message>
+    <message>
+        <source>When next? That day is over</source>
+        <translation>Quando? Quel giorno è passato</translation>
+    </message>
+</context>
+<context>
     <name>DegreesField</name>
     <message>
         <source>Up to {most}°, or empty</source>
@@ -8350,18 +8365,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Show the sheet</source>
         <translation>Mostra il foglio</translation>
-    </message>
-    <message>
-        <source>No appointment yet</source>
-        <translation>Ancora nessun appuntamento</translation>
-    </message>
-    <message>
-        <source>When next? That day is over</source>
-        <translation>Quando? Quel giorno è passato</translation>
-    </message>
-    <message>
-        <source>When next? Day, month, year</source>
-        <translation>Quando? Giorno, mese, anno</translation>
     </message>
     <message>
         <source>Time: {count} letters too many</source>

@@ -232,18 +232,18 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert [task.exercise.id for task in asked[0].tasks] == ["WRIST_FE", "FIST_COMPOSITE", "THUMB_OPP"]
     assert asked[0].again is None, "nobody chose a day"
-    sheet.times.setValue(42)
+    sheet.asked["times"].setValue(42)
     sheet.begin(report(), date(2026, 11, 20))
-    assert sheet.times.value() == 10, "what the last patient was told is nobody else's"
+    assert sheet.asked["times"].value() == 10, "what the last patient was told is nobody else's"
     for typed, asked_for in (("31.2.2027", "Day, month, year"), ("1.11.2026", "over"), ("soon", "Day, month, year")):
         sheet.day.setEditText(typed)
         assert asked_for in sheet.take.text()
         assert not sheet.take.isEnabled(), typed
     sheet.day.setEditText("3.2.2027")
-    sheet.note.setText("n" * 170)
-    assert (sheet.take.text(), len(sheet.note.text())) == ("Line: 10 letters too many", 170)
-    sheet.note.setText("Bring the splint")
-    sheet.language.choose("it")
+    sheet.asked["note"].setText("n" * 170)
+    assert (sheet.take.text(), len(sheet.asked["note"].text())) == ("Line: 10 letters too many", 170)
+    sheet.asked["note"].setText("Bring the splint")
+    sheet.asked["language"].choose("it")
     sheet.take.click()
     plan = asked[-1].plan
     assert (plan.again, plan.note, plan.language) == (date(2027, 2, 3), "Bring the splint", "it")
@@ -251,12 +251,12 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     sheet.take.click()
     assert asked[-1].plan == replace(plan, made=date(2026, 12, 20)), "until that day has come"
     sheet.begin(report(), date(2027, 2, 3), plan)
-    assert (sheet.note.text(), sheet.language.value()) == ("", "it")
+    assert (sheet.asked["note"].text(), sheet.asked["language"].value()) == ("", "it")
     sheet.day.setCurrentIndex(0)
     sheet.take.click()
     assert asked[-1].again is None
     sheet.begin(report(), date(2026, 11, 20))
-    assert (sheet.note.text(), sheet.language.value()) == ("", "en"), "the language is the patient's"
+    assert (sheet.asked["note"].text(), sheet.asked["language"].value()) == ("", "en"), "the language is the patient's"
     sheet.close_sheet()
     background = Background()
     screen = ReportScreen(theme, background)

@@ -115,11 +115,11 @@ class Labelled(QWidget):
         in_column(name, self.row, gap=4, margins=(0, 0, 0, 0), within=self)
 
 
-def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -> QSpinBox:
-    """A whole number from 0 with its unit; ``nothing`` is shown for 0."""
+def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "", least: int = 0) -> QSpinBox:
+    """A whole number with its unit; ``nothing`` is shown for the least."""
     field = QSpinBox()
     leave_wheel(field)
-    field.setRange(0, most)
+    field.setRange(least, most)
     field.setSuffix(suffix)
     field.setSpecialValueText(nothing)
     theme.follow(field, lambda: field.setFixedWidth(theme.px(110)))
