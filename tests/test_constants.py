@@ -15,8 +15,6 @@ NO_CHOICE = {
     "what keeps numbers finite, far from any that counts": {
         "hand/anatomy_prior": "_FIXED",
         "tracking/association": "IMPOSSIBLE",
-        "tracking/digit_filter": "FLOOR",
-        "tracking/digit_readout": "_NARROW2",
         "tracking/joint_limits": "_WIDE",
         "tracking/kernel": "_LEAST_PROBABILITY",
         "tracking/palm_state": "FLOOR",
@@ -27,7 +25,7 @@ NO_CHOICE = {
     },
     "mathematics": {
         "tracking/digit_association": "_LOG_2_PI",
-        "tracking/joint_limits": "MID_RANGE_RAD _ROOT_2_OVER_PI _ROOT_HALF",
+        "tracking/joint_limits": "MID_RANGE_RAD",
     },
     "when a search for a least sum of squares has settled": {
         "calibration/neutral_pose": "_ROUNDS _SETTLED",
@@ -50,7 +48,6 @@ NO_CHOICE = {
         "calibration/neutral_pose": "TOWARDS_CAMERA",
         "hand/anatomy_prior": "_DOWN",
         "tracking/finger_depth": "_DOWN",
-        "tracking/hand_geometry": "_DOWN _FINGER_PHASES _FINGER_TURNS _THUMB_PHASES _TO_DIP _TURNS",
         "tracking/reacquire": "_MIRROR",
         "tracking/readout": "_DORSAL",
     },
@@ -59,7 +56,6 @@ NO_CHOICE = {
     },
     "where a number stands among others": {
         "calibration/name_checks": "_THUMB",
-        "tracking/digit_filter": "_ROLL",
         "tracking/palm_state": "PALM_DISCS",
     },
     "what is home keeps nothing: any time far below that of a frame": {

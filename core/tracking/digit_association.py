@@ -15,6 +15,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.compiled.digits import lay_out
 from carpus.core.tracking import association
 from carpus.core.tracking.association import is_jointly_compatible
 from carpus.core.tracking.digit_filter import ANATOMY, DIGIT_SIZE, SEEN, DigitsLinearisation, DigitView
@@ -25,7 +26,6 @@ from carpus.core.tracking.hand_geometry import (
     DISCS,
     SHOWS,
     SLOTS,
-    digit_frames,
     is_crowded,
 )
 from carpus.core.tracking.joint_limits import SOFT_RAD, outside_limits
@@ -179,8 +179,8 @@ def _impossible(found: UpdatedDigits, scene: DigitScene) -> NDArray[np.bool_]:
     if not chains.size:
         return back
     mean, covariance = found.update.mixture.merged()
-    frames = digit_frames(mean[:, SEEN])
-    tilt = tilt_to(scene.view, frames.normal, scene.linearised.centre_m)
+    _, normal, _, _ = lay_out(mean[:, SEEN], np.zeros((CHAINS, 3)))
+    tilt = tilt_to(scene.view, normal, scene.linearised.centre_m)
     bend = tilt_variance(covariance)
     hidden = tilt - STEEPEST_RAD > SURELY_SD * np.sqrt(bend + STEEPEST_SD_RAD**2)
     return back & (hidden | beyond_reach(mean, covariance)[:, None])

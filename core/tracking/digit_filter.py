@@ -15,27 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.hand_geometry import (
-    CHAINS,
-    CONSTANTS,
-    DISCS,
-    SLOTS,
-    digit_discs_m,
-    digit_frames,
-    digit_joints_m,
-    slope_by_constants,
-)
+from carpus.core.compiled import digits
+from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, predicted
 from carpus.core.tracking.unscented import Spread, Weights, weights_for
 from carpus.core.types import FloatArray
 
-FLOOR = 1e-14
 _SLOT = np.arange(SLOTS)
-_ROLL = 4
-_BENT = np.arange(SLOTS + 1)
-_OTHER_CONSTANT = np.delete(np.arange(CONSTANTS), _ROLL)
-_BENT_STATE, _OTHER_STATE = np.append(_SLOT, SLOTS + _ROLL), SLOTS + _OTHER_CONSTANT
 
 JOINTS, RATES = slice(0, SLOTS), slice(SLOTS, 2 * SLOTS)
 ANATOMY = slice(RATES.stop, RATES.stop + CONSTANTS)
@@ -43,7 +29,6 @@ ANATOMY = slice(RATES.stop, RATES.stop + CONSTANTS)
 DIGIT_SIZE = ANATOMY.stop
 SEEN = np.r_[JOINTS, ANATOMY]
 """States on which the discs depend."""
-_BENT_AT, _OTHER_AT = SEEN[_BENT_STATE], SEEN[_OTHER_STATE]
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,53 +134,16 @@ class DigitPoints:
     mean: FloatArray
     covariance: FloatArray
 
-    @staticmethod
-    def to_be_filled(mean: FloatArray | None = None, covariance: FloatArray | None = None) -> DigitPoints:
-        """Before a kernel has worked them out."""
-        bends, others = _BENT.size, _OTHER_CONSTANT.size
-        return DigitPoints(
-            np.empty((CHAINS, 2 * bends + 1, DISCS, 3)),
-            np.empty((CHAINS, bends, bends)),
-            np.empty((CHAINS, bends, others)),
-            np.empty((CHAINS, DISCS, 3, others)),
-            np.empty((CHAINS, DISCS, 3)),
-            np.empty((CHAINS, DIGIT_SIZE)) if mean is None else mean,
-            np.empty((CHAINS, DIGIT_SIZE, DIGIT_SIZE)) if covariance is None else covariance,
-        )
-
-    @property
-    def parts(self) -> tuple[FloatArray, ...]:
-        """What a kernel fills in."""
-        return self.disc_m, self.unroot, self.along, self.by_constants, self.normal
-
 
 def bent_weights(spread: Spread) -> Weights:
     """Weights of the points."""
-    return weights_for(_BENT.size, spread)
+    return weights_for(digits.BENT.size, spread)
 
 
 def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> DigitPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
-    if (kernels := in_c()) is not None:
-        points = DigitPoints.to_be_filled(mean, covariance)
-        kernels.digits_spread(mean, covariance, root_disc_m, FLOOR, bent_weights(spread).scale, *points.parts)
-        return points
-    bent, other = _BENT_AT, _OTHER_AT
-    block = covariance[:, bent[:, None], bent]
-    block[:, _BENT, _BENT] += FLOOR
-    root = np.asarray(np.linalg.cholesky(block), dtype=np.float64)
-    unroot = np.asarray(np.linalg.inv(root), dtype=np.float64)
-    along = unroot @ covariance[:, bent[:, None], other]
-    scale = weights_for(_BENT.size, spread).scale
-    point = np.repeat(mean[:, None, SEEN], 2 * _BENT.size + 1, axis=1)
-    step = np.empty((CHAINS, _BENT.size, SLOTS + CONSTANTS))
-    step[..., _BENT_STATE], step[..., _OTHER_STATE] = np.swapaxes(root, 1, 2) * scale, along * scale
-    point[:, 1 : _BENT.size + 1] += step
-    point[:, _BENT.size + 1 :] -= step
-    state = point[:, 0]
-    frames = digit_frames(state)
-    by_constants = slope_by_constants(state, frames, digit_joints_m(root_disc_m, state, frames))[..., _OTHER_CONSTANT]
-    return DigitPoints(digit_discs_m(root_disc_m, point), unroot, along, by_constants, frames.normal, mean, covariance)
+    found = digits.spread_points(mean, covariance, root_disc_m, bent_weights(spread).scale)
+    return DigitPoints(*found, mean, covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,36 +181,5 @@ class DigitsLinearisation(Linearisation):
 
 def digits_linearised(points: DigitPoints, view: DigitView, spread: Spread) -> DigitsLinearisation:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
-    count = _BENT.size
-    weights = weights_for(count, spread)
-    if (kernels := in_c()) is not None:
-        camera, seen = view.camera, 3 * DISCS
-        linearised = DigitsLinearisation(
-            np.empty((CHAINS, seen)), np.empty((CHAINS, seen, DIGIT_SIZE)), np.empty((CHAINS, seen, seen)), points.mean,
-            np.empty((CHAINS, seen, seen)), np.empty((CHAINS, DISCS, 3)), np.empty((CHAINS, DISCS, 3, 3)),
-        )  # fmt: skip
-        kernels.digits_linearised(
-            points.disc_m, points.unroot, points.along, points.by_constants, points.covariance, view.rotation,
-            view.translation_m, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, weights.numbers,
-            linearised.value, linearised.slope, linearised.error, linearised.spread, linearised.centre_m,
-            linearised.by_place,
-        )  # fmt: skip
-        return linearised
-    image = view.observe(points.disc_m).reshape(CHAINS, 2 * count + 1, 3 * DISCS)
-    value: FloatArray = weights.mean @ image
-    plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]
-    half = (plus - minus) * (0.5 / weights.scale)  # (5, 6, 9): slope in the axes of the root
-    # The even part of the spread is what nothing linear can follow.
-    bend = 0.5 * (plus + minus) - value[:, None]
-    error = (2.0 * weights.covariance[1]) * (np.swapaxes(bend, 1, 2) @ bend)
-    middle = image[:, :1] - value[:, None]
-    error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
-    by_place = view.camera.slope(image[:, 0].reshape(CHAINS, DISCS, 3))
-    by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(CHAINS, 3 * DISCS, -1)
-    own = half - points.along @ np.swapaxes(by_constants, 1, 2)
-    slope = np.zeros((CHAINS, 3 * DISCS, DIGIT_SIZE))
-    slope[:, :, _BENT_AT] = np.swapaxes(own, 1, 2) @ points.unroot
-    slope[:, :, _OTHER_AT] = by_constants
-    spread_out = slope @ points.covariance @ np.swapaxes(slope, 1, 2) + error
-    centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
-    return DigitsLinearisation(value, slope, error, points.mean, spread_out, centre, by_place)
+    value, slope, error, whole, centre_m, by_place = digits.linearised(points, view, bent_weights(spread))
+    return DigitsLinearisation(value, slope, error, points.mean, whole, centre_m, by_place)

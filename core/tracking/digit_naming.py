@@ -8,35 +8,17 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.kernels.choice import Kernels, in_c
 from carpus.core.tracking.association import (
-    DEPTH_OUTLIER,
-    IMPOSSIBLE,
     AssociationSettings,
     is_jointly_compatible,
-    log_densities,
-    most_chi2_row,
 )
 from carpus.core.tracking.digit_association import (
-    BENDS,
-    CLUTTER,
-    HIDDEN_S,
     MAX_SEEN,
-    MERGED_FROM,
-    MERGED_SHARE,
-    MIN_SEEN,
-    SHOWN_S,
-    SKIN_PX,
-    STEEPEST_RAD,
-    STEEPEST_SD_RAD,
-    WAS_SEEN,
-    DigitAssignment,
     DigitScene,
     UpdatedDigits,
     associate_digits,
     beyond_reach,
     far_digits,
-    jointly_checked,
     seen_chance,
     tilt_to,
     tilt_variance,
@@ -44,11 +26,9 @@ from carpus.core.tracking.digit_association import (
     without,
 )
 from carpus.core.tracking.digit_filter import (
-    DIGIT_SIZE,
     SEEN,
     DigitPoints,
     DigitsLinearisation,
-    bent_weights,
     digits_linearised,
     spread_points,
 )
@@ -56,9 +36,9 @@ from carpus.core.tracking.digit_readout import Seat
 from carpus.core.tracking.digit_search import MIN_DISCS, search_digits
 from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
 from carpus.core.tracking.finger_model import FingerModel
-from carpus.core.tracking.hand_geometry import CHAINS, CROWDED_PX, CROWDED_RADII, DISCS, SHOWS, SLOTS, PalmInBody
-from carpus.core.tracking.kernel import ModeMixture, Update, like
-from carpus.core.tracking.palm_association import SHADE_SHARE, WHOLE_FROM, Measurements
+from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, PalmInBody
+from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.predicted_measurement import PredictedDigits, adapted_factor
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, SurfaceSamples
@@ -278,8 +258,6 @@ class DigitNaming:
         return search_digits(chains, points.mean[:, SEEN], self._memory.palm.disc_m[1:], point)
 
     def _tried(self, estimates: ModeMixture, points: DigitPoints, picture: DigitPicture) -> FingerTrial:
-        if (kernels := in_c()) is not None:
-            return self._tried_in_c(kernels, estimates, points, picture)
         seat = picture.seat
         linearised = digits_linearised(points, seat.view, self._settings.spread)
         visibility = disc_visibility(points, linearised, seat, self._memory.visible, picture.dt_s)
@@ -303,53 +281,6 @@ class DigitNaming:
         named = associate_digits(estimates, scene, self._settings)
         disc_m2 = areas_m2(named, picture.area_px, visibility.tilt_rad, visibility.facing_m2)
         return FingerTrial(seat, scene, named, disc_m2, {})
-
-    def _tried_in_c(
-        self, kernels: Kernels, estimates: ModeMixture, points: DigitPoints, picture: DigitPicture
-    ) -> FingerTrial:
-        """The same in one kernel, up to what becomes of names that are not jointly compatible."""
-        settings, memory, seat, blobs = self._settings, self._memory, picture.seat, picture.blobs
-        names, noise = settings.association, settings.noise
-        area_px, free, learning = picture.area_px, picture.free, self._model.learning(seat)
-        camera, out, seen = seat.view.camera, like(estimates), 3 * DISCS
-        nine, square = np.empty((4, CHAINS, seen)), np.empty((4, CHAINS, seen, seen))
-        rows = np.empty((5, CHAINS, DISCS))
-        value, measured, variance, residual = nine
-        error, by_digits, by_palm, by_both = square
-        visible, tilt_rad, facing_m2, whole_px, disc_m2 = rows
-        slope = np.empty((CHAINS, seen, DIGIT_SIZE))
-        centre_m, by_place = np.empty((CHAINS, DISCS, 3)), np.empty((CHAINS, DISCS, 3, 3))
-        assigned, with_depth = np.empty((CHAINS, DISCS), dtype=np.int64), np.empty((CHAINS, DISCS), dtype=np.bool_)
-        nis, dof = np.empty(CHAINS), np.empty(CHAINS, dtype=np.int64)
-        ordinary, settled = np.empty((2, 1), dtype=np.bool_)
-        kernels.digits_named(
-            self._model.scales.size, len(blobs), *points.parts, points.mean, points.covariance, seat.view.rotation,
-            seat.view.translation_m, seat.pose_covariance, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
-            bent_weights(settings.spread).numbers, BENDS, memory.visible, picture.dt_s, SHOWN_S, HIDDEN_S,
-            STEEPEST_RAD, STEEPEST_SD_RAD, MIN_SEEN, MAX_SEEN, MIN_FACING, blobs.value,
-            blobs.variance, area_px, free, memory.disc_m2, memory.noise_factor, self._model.has_discs,
-            *log_densities(self._model.resolution_px2 / CLUTTER, DEPTH_OUTLIER, names), names.gate_sd**2,
-            IMPOSSIBLE, math.log(names.prior_marker / names.prior_clutter), WHOLE_FROM, SHADE_SHARE,
-            settings.marker_radius_m, CROWDED_RADII, CROWDED_PX, MERGED_FROM, MERGED_SHARE,
-            noise.pixel_sd_px, SKIN_PX, FLAT_RAD, learning, estimates.mean, estimates.covariance,
-            estimates.probability, nine, square, rows, slope, centre_m, by_place, out.mean, out.covariance,
-            out.probability, assigned, with_depth, nis, dof, most_chi2_row(names.consistent), WAS_SEEN, ordinary,
-            settled,
-        )  # fmt: skip
-        scene = DigitScene(
-            points.covariance, DigitsLinearisation(value, slope, error, points.mean, by_digits, centre_m, by_place),
-            by_both, by_palm, visible, blobs, free, area_px, whole_px, memory.disc_m2, memory.noise_factor,
-            self._model.resolution_px2, seat.view, learning, self._model.has_discs,
-        )  # fmt: skip
-        if not ordinary.item():
-            named = associate_digits(estimates, scene, settings)
-        else:
-            update = Update(out, nis, dof, residual)
-            first = UpdatedDigits(DigitAssignment(assigned, with_depth), update, measured, variance)
-            named = first if settled.item() else jointly_checked(first, estimates, scene, settings)
-            if named is first:
-                return FingerTrial(seat, scene, named, disc_m2, {})
-        return FingerTrial(seat, scene, named, areas_m2(named, area_px, tilt_rad, facing_m2), {})
 
 
 @dataclass(frozen=True, slots=True)

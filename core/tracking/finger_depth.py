@@ -7,12 +7,10 @@ phalanx it would have. Neighbouring frames err alike, so that what one says is t
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.digit_filter import SEEN, DigitView
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected
@@ -34,7 +32,7 @@ MIN_SD_RAD, MAX_SD_RAD = 0.14, 0.45
 """Of what one picture says; beyond the second it is not asked."""
 ALIKE = 8.0
 """So many frames err as one."""
-ALONG = (0.35, 0.6, 0.85, 1.05)
+ALONG = np.array([0.35, 0.6, 0.85, 1.05])
 """Shares of the proximal phalanx's length, at which its back is looked for."""
 BENDS_RAD = np.radians(np.arange(-20.0, 112.5, 5.0))
 """The bends (Q,) that are weighed: all that a knuckle can do, in steps far below what one picture tells."""
@@ -65,44 +63,28 @@ def knuckle_bends(
     samples: SurfaceSamples,
 ) -> KnuckleBends:
     """What the readings say of the digits ``asked`` (fingers), means (5, n), that begin under ``root_m`` (5, 3)."""
-    out = KnuckleBends.none()
-    bend_rad, share = BENDS_RAD, np.array(ALONG)
-    if (kernels := in_c()) is not None:
-        camera = view.camera
-        kernels.knuckles_bent(
-            len(asked), np.array(asked), mean, root_m, view.rotation, view.translation_m, camera.fx_px, camera.fy_px,
-            camera.cx_px, camera.cy_px, len(samples.depth_m), samples.pixel, samples.depth_m, FINGER_STEP_PX,
-            bend_rad.size, bend_rad, share.size, share, NEAR_M, STEEP_M, FACING_SHARE,
-            MAX_PAST, MAX_BEFORE, NOTHING, MAX_SD_RAD, MIN_SD_RAD,
-            ALIKE, out.value_rad, out.variance_rad2,
-        )  # fmt: skip
-        return out
-    depth_at = _lattice(samples)
-    sin, cos = np.sin(bend_rad), np.cos(bend_rad)
-    for chain in asked:
-        state = mean[chain, SEEN]
-        azimuth = state[_FAN] + state[0]
-        ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-        up = np.array([0.0, 0.0, 1.0])
-        knuckle = root_m[chain] + state[_START] * _DOWN
-        along = cos[:, None] * ahead - sin[:, None] * up  # (Q, 3)
-        normal = sin[:, None] * ahead + cos[:, None] * up
-        reach = share * state[_LENGTH]
-        place = knuckle + reach[None, :, None] * along[:, None] + state[_HEIGHT] * normal[:, None]  # (Q, P, 3)
-        seen = view.observe(place)
-        past_m = depth_at(seen[..., :2]) - seen[..., 2]
-        facing = -(normal @ view.rotation.T)[:, 2]
-        near_m = np.where(facing > FACING_SHARE, NEAR_M, STEEP_M)[:, None]
-        cost = 0.5 * (past_m / near_m) ** 2
-        cost = np.where(past_m > 0.0, np.minimum(cost, MAX_PAST), np.minimum(cost, MAX_BEFORE))
-        total = np.where(np.isfinite(past_m), cost, NOTHING).sum(axis=1)
-        weight = np.exp(total.min() - total)
-        weight /= weight.sum()
-        value = float(weight @ bend_rad)
-        variance = float(weight @ (bend_rad - value) ** 2)
-        if variance < MAX_SD_RAD**2:
-            out.value_rad[chain] = value
-            out.variance_rad2[chain] = ALIKE * max(variance, MIN_SD_RAD**2)
+    state = mean[asked][:, SEEN]
+    azimuth = (state[:, _FAN] + state[:, 0])[:, None]
+    sin, cos = np.sin(BENDS_RAD), np.cos(BENDS_RAD)
+    along, normal = np.empty((2, len(asked), BENDS_RAD.size, 3))
+    along[..., 0], along[..., 1], along[..., 2] = cos * np.cos(azimuth), cos * np.sin(azimuth), -sin
+    normal[..., 0], normal[..., 1], normal[..., 2] = sin * np.cos(azimuth), sin * np.sin(azimuth), cos
+    knuckle = root_m[asked] + state[:, _START] * _DOWN
+    back = knuckle[:, None] + state[:, _HEIGHT, None, None] * normal
+    reach = ALONG * state[:, _LENGTH, None]
+    seen = view.observe(back[:, :, None] + reach[:, None, :, None] * along[:, :, None])  # (A, Q, P, 3)
+    past_m = _nearest_m(samples, seen[..., :2]) - seen[..., 2]
+    stray_m = np.where(-(normal @ view.rotation[2]) > FACING_SHARE, NEAR_M, STEEP_M)
+    cost = np.minimum(0.5 * (past_m / stray_m[..., None]) ** 2, np.where(past_m > 0.0, MAX_PAST, MAX_BEFORE))
+    total = np.where(np.isfinite(past_m), cost, NOTHING).sum(axis=-1)
+    weight = np.exp(total.min(axis=-1, keepdims=True) - total)
+    weight /= weight.sum(axis=-1, keepdims=True)
+    value = weight @ BENDS_RAD
+    variance = (weight * (BENDS_RAD - value[:, None]) ** 2).sum(axis=-1)
+    is_told = variance < MAX_SD_RAD**2
+    chains, out = np.array(asked)[is_told], KnuckleBends.none()
+    out.value_rad[chains] = value[is_told]
+    out.variance_rad2[chains] = ALIKE * np.maximum(variance[is_told], MIN_SD_RAD**2)
     return out
 
 
@@ -116,17 +98,13 @@ def with_bends(mixture: ModeMixture, bends: KnuckleBends) -> ModeMixture:
     return corrected(mixture, linearised, bends.value_rad[:, None], bends.variance_rad2[:, None]).mixture
 
 
-def _lattice(samples: SurfaceSamples) -> Callable[[FloatArray], FloatArray]:
+def _nearest_m(samples: SurfaceSamples, pixel: FloatArray) -> FloatArray:
     """Depth of the nearest reading to pixels (..., 2), NaN where there is none within a step."""
     cell = np.rint(samples.pixel / FINGER_STEP_PX).astype(np.int64)
-    low = cell.min(axis=0)
-    size = cell.max(axis=0) - low + 1
-    grid = np.full((size[1] + 2, size[0] + 2), np.nan)
-    grid[cell[:, 1] - low[1] + 1, cell[:, 0] - low[0] + 1] = samples.depth_m
-
-    def depth_at(pixel: FloatArray) -> FloatArray:
-        at = np.rint(pixel / FINGER_STEP_PX).astype(np.int64) - low + 1
-        column, row = np.clip(at[..., 0], 0, size[0] + 1), np.clip(at[..., 1], 0, size[1] + 1)
-        return np.asarray(grid[row, column])
-
-    return depth_at
+    low = cell.min(axis=0) - 1
+    columns, rows = cell.max(axis=0) - low + 2
+    grid = np.full((rows, columns), np.nan)
+    grid[cell[:, 1] - low[1], cell[:, 0] - low[0]] = samples.depth_m
+    at = np.rint(pixel / FINGER_STEP_PX).astype(np.int64) - low
+    column, row = np.clip(at[..., 0], 0, columns - 1), np.clip(at[..., 1], 0, rows - 1)
+    return np.asarray(grid[row, column])

@@ -16,10 +16,8 @@ from carpus.core.hand.anatomy_prior import AnatomyPrior
 from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import DIGITS, SITES, MarkerProtocol
-from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.tracking.digit_filter import (
     DIGIT_SIZE,
-    FLOOR,
     JOINTS,
     RATES,
     SEEN,
@@ -27,7 +25,6 @@ from carpus.core.tracking.digit_filter import (
     DigitPoints,
     DigitsLinearisation,
     Forgetting,
-    bent_weights,
     spread_points,
 )
 from carpus.core.tracking.digit_readout import DigitReadout, Seat
@@ -43,7 +40,7 @@ from carpus.core.tracking.hand_geometry import (
     palm_of,
 )
 from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, settled
-from carpus.core.tracking.kernel import ModeMixture, like, switching
+from carpus.core.tracking.kernel import ModeMixture, switching
 from carpus.core.tracking.motion import MODE_DWELL_S, RATE_MEMORY_S, REFERENCE_DT_S
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
@@ -206,12 +203,6 @@ class FingerModel:
         self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._stationary2)
         drift = DRIFT_PER_S * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
         self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, SETTLES_S)
-        parts = (
-            (SETTLES_S, MODE_DWELL_S, RATE_MEMORY_S, RANGE_AFTER_S), sd**2 * REFERENCE_DT_S,
-            stationary2, self._moves, RANGE_SD_RAD**2, drift, self.scales**2,
-        )  # fmt: skip
-        self._numbers = np.concatenate([np.ravel(part) for part in parts])
-        """Of this what goes into a step, in one row for the kernel."""
 
     def at_neutral(self) -> ModeMixture:
         """At the neutral pose, at rest."""
@@ -288,10 +279,6 @@ class FingerModel:
         """
         if dt_s <= 0.0:
             return estimates
-        if (kernels := in_c()) is not None and self._is_plain(dt_s):
-            out = like(estimates)
-            self._stepped(kernels, estimates, unseen_s, dt_s, NOTHING, out, (NOTHING,) * 7)
-            return out
         switch = switching(self.scales.size, MODE_DWELL_S, dt_s)
         mean = (estimates.probability[:, None] @ estimates.mean)[:, 0]
         if dt_s >= RANGE_AFTER_S:
@@ -305,33 +292,8 @@ class FingerModel:
         self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float, root_disc_m: FloatArray
     ) -> tuple[ModeMixture, DigitPoints]:
         """The digits ``dt_s`` later, and sigma points of them under ``root_disc_m`` (5, 3)."""
-        if (kernels := in_c()) is not None and dt_s > 0.0 and self._is_plain(dt_s):
-            out, points = like(estimates), DigitPoints.to_be_filled()
-            into = points.mean, points.covariance, *points.parts
-            self._stepped(kernels, estimates, unseen_s, dt_s, root_disc_m, out, into)
-            return out, points
         ahead = self.predicted(estimates, unseen_s, dt_s)
         return ahead, spread_points(*ahead.merged(), root_disc_m, self.settings.spread)
-
-    def _is_plain(self, dt_s: float) -> bool:
-        """Whether a step is so short that it is linear."""
-        return dt_s < min(RANGE_AFTER_S, GAP_S)
-
-    def _stepped(
-        self,
-        kernels: Kernels,
-        estimates: ModeMixture,
-        unseen_s: FloatArray,
-        dt_s: float,
-        root_disc_m: FloatArray,
-        out: ModeMixture,
-        points: tuple[FloatArray, ...],
-    ) -> None:
-        kernels.digits_ahead(
-            self.scales.size, dt_s, self._numbers, unseen_s, estimates.mean, estimates.covariance,
-            estimates.probability, root_disc_m, FLOOR, bent_weights(self.settings.spread).scale, out.mean,
-            out.covariance, out.probability, *points,
-        )  # fmt: skip
 
     def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """What becomes of the slots of digits at ``mean`` (5, n) that nothing shows; None where all are shown.

@@ -9,20 +9,16 @@ known ends up spread over its range.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.compiled.digits import within_limits
 from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
-from carpus.core.tracking.kernel import ModeMixture, like
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FloatArray
-
-_ROOT_HALF = math.sqrt(0.5)
-_ROOT_2_OVER_PI = math.sqrt(2.0 / math.pi)
 
 _NAMES = (
     ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion"),
@@ -63,49 +59,14 @@ def outside_limits(slots: FloatArray) -> FloatArray:
     return np.asarray(np.maximum(angles - limits[..., 1], 0.0) + np.minimum(angles - limits[..., 0], 0.0))
 
 
-def _softened(
-    mean: FloatArray, variance: FloatArray, edge: FloatArray, soft_rad: float
-) -> tuple[FloatArray, FloatArray]:
-    """Mean and variance after multiplication by a soft step up at ``edge``."""
-    from scipy.special import erfcx  # as long to load as all of NumPy, and of fingers alone
-
-    total = variance + soft_rad**2
-    z = (mean - edge) / np.sqrt(total)
-    # phi(z) / Phi(z) without underflow: Phi(z) = exp(-z^2/2) erfcx(-z/sqrt 2) / 2.
-    ratio = _ROOT_2_OVER_PI / erfcx(np.maximum(-z, -20.0) * _ROOT_HALF)
-    shifted = mean + variance * ratio / np.sqrt(total)
-    return shifted, variance - variance**2 * ratio * (z + ratio) / total
-
-
 def constrained(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
     """Estimates with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
 
     Each angle's pull is found by itself, then all pulls of a digit act together, as measurements with independent
     errors.
     """
-    angle = np.einsum("rks,rjs->rkj", estimates.mean[..., :SLOTS], _DIRECTION)
-    across = estimates.covariance[..., :SLOTS] @ np.swapaxes(_DIRECTION, 1, 2)[:, None]  # (5, K, n, 5)
-    shared = _DIRECTION[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)
-    variance = np.diagonal(shared, axis1=-2, axis2=-1)
-    limits = slot_limits_rad(slots)[:, None]
-    reach = NEAR_SD * np.sqrt(variance + SOFT_RAD**2)
-    near = (angle - reach < limits[..., 0]) | (angle + reach > limits[..., 1])
-    chain = np.flatnonzero(near.any(axis=(1, 2)))
-    if not chain.size:
-        return estimates
-    angle, variance, limits, near = angle[chain], variance[chain], limits[chain], near[chain]
-    lifted, narrowed = _softened(angle, variance, limits[..., 0], SOFT_RAD)
-    lowered, narrowed = _softened(-lifted, narrowed, -limits[..., 1], SOFT_RAD)
-    known = near & (variance > 1e-9)
-    safe, narrowed = np.where(known, variance, 1.0), np.where(known, narrowed, 1.0)
-    precision = np.where(known, np.maximum(1.0 / narrowed - 1.0 / safe, 0.0), 0.0)
-    pull = np.where(known, -lowered / narrowed - angle / safe - precision * angle, 0.0)
-    inner = np.eye(SLOTS) + precision[..., None] * shared[chain]
-    gain = np.swapaxes(np.linalg.solve(np.swapaxes(inner, -1, -2), np.swapaxes(across[chain], -1, -2)), -1, -2)
-    mean, covariance = estimates.mean.copy(), estimates.covariance.copy()
-    mean[chain] += (gain @ pull[..., None])[..., 0]
-    covariance[chain] -= (gain * precision[..., None, :]) @ np.swapaxes(across[chain], -1, -2)
-    return ModeMixture(mean, covariance, estimates.probability)
+    found = within_limits(estimates, slot_limits_rad(slots), _DIRECTION, SOFT_RAD, NEAR_SD)
+    return estimates if found is None else ModeMixture(*found, estimates.probability)
 
 
 def settled(
@@ -113,18 +74,6 @@ def settled(
 ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
     """Estimates :func:`constrained` and those merged, and digits (5,) that are ``most_beyond_rad`` beyond a limit even
     so."""
-    if (kernels := in_c()) is not None:
-        kept = replace(like(estimates), probability=estimates.probability)
-        merged, misread = (
-            (np.empty(kept.mean[:, 0].shape), np.empty(kept.covariance[:, 0].shape)),
-            np.empty(CHAINS, bool),
-        )
-        kernels.digits_settled(
-            kept.mean.shape[1], estimates.mean, estimates.covariance, estimates.probability, _LIMITS, _DIRECTION,
-            ABDUCTION_LIMIT_RAD, SOFT_RAD, NEAR_SD, most_beyond_rad, kept.mean, kept.covariance,
-            *merged, misread,
-        )  # fmt: skip
-        return kept, merged, misread
     merged = estimates.merged()
     kept = constrained(estimates, merged[0][:, :SLOTS])
     if kept is not estimates:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from carpus.core.camera import Camera
+from carpus.core.compiled.digits import BENT, OTHER, lay_out
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.anatomy_prior import constants_of
 from carpus.core.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
@@ -17,11 +18,7 @@ from carpus.core.tracking.hand_geometry import (
     CONSTANTS,
     SLOTS,
     JointReading,
-    digit_discs_m,
-    digit_frames,
-    digit_joints_m,
     direct_markers,
-    slope_by_constants,
 )
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
@@ -65,39 +62,34 @@ def state_of(anatomy: HandAnatomy, joints: FloatArray) -> FloatArray:
 def test_discs_and_joints_are_those_of_the_plain_chains(seed: int, dip_free: bool) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
-    frames = digit_frames(state)
-    assert np.allclose(
-        digit_discs_m(roots, state[:, None])[:, 0], disc_centres(anatomy, joints)[DIGIT_MARKERS], atol=1e-12
-    )
-    chain = digit_joints_m(roots, state, frames)
+    bone, normal, chain, disc_m = lay_out(state, roots)
+    assert np.allclose(disc_m, disc_centres(anatomy, joints)[DIGIT_MARKERS], atol=1e-12)
     plain = joint_centres(anatomy, joints)
     assert np.allclose(chain[:, 1:], plain[DIGIT_MARKERS], atol=1e-12)
     assert np.allclose(chain[:, 0], plain[DIGIT_MARKERS[:, 0] - 1], atol=1e-12)
     bones = segment_frames(anatomy, joints)
     direction = (bones.end_m - bones.start_m)[1:].reshape(CHAINS, 3, 3)
     direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
-    assert np.allclose(frames.direction, direction, atol=1e-12)
-    assert np.allclose(np.linalg.norm(frames.normal, axis=-1), 1.0, atol=1e-12)
-    assert np.allclose(frames.normal[:, 2], bones.dorsal_normal[1:].reshape(CHAINS, 3, 3)[:, 2], atol=1e-12)
+    assert np.allclose(bone, direction, atol=1e-12)
+    assert np.allclose(np.linalg.norm(normal, axis=-1), 1.0, atol=1e-12)
+    assert np.allclose(normal[:, 2], bones.dorsal_normal[1:].reshape(CHAINS, 3, 3)[:, 2], atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_slope_by_the_constants_is_that_of_small_differences(seed: int) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free=True)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
-    frames = digit_frames(state)
-    slope = slope_by_constants(state, frames, digit_joints_m(roots, state, frames))
+    mean = np.zeros((CHAINS, DIGIT_SIZE))
+    mean[:, SEEN] = state
+    covariance = np.broadcast_to(np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE))
+    slope = spread_points(mean, covariance, roots, Spread()).by_constants
     step = 1e-6
-    for constant in range(CONSTANTS):
+    for column, constant in enumerate(OTHER):
         ahead, back = state.copy(), state.copy()
-        ahead[:, SLOTS + constant] += step
-        back[:, SLOTS + constant] -= step
-        by_difference = (digit_discs_m(roots, ahead[:, None]) - digit_discs_m(roots, back[:, None]))[:, 0] / (
-            2.0 * step
-        )
-        if constant == 4:  # only the thumb has a roll
-            by_difference = by_difference[:1]
-        assert np.allclose(slope[: len(by_difference), ..., constant], by_difference, atol=1e-8), constant
+        ahead[:, constant] += step
+        back[:, constant] -= step
+        by_difference = (lay_out(ahead, roots)[3] - lay_out(back, roots)[3]) / (2.0 * step)
+        assert np.allclose(slope[..., column], by_difference, atol=1e-8), constant
 
 
 def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
@@ -112,14 +104,14 @@ def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
     linearised = digits_linearised(spread_points(mean, covariance, roots, Spread()), view, Spread())
 
     def images(about: FloatArray) -> FloatArray:
-        point = digit_discs_m(roots, about[:, None, SEEN])[:, 0] @ down.T + view.translation_m
+        point = lay_out(about[:, SEEN], roots)[3] @ down.T + view.translation_m
         z = point[..., 2]
         return np.stack(
             (525.0 * point[..., 0] / z + 319.5, 530.0 * point[..., 1] / z + 239.5, z), axis=-1
         ).reshape(CHAINS, 9)  # fmt: skip
 
     assert np.allclose(linearised.value, images(mean), atol=1e-3)
-    for slot in range(SLOTS):
+    for slot in SEEN[BENT]:  # the roll among them
         ahead, back = mean.copy(), mean.copy()
         ahead[:, slot] += 1e-5
         back[:, slot] -= 1e-5

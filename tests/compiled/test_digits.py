@@ -1,0 +1,207 @@
+"""Thumb and fingers, compiled, against NumPy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.compiled import digits as compiled
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.digit_filter import (
+    SEEN,
+    DigitPoints,
+    DigitsLinearisation,
+    bent_weights,
+    digits_linearised,
+    spread_points,
+)
+from carpus.core.tracking.digit_readout import Seat, seat_of
+from carpus.core.tracking.fingers import Fingers
+from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.hand_geometry import palm_of
+from carpus.core.tracking.joint_limits import _DIRECTION, NEAR_SD, SOFT_RAD, slot_limits_rad
+from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.readout import Readout
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.unscented import Spread
+from carpus.core.types import FloatArray
+from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
+from tests.compiled.oracle import digits as oracle
+from tests.compiled.test_mixture import covariances
+from tests.simulation.measurements import MeasurementSequence, measurement_sequence
+from tests.tracking.hands import CAMERA
+from tests.tracking.sequences import calibrated
+from tests.tracking.test_palm_filter import moving
+
+SETTINGS = TrackerSettings()
+Laid = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Hand:
+    """A calibrated hand whose palm sits somewhere, its digits bent at random."""
+
+    fingers: Fingers
+    seat: Seat
+    mean: FloatArray
+    covariance: FloatArray
+
+    @property
+    def root_m(self) -> FloatArray:
+        return self.seat.palm.disc_m[1:]
+
+    def points(self) -> DigitPoints:
+        return spread_points(self.mean, self.covariance, self.root_m, Spread())
+
+    def linearised(self) -> DigitsLinearisation:
+        return digits_linearised(self.points(), self.seat.view, Spread())
+
+    def limited(self, mixture: ModeMixture) -> tuple[Any, ...]:
+        """What the limits are asked with."""
+        return mixture, slot_limits_rad(mixture.mean[:, 0, :5]), _DIRECTION, SOFT_RAD, NEAR_SD
+
+
+@cache
+def sequence(side: str) -> MeasurementSequence:
+    return measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=1.5, hand=side))
+
+
+@cache
+def known(side: str) -> Calibration:
+    return calibrated(sequence(side))
+
+
+@cache
+def hand(side: str = "right", seed: int = 1, is_lost: bool = False) -> Hand:
+    """``is_lost``: its joints may be anywhere."""
+    rng = np.random.default_rng(seed)
+    fingers = Fingers(known(side), CAMERA, SETTINGS)
+    view = HandFilter(known(side), CAMERA, SETTINGS).view
+    estimate = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
+    seat = seat_of(estimate, view, Readout(palm_of(known(side)), view.camera, 6e-3))
+    mean, covariance = fingers.model.at_neutral().merged()
+    if is_lost:
+        return Hand(fingers, seat, *fingers.model.anywhere(mean, covariance).merged())
+    scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+    mean = mean + scale * rng.normal(size=mean.shape)
+    mean[:, :5] += rng.uniform(0.0, 1.2, size=(5, 5))
+    return Hand(fingers, seat, mean, covariances(rng, 5, 21) * scale[:, :, None] * scale[:, None])
+
+
+HANDS = [("right", 0, False), ("right", 1, False), ("left", 1, False), ("right", 1, True)]
+
+
+@pytest.mark.parametrize("which", HANDS)
+def test_points_and_their_images_are_the_oracles(which: tuple[str, int, bool]) -> None:
+    it = hand(*which)
+    points = it.points()
+    assert_same(points, oracle.spread_points(it.mean, it.covariance, it.root_m, Spread()))
+    linearised = it.linearised()
+    assert_same(linearised, oracle.digits_linearised(points, it.seat.view, Spread()))
+    found = compiled.inherited(it.covariance, it.seat, linearised, points.normal)
+    assert_same(found, oracle.inherited(it.covariance, it.seat, linearised, points.normal))
+
+
+def test_bones_joints_and_discs_are_the_oracles() -> None:
+    it, pose = hand(), hand().mean[:, SEEN]
+    bone, normal, joint_m, disc_m = compiled.lay_out(pose, it.root_m)
+    frames = oracle.digit_frames(pose)
+    expected_m = oracle.digit_discs_m(it.root_m, pose[:, None])
+    assert_same((bone, normal), frames)
+    assert_same((joint_m, disc_m), (oracle.digit_joints_m(it.root_m, pose, frames), expected_m[:, 0]))
+    some = [0, 2]
+    many = np.repeat(pose[some, None], 4, axis=1) + np.linspace(0.0, 0.3, 4)[:, None]
+    assert_same(compiled.lay_discs(many, it.root_m[some], some), oracle.digit_discs_m(it.root_m[some], many, some))
+
+
+@pytest.mark.parametrize("modes", [1, 2])
+@pytest.mark.parametrize("wide", [1e-6, 1.0, 30.0])
+def test_limits_are_the_oracles(modes: int, wide: float) -> None:
+    it, rng = hand(), np.random.default_rng(15)
+    for bent_rad in (0.0, 0.7, -1.2, 2.5, 40.0):
+        mean = np.repeat(it.mean[:, None], modes, axis=1) + 0.01 * rng.normal(size=(5, modes, 21))
+        mean[:, :, :5] += bent_rad
+        asked = it.limited(
+            ModeMixture(mean, np.repeat(wide * it.covariance[:, None], modes, axis=1), np.ones((5, modes)))
+        )
+        found, expected = compiled.within_limits(*asked), oracle.within_limits(*asked)
+        assert (found is None) == (expected is None)
+        if found is not None:
+            assert_same(found, expected)
+
+
+def test_limits_far_from_all_angles_change_nothing() -> None:
+    bent = np.where(np.isin(np.arange(21), (1, 2)), 0.6, 0.0)
+    sure = ModeMixture(np.tile(bent, (5, 1, 1)), np.tile(1e-7 * np.eye(21), (5, 1, 1, 1)), np.ones((5, 1)))
+    assert oracle.within_limits(*hand().limited(sure)) is None
+    assert compiled.within_limits(*hand().limited(sure)) is None
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_arrays_stored_otherwise_give_the_same(layout: Laid) -> None:
+    it, weights = hand(), bent_weights(Spread())
+    points, linearised, pose = it.points(), it.linearised(), it.mean[:, SEEN]
+    mixture = it.fingers.model.alike(it.mean, it.covariance)
+    steps: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
+        (compiled.lay_out, (pose, it.root_m)),
+        (compiled.lay_discs, (pose[1:3, None], it.root_m[1:3], [1, 2])),
+        (compiled.spread_points, (it.mean, it.covariance, it.root_m, weights.scale)),
+        (compiled.linearised, (points, it.seat.view, weights)),
+        (compiled.inherited, (it.covariance, it.seat, linearised, points.normal)),
+        (compiled.within_limits, it.limited(mixture)),
+    ]
+    for step, of in steps:
+        assert_same(step(*(laid_out(one, layout) for one in of)), step(*of), 0.0)
+
+
+def test_an_unknown_digit_leaves_the_others_known() -> None:
+    it, others = hand(), [0, 1, 3, 4]
+    mean = it.mean.copy()
+    mean[2, 1] = np.nan
+    points = spread_points(mean, it.covariance, it.root_m, Spread())
+    linearised = digits_linearised(points, it.seat.view, Spread())
+    for found, whole in ((points, it.points()), (linearised, it.linearised())):
+        assert_same(laid_out(found, lambda one: one[others]), laid_out(whole, lambda one: one[others]), 0.0)
+    expected = oracle.spread_points(mean, it.covariance, it.root_m, Spread())
+    assert_same((points.disc_m, points.normal), (expected.disc_m, expected.normal))
+    assert_same(linearised.value, oracle.digits_linearised(expected, it.seat.view, Spread()).value)
+    asked = it.limited(it.fingers.model.alike(mean, it.covariance))
+    assert_same(compiled.within_limits(*asked), oracle.within_limits(*asked))
+
+
+def test_what_is_no_covariance_is_refused() -> None:
+    it = hand()
+    with pytest.raises(np.linalg.LinAlgError):
+        spread_points(it.mean, -it.covariance, it.root_m, Spread())
+    with pytest.raises(np.linalg.LinAlgError):
+        compiled.inherited(-it.covariance, it.seat, it.linearised(), it.points().normal)
+
+
+def test_sizes_that_do_not_fit_are_refused() -> None:
+    it, weights = hand(), bent_weights(Spread())
+    points, linearised, pose, view = it.points(), it.linearised(), it.mean[:, SEEN], it.seat.view
+    mixture = it.fingers.model.alike(it.mean, it.covariance)
+    _, limits, *rest = it.limited(mixture)
+    wrong: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
+        (compiled.lay_out, (it.mean, it.root_m)),
+        (compiled.lay_out, (pose, it.root_m[:4])),
+        (compiled.lay_discs, (pose[1:3, None], it.root_m[1:3], [1])),
+        (compiled.spread_points, (pose, it.covariance, it.root_m, 1.0)),
+        (compiled.spread_points, (it.mean, it.covariance[:, :20], it.root_m, 1.0)),
+        (compiled.spread_points, (it.mean.astype(np.float32), it.covariance, it.root_m, 1.0)),
+        (compiled.linearised, (replace(points, along=points.along[..., :9]), view, weights)),
+        (compiled.linearised, (points, replace(view, rotation=view.rotation[:2]), weights)),
+        (compiled.inherited, (it.covariance[:4], it.seat, linearised, points.normal)),
+        (compiled.inherited, (it.covariance, replace(it.seat, turn_covariance=np.eye(6)), linearised, points.normal)),
+        (compiled.within_limits, (mixture, limits[:, :4], *rest)),
+        (compiled.within_limits, (replace(mixture, covariance=mixture.covariance[..., :20]), limits, *rest)),
+    ]
+    for step, of in wrong:
+        with pytest.raises(ValueError, match=r"size|dtype|dimensions"):
+            step(*of)
