@@ -17,7 +17,6 @@ NO_CHOICE = {
         "tracking/association": "IMPOSSIBLE",
         "tracking/joint_limits": "_WIDE",
         "tracking/kernel": "_LEAST_PROBABILITY",
-        "tracking/palm_state": "FLOOR",
         "tracking/surface_fit": "_NO_NOISE",
     },
     "what is asked of a hand and how it is drawn; no angle is made of it": {

@@ -25,8 +25,8 @@ class BackSurface:
     slope_y: FloatArray
     middle_m: FloatArray
 
-    _plane: FloatArray = field(init=False, repr=False, compare=False)
-    _to_node: FloatArray = field(init=False, repr=False, compare=False)
+    plane: FloatArray = field(init=False, repr=False, compare=False)
+    to_node: FloatArray = field(init=False, repr=False, compare=False)
     """Worked out once: the plane of every node and of a border about the grid (nodes, 4), and what makes of a place and
     1 the number of its column and row there (4, 2)."""
 
@@ -43,24 +43,8 @@ class BackSurface:
         to_node = np.zeros((4, 2))
         to_node[0, 0] = to_node[1, 1] = 1.0 / self.step_m
         to_node[3] = (self.middle_m[:2] - self.origin_m) / self.step_m + 1.0
-        object.__setattr__(self, "_plane", plane.reshape(-1, 4))
-        object.__setattr__(self, "_to_node", to_node)
-
-    def under(self, in_other: FloatArray, from_other: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Places (S, 4) from the surface's middle, with 1, and the planes (S, 4) under them: unit normal,
-        and what added to the place along it gives how high it lies over the surface, a kilometre where there is none.
-
-        ``in_other`` (S, 4) places and 1 in other axes, ``from_other`` (4, 4) from there to the surface's about its
-        middle, applied to rows.
-        """
-        rows, columns = self.height_m.shape
-        place = in_other @ np.concatenate((from_other, from_other @ self._to_node), axis=1)
-        node = place[:, 4:]
-        np.rint(node, out=node)
-        np.maximum(node, 0.0, out=node)
-        np.minimum(node, (columns + 1.0, rows + 1.0), out=node)
-        index = (node[:, 1] * (columns + 2) + node[:, 0]).astype(np.int64)
-        return place[:, :4], self._plane.take(index, axis=0)
+        object.__setattr__(self, "plane", plane.reshape(-1, 4))
+        object.__setattr__(self, "to_node", to_node)
 
     def places_m(self) -> FloatArray:
         """The known nodes (N, 3) in W0."""

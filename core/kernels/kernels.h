@@ -35,57 +35,7 @@ KERNEL int merged(
     double whole_mean[chains * size], double whole[chains * size * size]);
 
 /* palm.c */
-KERNEL int palm_sighted(
-    int modes, const double mean[modes * 54], const double *probability, const double *value, const double *covariance,
-    const double *rotation, const double *view, const double *weights, double floor, double *line, double *slope,
-    double *error, double *out_mean, double *out_covariance);
-KERNEL int palm_predicted(
-    int modes, int tissues, int resting, int scales, double dt,
-    const double motion[7 + 2 * modes + tissues * (462 + tissues)], double thumb, double fingers, double news, double stale,
-    const double *view, const double *weights, double floor, const double *unseen, const double mean[modes * 54],
-    const double *covariance, const double *probability, const double *value, const double *rotation, double *out_mean,
-    double *out_covariance, double *out_probability, double *out_value, double *out_rotation, double *whole,
-    double *partial, double *line, double *slope, double *error, double *expected, double *expected_covariance);
-KERNEL int palm_named(
-    int modes, int blobs, const double *expected, const double *covariance, const double value[blobs * 3],
-    const double variance[blobs * 3], const double *noise_factor, double prior, double depth_range, double outlier,
-    double gate2, double impossible, int enough, const double *most_nis, int most_outliers, double outlier_sd,
-    const double mean[modes * 54], const double *wide, const double *probability, const double *line, const double *slope,
-    const double *error, const double *partial, double *out_mean, double *out_covariance, double *out_probability,
-    int64_t *assigned, uint8_t *used, double *residual, double *raw, double *nis, int64_t *dof, uint8_t *ordinary);
-KERNEL int palm_reset(
-    int modes, const double mean[modes * 54], const double *covariance, const double *probability, const double *value,
-    const double *rotation, int count, const double pixel[count * 2], const double depth[count], const double *view, int rows,
-    int columns, const double *plane, const double *to_node, const double *middle, int steps, double huber, double most,
-    int least, double share_in, double reading_per_m, double turn_sd, double up_sd, double goes_on, double most_nis,
-    const double *partial, double *out_mean, double *out_covariance, double *out_probability, double *whole,
-    double *out_value, double *out_rotation, uint8_t *levelled);
-KERNEL int wrist_read(
-    const double *known, const double *sensitivity, const double *about, double most_m, const double *place,
-    const double *value, const double *rotation, const double *covariance, const double *start, const double *stays,
-    double side, double undefined_below, double *axes, double *position, double *shown, double *rate, double *angles,
-    double *sd, double *zyz, uint8_t *is_near);
-KERNEL int palm_seat(
-    const double *known, const double *sensitivity, const double *about, double most_m, const double *disc,
-    double metacarpal_m, double mirror, const double *value, const double *rotation, const double *covariance,
-    const double *view, double *axes, double *origin, double *disc_m, double *cup, double *cup_sd, double *to_camera,
-    double *at, double *pose, double *turn_covariance, uint8_t *is_near);
-KERNEL int markers_told(
-    int markers, int blobs, const int64_t source[markers], const int64_t *palm_blob, const double *palm_expected,
-    const double *palm_covariance, const double *palm_off, const double *value, const double *rotation, const double *view,
-    const int64_t *digit_blob, const double *digit_expected, const double *digit_covariance, const double *digit_off,
-    const double *digit_m, const double pixel[blobs * 2], const double depth[blobs], double pixel_sd,
-    int64_t blob[markers], double seen_px[markers * 2], double seen_m[markers], double expected_px[markers * 2],
-    double expected_px2[markers * 4], double disc_m[markers * 3], int64_t *worst);
-KERNEL int adapted_factors(
-    int markers, const double factor[markers * 3], const double residual[markers * 3],
-    const uint8_t measured[markers * 3], double weight, double least, double most, double out[markers * 3]);
 
-KERNEL int blobs_worth(
-    int blobs, const double pixel[blobs * 2], const double depth[blobs], const double depth_sd[blobs],
-    const double area[blobs], int use_depth, double radius_px, double shade, double whole_from, double pixel_sd,
-    double depth_ratio, double fixed_m, double square_per_m, int averages, double share, double patch,
-    double stays_fixed, double stays_square, double value[blobs * 3], double variance[blobs * 3]);
 
 /* detection.c */
 KERNEL int blobs_found(

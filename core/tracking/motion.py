@@ -13,17 +13,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core import so3
-from carpus.core.tracking.kernel import ModeMixture, Transition, switching, transitioned
-from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SKIN, SOFT, TURN, VELOCITY, PalmEstimate
+from carpus.core.compiled.palm import move_palm, switch_modes
+from carpus.core.tracking.kernel import ModeMixture, Transition, transitioned
+from carpus.core.tracking.palm_state import POSITION, RATE, SIZE, SKIN, TURN, VELOCITY, PalmEstimate
 from carpus.core.tracking.soft_tissue import HOME, NO_DIGITS, STILL, DigitSpeeds, TissueModes
 from carpus.core.types import FloatArray
 
 REFERENCE_DT_S = 1.0 / 30.0
-_DIAGONAL = (MOVING.stop + 1) * np.arange(MOVING.stop)
-_BY_VELOCITY = _DIAGONAL[POSITION] + VELOCITY.start
-_OF_VELOCITY = _DIAGONAL[POSITION] + VELOCITY.start * MOVING.stop
-"""Entries of a matrix of the moving numbers, counted row by row."""
 
 
 MODE_DWELL_S = 0.5
@@ -40,6 +36,16 @@ class MotionNoise:
     acceleration_m_s2: float = 2.0
     turn_acceleration_rad_s2: float = 8.0
     joint_acceleration_rad_s2: float = 12.0
+
+    @property
+    def push(self) -> float:
+        """Density q of the wrist's acceleration, m^2/s^3."""
+        return self.acceleration_m_s2**2 * REFERENCE_DT_S
+
+    @property
+    def turning(self) -> float:
+        """Density q of its angular acceleration, rad^2/s^3."""
+        return self.turn_acceleration_rad_s2**2 * REFERENCE_DT_S
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +81,6 @@ class PalmMotion:
     scale_of: FloatArray = field(init=False, repr=False, compare=False)
     tissue_of: NDArray[np.int64] = field(init=False, repr=False, compare=False)
     """Of each of the K modes (K,), those at rest first: the factor on the motion's noise, and the tissue's mode."""
-    numbers: FloatArray = field(init=False, repr=False, compare=False)
-    """All of it in one row, for the kernels."""
 
     def __post_init__(self) -> None:
         resting, count = self.tissue.resting, self.tissue.count
@@ -84,16 +88,6 @@ class PalmMotion:
         object.__setattr__(self, "scale_of", np.array(scale, dtype=np.float64))
         tissue = [*np.tile(np.arange(resting), self.scales.size), *range(resting, count)]
         object.__setattr__(self, "tissue_of", np.array(tissue))
-        own, told = self.tissue, self.noise
-        parts = (
-            (
-                self.dwell_s, told.acceleration_m_s2**2 * REFERENCE_DT_S,
-                told.turn_acceleration_rad_s2**2 * REFERENCE_DT_S, self.unseen_scale, own.turning_rad_s, own.lasts_rad,
-                own.leaving_per_rad,
-            ),
-            scale, tissue, own.lasts_s, own.rates, own.stationary,
-        )  # fmt: skip
-        object.__setattr__(self, "numbers", np.concatenate([np.ravel(part) for part in parts]).astype(np.float64))
 
     @property
     def modes(self) -> int:
@@ -101,14 +95,7 @@ class PalmMotion:
 
     def switch(self, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = NO_DIGITS) -> FloatArray:
         """Probability (K, K) to go from row to column mode in ``dt_s``, of a hand that turns at ``rate_rad_s`` (3,)."""
-        tissue = self.tissue.switch(float(np.linalg.norm(rate_rad_s)), dt_s, digits)
-        out: FloatArray = tissue[self.tissue_of[:, None], self.tissue_of]
-        motion, resting = switching(self.scales.size, self.dwell_s, dt_s), self.scales.size * self.tissue.resting
-        out[:resting, :resting] *= np.repeat(
-            np.repeat(motion, self.tissue.resting, axis=0), self.tissue.resting, axis=1
-        )
-        out[resting:, :resting] /= self.scales.size
-        return out
+        return switch_modes(self, rate_rad_s, dt_s, digits)
 
     @property
     def at_rest(self) -> FloatArray:
@@ -117,15 +104,14 @@ class PalmMotion:
         out[: self.scales.size * self.tissue.resting] /= self.scales.size
         return out
 
-    def tissue_noise(
-        self, went_over: FloatArray, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = NO_DIGITS
-    ) -> FloatArray:
+    def tissue_noise(self, went_over: FloatArray, step: PalmTransition) -> FloatArray:
         """What pushes the tissue (r, r) in a step that went from row to column mode with these probabilities (K, K),
         seen as one that keeps all it has: coming home is a push as well."""
         tissue = self.tissue
         joint = np.zeros((tissue.count, tissue.count))
         np.add.at(joint, (self.tissue_of[:, None], self.tissue_of), went_over)
-        pushed = tissue.pushed(tissue.kept(dt_s, float(np.linalg.norm(rate_rad_s)), digits))
+        pushed = np.empty((tissue.count, *step.relaxing.shape[1:]))
+        pushed[self.tissue_of] = step.relaxing
         if tissue.count == 1:
             return np.asarray(pushed[0])
         skin = slice(0, SKIN.stop - SKIN.start)
@@ -144,38 +130,7 @@ def palm_transition(
 ) -> PalmTransition:
     """The step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,) while its ``digits`` move; ``unseen`` (3, 3)
     projects on the turns in W2 that nothing showed."""
-    noise, tissue, scales = motion.noise, motion.tissue, motion.scale_of
-    turn = rate_rad_s * dt_s
-    turned, on_the_way = so3.exp(turn), so3.right_jacobian(turn)
-    soft = tissue.kept(dt_s, float(np.linalg.norm(rate_rad_s)), digits)
-    kept = np.ones((motion.modes, SIZE))
-    kept[:, SOFT] = soft[motion.tissue_of]
-    moving = np.eye(MOVING.stop)
-    moving.reshape(-1)[_BY_VELOCITY] = dt_s
-    moving[TURN, TURN] = turned.T
-    moving[TURN, RATE] = dt_s * on_the_way
-    driven = np.zeros((MOVING.stop, MOVING.stop))
-    push = noise.acceleration_m_s2**2 * REFERENCE_DT_S
-    entry = driven.reshape(-1)
-    entry[_DIAGONAL[POSITION]] = push * dt_s**3 / 3.0
-    entry[_BY_VELOCITY] = entry[_OF_VELOCITY] = push * dt_s**2 / 2.0
-    entry[_DIAGONAL[VELOCITY]] = push * dt_s
-    turning = noise.turn_acceleration_rad_s2**2 * REFERENCE_DT_S
-    # Turning is pushed about the axes on the way, not about those at the end: Jr, as in the transition.
-    driven[TURN, TURN] = turning * dt_s**3 / 3.0 * (on_the_way @ on_the_way.T)
-    across = turning * dt_s**2 / 2.0 * on_the_way
-    driven[TURN, RATE], driven[RATE, TURN] = across, across.T
-    entry[_DIAGONAL[RATE]] = turning * dt_s
-    by_mode = (scales**2)[:, None, None] * driven
-    if unseen is not None:
-        more = np.maximum(motion.unseen_scale**2 - scales**2, 0.0)[:, None, None]
-        along = on_the_way @ unseen
-        by_mode[:, TURN, TURN] += more * (turning * dt_s**3 / 3.0) * (along @ along.T)
-        by_mode[:, TURN, RATE] += more * (turning * dt_s**2 / 2.0) * along
-        by_mode[:, RATE, TURN] = by_mode[:, TURN, RATE].transpose(0, 2, 1)
-        by_mode[:, RATE, RATE] += more * (turning * dt_s) * unseen
-    relaxing = tissue.pushed(soft)[motion.tissue_of]
-    return PalmTransition(moving, by_mode, kept, relaxing, turned)
+    return PalmTransition(*move_palm(motion, rate_rad_s, dt_s, unseen, digits))
 
 
 def palm_ahead(

@@ -10,12 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.depth_sensor import CORE_SHARE, DepthSensor
-from carpus.core.kernels.choice import NOTHING, in_c
+from carpus.core.depth_sensor import DepthSensor
 from carpus.core.tracking import association
-from carpus.core.tracking.association import JointAssociation, associate_jointly, is_jointly_compatible, most_chi2_row
-from carpus.core.tracking.kernel import ModeMixture, corrected, like
-from carpus.core.tracking.palm_state import PALM_DISCS
+from carpus.core.tracking.association import JointAssociation, associate_jointly, is_jointly_compatible
+from carpus.core.tracking.kernel import ModeMixture, corrected
 from carpus.core.tracking.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.types import Detections, FloatArray
@@ -65,15 +63,6 @@ def measurements_of(
     not the disc's.
     """
     noise = settings.noise
-    if (kernels := in_c()) is not None:
-        out = Measurements(np.empty((len(blobs), 3)), np.empty((len(blobs), 3)))
-        kernels.blobs_worth(
-            len(blobs), blobs.pixel, blobs.depth_m, blobs.depth_sd_m, blobs.area_px, settings.use_depth, radius_px,
-            SHADE_SHARE, WHOLE_FROM, noise.pixel_sd_px, noise.depth_ratio,
-            sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.averages, CORE_SHARE, sensor.patch_px,
-            sensor.stays.fixed_m, sensor.stays.square_per_m, out.value, out.variance,
-        )  # fmt: skip
-        return out
     depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
     shown = blobs.area_px / (np.pi * radius_px**2)
     wander_px = SHADE_SHARE * radius_px * np.maximum(WHOLE_FROM - shown, 0.0)
@@ -135,8 +124,6 @@ def associate_and_update(
     if not len(blobs):
         nothing = np.full(markers, -1, dtype=np.int64)
         return update(predicted, blobs, nothing, nothing > 0, noise_factor)
-    if (ordinary := _in_ordinary_case(predicted, blobs, enough, resolution_px2, noise_factor, settings)) is not None:
-        return ordinary
     odds = association.log_odds(
         mean,
         covariance,
@@ -157,33 +144,6 @@ def associate_and_update(
     assigned = _in_company(found.assigned, found.with_depth, blobs, mean[:, 2], settings.association)
     jointly = update(predicted, blobs, assigned, found.with_depth, noise_factor)
     return _without_outliers(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
-
-
-def _in_ordinary_case(
-    predicted: PredictedMeasurement,
-    blobs: Measurements,
-    enough: int,
-    resolution_px2: float,
-    noise_factor: FloatArray,
-    settings: TrackerSettings,
-) -> UpdatedPalm | None:
-    """All of the above in one kernel, where the names are jointly compatible and no blob's depth is of something else;
-    None where it is otherwise, or there are no kernels."""
-    if (kernels := in_c()) is None:
-        return None
-    own, noise, mixture, line = settings.association, settings.noise, predicted.mixture, predicted.linearised
-    out, assigned, used = like(mixture), np.empty(PALM_DISCS, dtype=np.int64), np.empty((PALM_DISCS, 3), dtype=np.bool_)
-    (residual, raw), nis = np.empty((2, PALM_DISCS, 3)), np.empty(1)
-    dof, ordinary = np.empty(1, dtype=np.int64), np.empty(1, dtype=np.bool_)
-    kernels.palm_named(
-        predicted.mixture.mean.shape[1], len(blobs), predicted.mean, predicted.covariance, blobs.value, blobs.variance,
-        noise_factor, *association.log_densities(resolution_px2, association.DEPTH_OUTLIER, own), own.gate_sd**2,
-        association.IMPOSSIBLE, enough, most_chi2_row(own.consistent), MAX_OUTLIERS,
-        noise.outlier_sd, mixture.mean, mixture.covariance, mixture.probability, line.value, line.slope, line.error,
-        NOTHING if predicted.partial is None else predicted.partial, out.mean, out.covariance, out.probability,
-        assigned, used, residual, raw, nis, dof, ordinary,
-    )  # fmt: skip
-    return UpdatedPalm(out, assigned, nis.item(), dof.item(), used, residual, raw) if ordinary.item() else None
 
 
 def _in_company(

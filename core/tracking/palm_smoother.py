@@ -142,7 +142,7 @@ class PalmTrajectory:
         forward, noise = np.eye(SIZE), np.zeros((SIZE, SIZE))
         forward[MOVING, MOVING] = step.moving
         noise[MOVING, MOVING] = np.tensordot(joint.sum(axis=0), step.driven, 1)
-        noise[SOFT, SOFT] = self.motion.tissue_noise(joint, now.rate_rad_s, dt_s, digits)
+        noise[SOFT, SOFT] = self.motion.tissue_noise(joint, step)
         apart = step.carries(now, dt_s).error_to(later)
         return Passage(now.covariance[None], forward[None], noise[None], apart[None], later.covariance[None])
 

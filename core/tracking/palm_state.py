@@ -17,15 +17,15 @@ the pose (10), (11); in the discs' places it is all but straight, and its slope 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 
 from carpus.core import so3
 from carpus.core.camera import Camera
-from carpus.core.tracking.kernel import Linearisation, ModeMixture
-from carpus.core.tracking.unscented import Spread, make_roots, weights_for
+from carpus.core.compiled.palm import reset_errors
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FloatArray
 
 PALM_DISCS = 6
@@ -122,13 +122,7 @@ def resting_estimate(sd: InitialSd, learnt_covariance: FloatArray) -> PalmEstima
     return PalmEstimate(np.eye(3), np.zeros(SIZE), covariance)
 
 
-_DISC = np.arange(PALM_DISCS)
-FLOOR = 1e-14
 ABOUT = np.zeros((1, SIZE))
-COMPONENTS = 3 * PALM_DISCS
-_AXIS = np.arange(3)
-_OF_DISC = 3 * _DISC[:, None, None] + _AXIS[:, None]  # (6, 3, 1): each disc's own u, v, z
-_BY_SHAPE, _BY_SKIN = (part.start + 3 * _DISC[:, None, None] + _AXIS for part in (SHAPE, SKIN))  # (6, 1, 3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,23 +139,6 @@ class View:
     palm_m: FloatArray
     hidden: FloatArray
 
-    _w0_image: tuple[FloatArray, FloatArray] = field(init=False, repr=False, compare=False)
-    """Worked out once: from w0, in metres, to u z, v z, z; applied to rows."""
-    numbers: FloatArray = field(init=False, repr=False, compare=False)
-    """All of it in one row, for the kernels."""
-
-    def __post_init__(self) -> None:
-        camera, sensor = self.camera, self.camera.sensor
-        image = (camera.matrix @ self.rotation_w0_cam).T.copy(), camera.matrix @ self.translation_w0_cam_m
-        object.__setattr__(self, "_w0_image", image)
-        parts = (
-            (camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px), *image, self.rotation_w0_cam,
-            self.translation_w0_cam_m, (sensor.patch_px, sensor.reading.fixed_m, sensor.reading.square_per_m),
-            (sensor.stays.fixed_m, sensor.stays.square_per_m, sensor.stays_px, sensor.averages),
-            self.palm_m, self.hidden,
-        )  # fmt: skip
-        object.__setattr__(self, "numbers", np.concatenate([np.ravel(part) for part in parts]))
-
     def discs_cam_m(self, estimate: PalmEstimate) -> FloatArray:
         """Disc centres (6, 3) in camera axes, where the skin has carried them."""
         place = self.palm_m + estimate.shape_m + estimate.skin_m
@@ -174,56 +151,9 @@ class View:
         origin = body_cam @ origin_m + self.rotation_w0_cam @ estimate.position_m + self.translation_w0_cam_m
         return body_cam @ axes, origin
 
-    def observe(self, position_m: FloatArray, rotation_w2_w0: FloatArray, place_m: FloatArray) -> FloatArray:
-        """Pixel u, v and depth z (..., 6, 3) of discs at ``place_m`` (6, 3) on the fixed unit at poses (...)."""
-        about_wrist = place_m @ rotation_w2_w0.swapaxes(-1, -2)
-        turned, shifted = self._w0_image
-        out: FloatArray = (about_wrist.reshape(-1, 3) @ turned).reshape(about_wrist.shape)
-        out += (position_m @ turned + shifted)[..., None, :]
-        out[..., :2] /= out[..., 2:]
-        return out
-
-
-def palm_linearised(estimate: PalmEstimate, view: View, spread: Spread) -> Linearisation:
-    """H linearised about an estimate of the palm: ``value`` (1, 18), ``slope`` (1, 18, n) about its own mean."""
-    weights = weights_for(POSE.size, spread)
-    root = estimate.covariance[POSE[:, None], POSE]
-    root.reshape(-1)[:: POSE.size + 1] += FLOOR
-    make_roots(root[None])
-    count = POSE.size
-    offset = np.zeros((2 * count + 1, count))
-    offset[1 : count + 1], offset[count + 1 :] = weights.scale * root.T, -weights.scale * root.T
-    place = view.palm_m + estimate.shape_m + estimate.skin_m
-    turned = np.empty((2 * count + 1, 3, 3))
-    turned[0] = np.eye(3)
-    turned[1 : count + 1] = so3.exp(offset[1 : count + 1, 3:])
-    turned[count + 1 :] = turned[1 : count + 1].swapaxes(1, 2)
-    image = view.observe(estimate.position_m + offset[:, :3], estimate.rotation_w2_w0 @ turned, place)
-    centre = image[0]
-    flat = image.reshape(len(image), COMPONENTS)
-    value = weights.mean @ flat
-    half = (flat[1 : count + 1] - flat[count + 1 :]) * (0.5 / weights.scale)
-    # The even part of the spread is what nothing linear can follow.
-    bend = 0.5 * (flat[1 : count + 1] + flat[count + 1 :]) - value
-    error = (2.0 * weights.covariance[1]) * (bend.T @ bend)
-    middle = flat[0] - value
-    error += (weights.covariance[0] * middle)[:, None] * middle
-    slope = np.zeros((COMPONENTS, SIZE))
-    from scipy.linalg.lapack import dtrtrs  # a fifth of a second to load, and the kernels in C do without
-
-    slope[:, POSE] = dtrtrs(root.T, half)[0].T
-    slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = view.camera.slope(centre) @ (
-        view.rotation_w0_cam @ estimate.rotation_w2_w0
-    )
-    slope[2::3, SHAPE] -= view.hidden
-    value[2::3] -= view.hidden @ estimate.value[SHAPE]
-    return Linearisation(value[None], slope[None], error[None], ABOUT)
-
 
 def error_reset(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[PalmEstimate, ModeMixture]:
     """The nominal estimate moved to the mixture's mean and given its covariance; the mixture as errors from there."""
-    mean, covariance = mixture.merged()
-    apart = mixture.mean - mean[:, None]
-    # The turns are measured from another rotation now: log(Exp(-m) Exp(e)) to second order.
-    apart[..., TURN] += 0.5 * (mixture.mean[..., TURN] @ so3.skew(mean[0, TURN]))
-    return nominal.moved(mean[0], covariance[0]), ModeMixture(apart, mixture.covariance, mixture.probability)
+    rotation, value, covariance, apart = reset_errors(nominal, mixture)
+    reset = ModeMixture(apart, mixture.covariance, mixture.probability)
+    return PalmEstimate(rotation, value, covariance), reset

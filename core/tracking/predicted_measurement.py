@@ -12,23 +12,19 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.compiled.palm import see_palm
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking.digit_filter import DigitPoints, DigitView
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, PalmInBody
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, like, partial_update
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, partial_update
 from carpus.core.tracking.motion import PalmMotion, palm_ahead
 from carpus.core.tracking.palm_state import (
     ABOUT,
-    COMPONENTS,
-    FLOOR,
     LEARNT,
-    PALM_DISCS,
     POSE,
     SIZE,
     PalmEstimate,
     View,
-    palm_linearised,
 )
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.soft_tissue import DigitSpeeds
@@ -101,7 +97,6 @@ def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: Measu
 
 BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
 """WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit."""
-_DISC = np.arange(PALM_DISCS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,30 +225,9 @@ def predicted_measurement(
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
     """What to expect of a mixture of errors about ``nominal``, whose covariance is that of the whole mixture."""
-    if (kernels := in_c()) is not None:
-        line, mean, own = _to_be_filled()
-        kernels.palm_sighted(
-            mixture.mean.shape[1], mixture.mean, mixture.probability, nominal.value, nominal.covariance,
-            nominal.rotation_w2_w0, view.numbers, weights_for(POSE.size, spread).numbers, FLOOR,
-            line.value, line.slope, line.error, mean, own,
-        )  # fmt: skip
-        return PredictedMeasurement(nominal, mixture, line, mean, own, view, spread, partial, digits, order)
-    linearised = palm_linearised(nominal, view, spread)
-    slope = linearised.slope[0]
-    mean = (linearised.value[0] + slope @ (mixture.probability[0] @ mixture.mean[0])).reshape(PALM_DISCS, 3)
-    # Linear: what it makes of the whole mixture's covariance is that of what it makes of the modes.
-    whole = slope @ nominal.covariance @ slope.T
-    whole += linearised.error[0]
-    own = whole.reshape(PALM_DISCS, 3, PALM_DISCS, 3)[_DISC, :, _DISC, :]
+    value, slope, error, mean, own = see_palm(nominal, mixture, view, weights_for(POSE.size, spread))
+    linearised = Linearisation(value, slope, error, ABOUT)
     return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, spread, partial, digits, order)
-
-
-def _to_be_filled() -> tuple[Linearisation, FloatArray, FloatArray]:
-    """The line, where each disc should be and its covariance, before a kernel has worked them out."""
-    line = Linearisation(
-        np.empty((1, COMPONENTS)), np.empty((1, COMPONENTS, SIZE)), np.empty((1, COMPONENTS, COMPONENTS)), ABOUT
-    )
-    return line, np.empty((PALM_DISCS, 3)), np.empty((PALM_DISCS, 3, 3))
 
 
 def predicted_ahead(
@@ -269,27 +243,13 @@ def predicted_ahead(
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
     """What to expect of the palm ``dt_s`` later, and how much of its shape that picture may tell."""
-    spread = settings.spread
-    if dt_s > 0.0 and (kernels := in_c()) is not None:
-        tissue, modes = motion.tissue, motion.modes
-        later = like(mixture)
-        nominal = PalmEstimate(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
-        partial, (line, mean, own) = np.empty(SIZE), _to_be_filled()
-        kernels.palm_predicted(
-            modes, tissue.count, tissue.resting, motion.scales.size, dt_s, motion.numbers, *speeds, SHAPE_NEWS,
-            SHAPE_STALE, view.numbers, weights_for(POSE.size, spread).numbers, FLOOR,
-            NOTHING if unseen is None else unseen, mixture.mean, mixture.covariance, mixture.probability,
-            estimate.value, estimate.rotation_w2_w0, later.mean, later.covariance, later.probability, nominal.value,
-            nominal.rotation_w2_w0, nominal.covariance, partial, line.value, line.slope, line.error, mean, own,
-        )  # fmt: skip
-        return PredictedMeasurement(nominal, later, line, mean, own, view, spread, partial, digits, order)
     fresh = 0.0
     if dt_s > 0.0:
         before = estimate
         estimate, mixture = palm_ahead(estimate, mixture, motion, dt_s, unseen, speeds)
         fresh = fresh_share(view.discs_cam_m(before), view.discs_cam_m(estimate), view.camera)
     partial = shape_partial_update(SHAPE_NEWS * max(fresh, SHAPE_STALE))
-    return predicted_measurement(estimate, mixture, view, spread, partial, digits, order)
+    return predicted_measurement(estimate, mixture, view, settings.spread, partial, digits, order)
 
 
 def adapted_factor(
@@ -303,12 +263,6 @@ def adapted_factor(
     if dt_s <= 0.0:
         return factor
     weight = 1.0 - math.exp(-dt_s / ADAPT_S)
-    if (kernels := in_c()) is not None:
-        out = np.empty(factor.shape)
-        kernels.adapted_factors(
-            factor.size // 3, factor, residual, measured, weight, noise.least_adapted, noise.most_adapted, out
-        )
-        return out
     squared = np.where(measured, np.minimum(residual**2, noise.most_adapted), 1.0)
     squared[..., :2] = 0.5 * (squared[..., :1] + squared[..., 1:2])
     grown = factor * (1.0 + weight * (squared - 1.0))

@@ -15,9 +15,8 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.clinical_angles import wrist_axes_sensitivity
-from carpus.core.kernels.choice import NOTHING, Kernels, in_c
-from carpus.core.tracking.hand_geometry import CHAINS, NO_CUP, JointMoment, PalmInBody
-from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate, View
+from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
+from carpus.core.tracking.palm_state import POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate, View
 from carpus.core.tracking.soft_tissue import LOOSE
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
@@ -72,21 +71,6 @@ class Readout:
     ) -> tuple[PalmInBody, FloatArray, FloatArray, FloatArray, FloatArray]:
         """The palm as refined, for the fingers; how the camera sees W of it, rotation (3, 3) and translation (3,); in
         camera axes the covariances of the body's place and turn (6, 6) and of the turn of the palm's axes (3, 3)."""
-        if (kernels := in_c()) is not None:
-            (axes, rotation, turn), (cup, cup_sd) = np.empty((3, 3, 3)), np.empty((2, CHAINS))
-            (origin_m, translation_m), disc_m, pose = np.empty((2, 3)), np.empty((PALM_DISCS, 3)), np.empty((6, 6))
-            is_near = np.empty(1, dtype=np.bool_)
-            for _ in range(2):
-                kernels.palm_seat(
-                    self._axes, self._sensitivity, self._axes_shape, SHAPE_MOVED_M, self._disc_m,
-                    METACARPAL_M, -1.0 if self._side == "left" else 1.0, estimate.value,
-                    estimate.rotation_w2_w0, estimate.covariance, view.numbers, axes, origin_m, disc_m, cup, cup_sd,
-                    rotation, translation_m, pose, turn, is_near,
-                )  # fmt: skip
-                if is_near.item():
-                    break
-                self._work_out_axes(estimate.value[SHAPE])
-            return PalmInBody(axes, origin_m, disc_m, cup, cup_sd), rotation, translation_m, pose, turn
         axes, sensitivity = self._axes_of(estimate)
         error = np.zeros((3, SIZE))
         error[_AXES, TURN.start + _AXES] = 1.0
@@ -111,8 +95,6 @@ class Readout:
 
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
-        if (kernels := in_c()) is not None:
-            return self._moment_in_c(kernels, estimate)
         axes, sensitivity = self._axes_of(estimate)
         place = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
         position = estimate.position_m + estimate.rotation_w2_w0 @ place
@@ -142,26 +124,6 @@ class Readout:
             _NONE,
             _NONE,
             _NOWHERE,
-        )
-
-    def _moment_in_c(self, kernels: Kernels, estimate: PalmEstimate) -> Moment:
-        position, rate, angles, sd, zyz = np.empty((5, 3))
-        (axes, shown), is_near = np.empty((2, 3, 3)), np.empty(1, dtype=np.bool_)
-        for _ in range(2):
-            kernels.wrist_read(
-                self._axes, self._sensitivity, self._axes_shape, SHAPE_MOVED_M, self._disc_m,
-                estimate.value, estimate.rotation_w2_w0, estimate.covariance,
-                self._start if self._has_start else NOTHING,
-                self._tilt_covariance(estimate) if self._has_stays else NOTHING,
-                clinical_angles.side_sign(self._side), clinical_angles.ZYZ_UNDEFINED_BELOW_RAD,
-                axes, position, shown, rate, angles, sd, zyz, is_near,
-            )  # fmt: skip
-            if is_near.item():
-                break
-            self._work_out_axes(estimate.value[SHAPE])
-        w0_turn = so3.log(axes @ self._start.T)
-        return Moment(
-            position, estimate.velocity_m_s, w0_turn, shown, rate, angles, sd, zyz, _NONE, _NONE, _NONE, _NOWHERE
         )
 
     def _tilt_covariance(self, estimate: PalmEstimate) -> FloatArray:

@@ -134,34 +134,6 @@ class TissueModes:
     def follows_joints(self) -> bool:
         return bool(np.isfinite(self.lasts_rad))
 
-    def kept(self, dt_s: float, turning_rad_s: float, digits: DigitSpeeds) -> FloatArray:
-        """Share (J, r) of each number that is left after ``dt_s``, of a hand that turns so fast."""
-        fading = dt_s / self.lasts_s
-        if self.follows_joints:
-            speed = np.full(_SOFT, max(turning_rad_s, *digits))
-            speed[_OF_WRIST], speed[_OF_THUMB], speed[_OF_KNUCKLES] = turning_rad_s, digits.thumb, digits.fingers
-            fading += dt_s / self.lasts_rad * speed
-        return np.asarray(np.exp(-fading))
-
-    def pushed(self, kept: FloatArray) -> FloatArray:
-        """Noise (J, r, r) of a step that keeps so much."""
-        return np.asarray(self.stationary * (1.0 - kept[:, :, None] * kept[:, None, :]))
-
-    def switch(self, turning_rad_s: float, dt_s: float, digits: DigitSpeeds) -> FloatArray:
-        """Probability (J, J) to go from row to column mode in ``dt_s``, of a hand that turns so fast."""
-        rates = self.rates
-        if self.follows_joints:
-            rates = rates.copy()
-            rates[HOME, 1:] += self.leaving_per_rad * max(turning_rad_s, *digits)
-        elif self.count > 1:
-            rates = rates.copy()
-            rates[: self.resting, WRIST] *= 0.2 + min(turning_rad_s / self.turning_rad_s, 3.0)
-        total = rates.sum(axis=1)
-        leave = -np.expm1(-total * dt_s)
-        out = rates * (leave / np.maximum(total, 1e-12))[:, None]
-        out.reshape(-1)[:: self.count + 1] = 1.0 - leave
-        return np.asarray(out)
-
     @property
     def at_rest(self) -> FloatArray:
         """Probability (J,) of tissue just calibrated."""

@@ -81,7 +81,7 @@ PALM_STATE = (
 PALM_MEASUREMENTS = (
     MeasurementPart(
         "discs", 18, "px, px, m: u, v and depth z of each disc that is associated",
-        ("View.observe", "palm_state.palm_linearised"),
+        ("palm.see_palm",),
         ("palm_association.measurements_of", "predicted_measurement.adapted_factor"),
     ),
     MeasurementPart(

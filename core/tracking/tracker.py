@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking.consistency import ConsistencyTest, passed_over
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan, as_ideal
@@ -135,22 +134,6 @@ class FrameResults:
         updated; the blob taken for it, and where it is by now."""
         predicted, palm, fingers, order = posterior.predicted, posterior.palm, posterior.fingers, self._order
         noise = self._settings.noise
-        if (kernels := in_c()) is not None:
-            count = order.source.size
-            expected_px, seen_px = np.empty((2, count, 2))
-            blob, covariance = np.empty(count, dtype=np.int64), np.empty((count, 2, 2))
-            seen_depth_m, disc_cam_m = np.empty(count), np.empty((count, 3))
-            worst, digits = np.empty(1, dtype=np.int64), (NOTHING,) * 5
-            if fingers is not None and joints is not None:
-                scene, update = fingers.scene, fingers.named.update
-                digits = fingers.blob, scene.linearised.value, scene.spread, update.residual, joints.disc_cam_m
-            kernels.markers_told(
-                count, len(detections), order.source, palm.assigned, predicted.mean, predicted.covariance,
-                palm.raw_residual, posterior.estimate.value, posterior.estimate.rotation_w2_w0, predicted.view.numbers,
-                *digits, detections.pixel, detections.depth_m, noise.pixel_sd_px, blob, seen_px, seen_depth_m,
-                expected_px, covariance, disc_cam_m, worst,
-            )  # fmt: skip
-            return _Rows(blob, expected_px, seen_px, seen_depth_m, covariance, disc_cam_m, worst.item())
         blob = order.by_marker(palm.assigned, None if fingers is None else fingers.blob)
         used = np.flatnonzero(blob >= 0)
         seen_px, seen_depth_m = np.full((blob.size, 2), np.nan), np.full(blob.size, np.nan)

@@ -9,7 +9,7 @@ import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
 from carpus.core import so3
-from carpus.core.tracking.kernel import ModeMixture, transitioned
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, transitioned
 from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_transition, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.palm_smoother import FilterStep, PalmTrajectory, smoothed_palm
 from carpus.core.tracking.palm_state import (
@@ -28,9 +28,9 @@ from carpus.core.tracking.palm_state import (
     PalmEstimate,
     View,
     error_reset,
-    palm_linearised,
     resting_estimate,
 )
+from carpus.core.tracking.predicted_measurement import predicted_measurement
 from carpus.core.tracking.soft_tissue import (
     CUP,
     HOME,
@@ -64,6 +64,12 @@ def moving(seed: int = 0) -> PalmEstimate:
     scale[TURN] = scale[RATE] = scale[VELOCITY] = 0.02
     covariance = (root @ root.T / SIZE + 0.1 * np.eye(SIZE)) * np.outer(scale, scale)
     return PalmEstimate(so3.exp(0.3 * rng.normal(size=3)), value, covariance)
+
+
+def linearised_about(estimate: PalmEstimate, view: View, spread: Spread) -> Linearisation:
+    """H about an estimate, of one mode without errors."""
+    mixture = ModeMixture.alike(np.zeros((1, SIZE)), estimate.covariance[None], 1)
+    return predicted_measurement(estimate, mixture, view, spread).linearised
 
 
 def coasting(estimate: PalmEstimate, dt_s: float) -> PalmEstimate:
@@ -208,7 +214,8 @@ def test_tissue_that_came_home_was_pushed_there_from_anywhere() -> None:
     home, away = (int(np.flatnonzero((FOLLOWING.tissue_of == HOME) == is_home)[0]) for is_home in (True, False))
     stayed, came = np.zeros((2, FOLLOWING.modes, FOLLOWING.modes))
     stayed[home, home] = came[away, home] = 1.0
-    rest, push = (FOLLOWING.tissue_noise(went, np.zeros(3), 1.0 / 30.0) for went in (stayed, came))
+    step = palm_transition(np.zeros(3), FOLLOWING, 1.0 / 30.0)
+    rest, push = (FOLLOWING.tissue_noise(went, step) for went in (stayed, came))
     np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT, SOFT], atol=1e-15)
 
 
@@ -222,7 +229,8 @@ def test_looking_back_tissue_moves_from_a_frame_on_as_the_digits_did_in_it() -> 
     fast_m2, rest_m2 = (np.diagonal(step.noise[0])[knuckles] for step in (fast, rest))
     for went, digits, noise in zip(walk.went_over, speeds, (fast, rest), strict=False):
         assert went is not None
-        pushed = FOLLOWING.tissue_noise(went, moving(0).rate_rad_s, 1.0 / 30.0, digits)
+        step = palm_transition(moving(0).rate_rad_s, FOLLOWING, 1.0 / 30.0, None, digits)
+        pushed = FOLLOWING.tissue_noise(went, step)
         np.testing.assert_allclose(noise.noise[0, SOFT, SOFT], pushed)
     assert (fast_m2 > 1.5 * rest_m2).all()
 
@@ -244,7 +252,7 @@ def test_what_came_after_tells_when_tissue_moved() -> None:
 
 def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
     estimate = replace(moving(3), covariance=1e-12 * np.eye(SIZE))
-    linearised = palm_linearised(estimate, VIEW, Spread())
+    linearised = linearised_about(estimate, VIEW, Spread())
     discs = VIEW.discs_cam_m(estimate)
     expected = np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
     assert np.allclose(linearised.value[0], expected, atol=1e-6)
@@ -279,7 +287,7 @@ def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter()
     other.predict()
     other.sigmas_f = points.sigma_points(np.zeros(POSE.size), other.P)
     other.update(seen(np.zeros(POSE.size)))
-    linearised = palm_linearised(estimate, VIEW, spread)
+    linearised = linearised_about(estimate, VIEW, spread)
     slope = linearised.slope[0][:, POSE]
     assert np.allclose(slope @ pose @ slope.T + linearised.error[0], other.S - other.R, rtol=1e-6, atol=1e-6)
     image = np.array([seen(point) for point in other.sigmas_f])

@@ -9,7 +9,7 @@ import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate, palm_linearised
+from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate
 from carpus.core.tracking.predicted_measurement import (
     DEPTH_LOCKS,
     along_rays,
@@ -22,6 +22,7 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.tracking.unscented import Spread
 from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration
+from tests.tracking.test_palm_filter import linearised_about
 
 
 @pytest.mark.parametrize("news", [0.1, 1.0])
@@ -67,7 +68,7 @@ def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -
         value = np.zeros(SIZE)
         value[SHAPE] = shape.ravel()
         estimate = PalmEstimate(np.eye(3), value, 1e-12 * np.eye(SIZE))
-        seen.append(palm_linearised(estimate, view, Spread()).value.reshape(6, 3))
+        seen.append(linearised_about(estimate, view, Spread()).value.reshape(6, 3))
     change = seen[0] - seen[1]
     assert change[:, 2] == pytest.approx([0.0, 0.0, 0.0, (1.0 - share) * 0.001, 0.0, 0.0], abs=1e-9)
     assert np.array_equal(hidden_by_calibration(calibration(), share), view.hidden)

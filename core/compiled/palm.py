@@ -1,0 +1,476 @@
+"""The palm in every frame: how it moves, what the camera should see of it, and its errors reset after an update.
+
+Symbols of the wrist paper: R rotation, omega angular velocity, P covariance of the error vector (54,), whose numbers
+stand where ``core/tracking/palm_state.py`` says. An error d of the turn means R Exp(d). K modes, J of the soft tissue.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cython
+import numpy as np
+from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
+from cython.cimports.libc.math import cos, exp, expm1, sin, sqrt
+from numpy.typing import NDArray
+
+from carpus.core.compiled.mixture import merged
+
+SIZE = cython.declare(cython.Py_ssize_t, 54)
+POSITION = cython.declare(cython.Py_ssize_t, 0)
+VELOCITY = cython.declare(cython.Py_ssize_t, 3)
+TURN = cython.declare(cython.Py_ssize_t, 6)
+RATE = cython.declare(cython.Py_ssize_t, 9)
+MOVING = cython.declare(cython.Py_ssize_t, 12)
+SHAPE = cython.declare(cython.Py_ssize_t, 12)
+SKIN = cython.declare(cython.Py_ssize_t, 33)
+SOFT = cython.declare(cython.Py_ssize_t, 21)
+DISCS = cython.declare(cython.Py_ssize_t, 6)
+SEEN = cython.declare(cython.Py_ssize_t, 18)
+HOME = cython.declare(cython.Py_ssize_t, 0)
+WRIST = cython.declare(cython.Py_ssize_t, 5)
+FLOOR = cython.declare(cython.double, 1e-14)
+_NONE = np.zeros((3, 3))
+POSE = np.array([0, 1, 2, 6, 7, 8], dtype=np.int64)
+
+
+def switch_modes(motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, digits: Any) -> NDArray[np.float64]:
+    """
+    Probability to go over from one mode of the palm to another.
+
+    Modes of motion last ``motion.dwell_s``; those of the tissue go over at its ``rates``, from home (where joints are
+    seen) or to the wrist's own mode the more, the faster the hand turns.
+
+    Parameters
+    ----------
+    motion : PalmMotion
+        Its K modes: those at rest, each scale of motion times each resting tissue, before those of moving tissue.
+    rate_rad_s : numpy.ndarray
+        Angular velocity (3,).
+    dt_s : float
+        How long the step takes.
+    digits : DigitSpeeds
+        How fast thumb and fingers turn, rad/s.
+
+    Returns
+    -------
+    numpy.ndarray
+        Probability (K, K) from row to column.
+    """
+    tissue = motion.tissue
+    count: cython.Py_ssize_t = tissue.count
+    rates: cython.const[cython.double][:, ::1] = given(tissue.rates, "rates of the tissue", (count, count))
+    omega: cython.const[cython.double][::1] = given(rate_rad_s, "the palm's rate", (3,))
+    tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
+    modes: cython.Py_ssize_t = motion.modes
+    resting: cython.Py_ssize_t = tissue.resting
+    scales: cython.Py_ssize_t = motion.scales.shape[0]
+    follows: cython.bint = tissue.follows_joints
+    leaving: cython.double = tissue.leaving_per_rad
+    dt: cython.double = dt_s
+    turning: cython.double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
+    fastest: cython.double = max(turning, digits[0], digits[1])
+    pace: cython.double = 0.2 + min(turning / tissue.turning_rad_s, 3.0)
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    between: cython.double[:, ::1] = np.empty((count, count))
+    for i in range(count):
+        total: cython.double = 0.0
+        for j in range(count):
+            rate = rates[i, j]
+            if follows and i == HOME and j != HOME:
+                rate += leaving * fastest
+            elif not follows and i < resting and j == WRIST:
+                rate *= pace
+            between[i, j] = rate
+            total += rate
+        leave = -expm1(-total * dt)
+        for j in range(count):
+            between[i, j] *= leave / max(total, 1e-12)
+        between[i, i] = 1.0 - leave
+
+    out = np.empty((modes, modes))
+    change: cython.double[:, ::1] = out
+    at_rest: cython.Py_ssize_t = scales * resting
+    leave = 1.0 - exp(-dt / motion.dwell_s)
+    for i in range(modes):
+        for j in range(modes):
+            chance = between[tissue_of[i], tissue_of[j]]
+            if j < at_rest <= i:
+                chance /= scales
+            elif j < at_rest and scales > 1:
+                chance *= 1.0 - leave if i // resting == j // resting else leave / (scales - 1)
+            change[i, j] = chance
+    return out
+
+
+def move_palm(
+    motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, unseen: NDArray[np.float64] | None, digits: Any
+) -> tuple[NDArray[np.float64], ...]:
+    """
+    Step of the palm's errors: x <- F x + w with w ~ N(0, Q).
+
+    Velocities stay, pushed all along the step by a white acceleration of density q: Q holds q dt^3 / 3, q dt^2 / 2 and
+    q dt. A rate turns by Exp(omega dt), and errors of it by the right Jacobian of that. Skin and relief are
+    Ornstein-Uhlenbeck processes.
+
+    Parameters
+    ----------
+    motion : PalmMotion
+        Noise of the motion, of which every mode has its own scale, and modes of the tissue.
+    rate_rad_s : numpy.ndarray
+        Angular velocity (3,) in W2.
+    dt_s : float
+        How long the step takes.
+    unseen : numpy.ndarray or None
+        Projection (3, 3) on the turns in W2 that nothing showed.
+    digits : DigitSpeeds
+        How fast thumb and fingers turn, rad/s.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        F of the moving numbers (12, 12) and their Q in every mode (K, 12, 12); the share that each number keeps
+        (K, 54); Q of skin and relief (K, 21, 21); the turn (3, 3) of the step.
+    """
+    noise, tissue = motion.noise, motion.tissue
+    count: cython.Py_ssize_t = tissue.count
+    modes: cython.Py_ssize_t = motion.modes
+    omega: cython.const[cython.double][::1] = given(rate_rad_s, "the palm's rate", (3,))
+    lasts: cython.const[cython.double][:, ::1] = given(tissue.lasts_s, "how long tissue lasts", (count, SOFT))
+    rest: cython.const[cython.double][:, :, ::1] = given(tissue.stationary, "scatter of tissue", (count, SOFT, SOFT))
+    scale_of: cython.const[cython.double][::1] = given(motion.scale_of, "the modes' scales", (modes,))
+    tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
+    hidden: cython.const[cython.double][:, ::1] = given(_NONE if unseen is None else unseen, "turns not seen", (3, 3))
+    dt: cython.double = dt_s
+    push: cython.double = noise.push
+    turning: cython.double = noise.turning
+    unseen_scale: cython.double = motion.unseen_scale
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+
+    moving, turned, on_the_way = np.eye(MOVING), np.empty((3, 3)), np.empty((3, 3))
+    forward: cython.double[:, ::1] = moving
+    turn: cython.double[:, ::1] = turned
+    jacobian: cython.double[:, ::1] = on_the_way
+    fill_rotation(omega[0] * dt, omega[1] * dt, omega[2] * dt, turn)
+    fill_right_jacobian(omega[0] * dt, omega[1] * dt, omega[2] * dt, jacobian)
+    for i in range(3):
+        forward[POSITION + i, VELOCITY + i] = dt
+        for j in range(3):
+            forward[TURN + i, TURN + j] = turn[j, i]
+            forward[TURN + i, RATE + j] = dt * jacobian[i, j]
+
+    # Turning is pushed about the axes on the way, not about those at the end: Jr, as in F.
+    square: cython.double[:, ::1] = np.empty((3, 3))
+    along: cython.double[:, ::1] = np.empty((3, 3))
+    along_square: cython.double[:, ::1] = np.empty((3, 3))
+    multiply_transposed(jacobian, jacobian, square)
+    multiply(jacobian, hidden, along)
+    multiply_transposed(along, along, along_square)
+    driven = np.zeros((modes, MOVING, MOVING))
+    pushed: cython.double[:, :, ::1] = driven
+    for k in range(modes):
+        by = scale_of[k] * scale_of[k]
+        # How briskly a hand moves is told by what is seen of it, and says nothing of turns that are not.
+        more = max(unseen_scale * unseen_scale - by, 0.0)
+        for i in range(3):
+            pushed[k, POSITION + i, POSITION + i] = by * push * dt * dt * dt / 3.0
+            pushed[k, POSITION + i, VELOCITY + i] = pushed[k, VELOCITY + i, POSITION + i] = by * push * dt * dt / 2.0
+            pushed[k, VELOCITY + i, VELOCITY + i] = by * push * dt
+            for j in range(3):
+                pushed[k, TURN + i, TURN + j] = turning * dt**3 / 3.0 * (by * square[i, j] + more * along_square[i, j])
+                across = turning * dt * dt / 2.0 * (by * jacobian[i, j] + more * along[i, j])
+                pushed[k, TURN + i, RATE + j] = pushed[k, RATE + j, TURN + i] = across
+                pushed[k, RATE + i, RATE + j] = turning * dt * ((by if i == j else 0.0) + more * hidden[i, j])
+
+    palm: cython.double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
+    thumb: cython.double = digits[0]
+    fingers: cython.double = digits[1]
+    per_rad: cython.double = dt / tissue.lasts_rad if tissue.follows_joints else 0.0
+    left, relaxing = np.ones((modes, SIZE)), np.empty((modes, SOFT, SOFT))
+    kept: cython.double[:, ::1] = left
+    relaxed: cython.double[:, :, ::1] = relaxing
+    for k in range(modes):
+        for i in range(SOFT):
+            # The wrist's disc, the thumb's, the knuckles', and the relief over all of them.
+            speed = palm if i < 3 else thumb if i < 6 else fingers if i < SEEN else max(palm, thumb, fingers)
+            kept[k, SKIN + i] = exp(-dt / lasts[tissue_of[k], i] - per_rad * speed)
+            for j in range(i + 1):
+                relaxed[k, i, j] = relaxed[k, j, i] = rest[tissue_of[k], i, j] * (
+                    1.0 - kept[k, SKIN + i] * kept[k, SKIN + j]
+                )
+    return moving, driven, left, relaxing, turned
+
+
+def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDArray[np.float64], ...]:
+    """
+    Predict what the camera sees of the palm's discs: h linearised, by sigma points of the pose.
+
+    The pose bends the pictures, so its slope is that of the sigma points, eq. (10) and (11) of the wrist paper, and
+    what nothing linear can follow of them is noise; in the discs' places the slope is the derivative.
+
+    Parameters
+    ----------
+    estimate : PalmEstimate
+        Where the palm is, with the covariance of the whole mixture.
+    mixture : ModeMixture
+        Errors from there, of one chain with K modes.
+    view : View
+        The camera and the calibrated places of the discs.
+    weights : Weights
+        Weights of the 13 sigma points.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        Pixels and depth that h expects of all discs, u, v, z in turn (1, 18); slope (1, 18, 54) by the error vector;
+        covariance (1, 18, 18) of what that misses; of each disc the mean over all modes (6, 3) and its covariance
+        (6, 3, 3).
+    """
+    modes: cython.Py_ssize_t = mixture.mean.shape[1]
+    state: cython.const[cython.double][::1] = given(estimate.value, "the palm's state", (SIZE,))
+    spread: cython.const[cython.double][:, ::1] = given(estimate.covariance, "the palm's covariance", (SIZE, SIZE))
+    rotation: cython.const[cython.double][:, ::1] = given(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
+    mean: cython.const[cython.double][:, :, ::1] = given(mixture.mean, "means of the modes", (1, modes, SIZE))
+    weight: cython.const[cython.double][:, ::1] = given(mixture.probability, "the modes' probability", (1, modes))
+    palm: cython.const[cython.double][:, ::1] = given(view.palm_m, "places of the discs", (DISCS, 3))
+    hidden: cython.const[cython.double][:, ::1] = given(view.hidden, "what calibration hides", (DISCS, SEEN))
+    w0_cam: cython.const[cython.double][:, ::1] = given(view.rotation_w0_cam, "the camera's rotation", (3, 3))
+    at: cython.const[cython.double][::1] = given(view.translation_w0_cam_m, "the camera's place", (3,))
+    of_mean: cython.const[cython.double][::1] = given(weights.mean, "weights of the sigma points", (13,))
+    of_covariance: cython.const[cython.double][::1] = given(weights.covariance, "their other weights", (13,))
+    scale: cython.double = weights.scale
+    camera = view.camera
+    fx: cython.double = camera.fx_px
+    fy: cython.double = camera.fy_px
+    cx: cython.double = camera.cx_px
+    cy: cython.double = camera.cy_px
+    a: cython.Py_ssize_t
+    b: cython.Py_ssize_t
+    d: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    p: cython.Py_ssize_t
+    pose: cython.const[cython.longlong][::1] = POSE
+    root: cython.double[:, ::1] = np.empty((6, 6))
+    unroot: cython.double[:, ::1] = np.empty((6, 6))
+    for i in range(6):
+        for j in range(6):
+            root[i, j] = spread[pose[i], pose[j]]
+        root[i, i] += FLOOR
+    if not inverse_root(root, unroot):
+        raise np.linalg.LinAlgError("Matrix is not positive definite")
+
+    # Pixel u, v and depth z of all discs from every sigma point: the middle one, those along each column of the root
+    # and those against it.
+    sigma: cython.double[:, ::1] = np.empty((13, SEEN))
+    place: cython.double[:, ::1] = np.empty((DISCS, 3))
+    step: cython.double[::1] = np.zeros(6)
+    turned: cython.double[:, ::1] = np.empty((3, 3))
+    there: cython.double[:, ::1] = np.empty((3, 3))
+    in_camera: cython.double[:, ::1] = np.empty((3, 3))
+    for d in range(DISCS):
+        for i in range(3):
+            place[d, i] = palm[d, i] + state[SHAPE + 3 * d + i] + state[SKIN + 3 * d + i]
+    for p in range(12, -1, -1):
+        column, reach = (p + 5) % 6, 0.0 if p == 0 else scale if p <= 6 else -scale
+        for i in range(6):
+            step[i] = reach * root[column, i] if i >= column else 0.0
+        fill_rotation(step[3], step[4], step[5], turned)
+        multiply(rotation, turned, there)
+        multiply(w0_cam, there, in_camera)
+        for i in range(3):
+            origin = at[i]
+            for j in range(3):
+                origin += w0_cam[i, j] * (state[POSITION + j] + step[j])
+            for d in range(DISCS):
+                sigma[p, 3 * d + i] = (
+                    origin
+                    + in_camera[i, 0] * place[d, 0]
+                    + in_camera[i, 1] * place[d, 1]
+                    + in_camera[i, 2] * place[d, 2]
+                )
+        for d in range(DISCS):
+            z = sigma[p, 3 * d + 2]
+            sigma[p, 3 * d] = cx + fx * sigma[p, 3 * d] / z
+            sigma[p, 3 * d + 1] = cy + fy * sigma[p, 3 * d + 1] / z
+
+    value, slope, error = np.empty((1, SEEN)), np.zeros((1, SEEN, SIZE)), np.empty((1, SEEN, SEEN))
+    line: cython.double[::1] = value[0]
+    h: cython.double[:, ::1] = slope[0]
+    missed: cython.double[:, ::1] = error[0]
+    half: cython.double[:, ::1] = np.empty((6, SEEN))
+    bend: cython.double[:, ::1] = np.empty((6, SEEN))
+    for a in range(SEEN):
+        line[a] = of_mean[0] * sigma[0, a]
+        for p in range(1, 13):
+            line[a] += of_mean[p] * sigma[p, a]
+        for p in range(6):
+            half[p, a] = (sigma[1 + p, a] - sigma[7 + p, a]) * (0.5 / scale)
+            bend[p, a] = 0.5 * (sigma[1 + p, a] + sigma[7 + p, a]) - line[a]
+    for a in range(SEEN):
+        for b in range(a + 1):
+            total = of_covariance[0] * (sigma[0, a] - line[a]) * (sigma[0, b] - line[b])
+            for p in range(6):
+                total += 2.0 * of_covariance[1] * bend[p, a] * bend[p, b]
+            missed[a, b] = missed[b, a] = total
+        for i in range(6):
+            for p in range(i, 6):
+                h[a, pose[i]] += half[p, a] * unroot[p, i]
+    for d in range(DISCS):
+        u, v, z = sigma[0, 3 * d], sigma[0, 3 * d + 1], sigma[0, 3 * d + 2]
+        for j in range(3):
+            b = SHAPE + 3 * d + j
+            h[3 * d, b] = (fx * in_camera[0, j] + (cx - u) * in_camera[2, j]) / z
+            h[3 * d + 1, b] = (fy * in_camera[1, j] + (cy - v) * in_camera[2, j]) / z
+            h[3 * d + 2, b] = in_camera[2, j]
+            for i in range(3):
+                h[3 * d + i, SKIN + 3 * d + j] = h[3 * d + i, b]
+        for j in range(SEEN):
+            h[3 * d + 2, SHAPE + j] -= hidden[d, j]
+            line[3 * d + 2] -= hidden[d, j] * state[SHAPE + j]
+
+    # h is linear now: what it makes of the whole mixture's covariance is that of what it makes of the modes.
+    expected, own = np.empty((DISCS, 3)), np.empty((DISCS, 3, 3))
+    out_mean: cython.double[:, ::1] = expected
+    out_covariance: cython.double[:, :, ::1] = own
+    middle: cython.double[::1] = np.zeros(SIZE)
+    cross: cython.double[:, ::1] = np.zeros((SEEN, SIZE))
+    add_product(h, spread, cross)
+    unknown: cython.double = 0.0  # NaN where any number is: the product passes over what h does not ask for
+    for i in range(SIZE):
+        for j in range(SIZE):
+            unknown += 0.0 * spread[i, j]
+    for p in range(modes):
+        for j in range(SIZE):
+            middle[j] += weight[0, p] * mean[0, p, j]
+    for d in range(DISCS):
+        for i in range(3):
+            a = 3 * d + i
+            out_mean[d, i] = line[a]
+            for j in range(SIZE):
+                out_mean[d, i] += h[a, j] * middle[j]
+            for j in range(3):
+                total = missed[a, 3 * d + j] + unknown
+                for b in range(SIZE):
+                    total += cross[a, b] * h[3 * d + j, b]
+                out_covariance[d, i, j] = total
+    return value, slope, error, expected, own
+
+
+def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
+    """
+    Move the nominal estimate to the mixture's mean, and tell the modes' errors from there.
+
+    Turns are then measured from another rotation: log(Exp(-m) Exp(e)), to second order.
+
+    Parameters
+    ----------
+    nominal : PalmEstimate
+        From where the mixture's errors are told.
+    mixture : ModeMixture
+        One chain with K modes.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        The estimate's rotation (3, 3), value (54,) and covariance (54, 54); mean (1, K, 54) of the modes' errors.
+    """
+    modes: cython.Py_ssize_t = mixture.mean.shape[1]
+    mean: cython.const[cython.double][:, :, ::1] = given(mixture.mean, "means of the modes", (1, modes, SIZE))
+    state: cython.const[cython.double][::1] = given(nominal.value, "the palm's state", (SIZE,))
+    rotation: cython.const[cython.double][:, ::1] = given(nominal.rotation_w2_w0, "the palm's rotation", (3, 3))
+    whole_mean, whole = merged(mixture)
+    middle: cython.const[cython.double][::1] = whole_mean[0]
+    turned, value, apart = np.empty((3, 3)), np.empty(SIZE), np.empty((1, modes, SIZE))
+    there: cython.double[:, ::1] = turned
+    out_value: cython.double[::1] = value
+    off: cython.double[:, :, ::1] = apart
+    by: cython.double[:, ::1] = np.empty((3, 3))
+    k: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    x, y, z = middle[TURN], middle[TURN + 1], middle[TURN + 2]
+    for k in range(modes):
+        for i in range(SIZE):
+            off[0, k, i] = mean[0, k, i] - middle[i]
+        a, b, c = mean[0, k, TURN], mean[0, k, TURN + 1], mean[0, k, TURN + 2]
+        off[0, k, TURN] += 0.5 * (b * z - c * y)
+        off[0, k, TURN + 1] += 0.5 * (c * x - a * z)
+        off[0, k, TURN + 2] += 0.5 * (a * y - b * x)
+    for i in range(SIZE):
+        out_value[i] = 0.0 if TURN <= i < RATE else state[i] + middle[i]
+    fill_rotation(x, y, z, by)
+    multiply(rotation, by, there)
+    return turned, value, whole[0], apart
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def fill_rotation(x: cython.double, y: cython.double, z: cython.double, out: cython.double[:, ::1]) -> cython.void:
+    """Exp (3, 3) of one turn by Rodrigues' formula; its series near no turn."""
+    angle2 = x * x + y * y + z * z
+    a: cython.double = 1.0 - angle2 / 6.0
+    b: cython.double = 0.5 - angle2 / 24.0
+    if not angle2 < 1e-8:
+        a, b = sin(sqrt(angle2)) / sqrt(angle2), (1.0 - cos(sqrt(angle2))) / angle2
+    c = 1.0 - b * angle2
+    out[0, 0], out[0, 1], out[0, 2] = c + b * x * x, b * x * y - a * z, b * x * z + a * y
+    out[1, 0], out[1, 1], out[1, 2] = b * x * y + a * z, c + b * y * y, b * y * z - a * x
+    out[2, 0], out[2, 1], out[2, 2] = b * x * z - a * y, b * y * z + a * x, c + b * z * z
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def fill_right_jacobian(
+    x: cython.double, y: cython.double, z: cython.double, out: cython.double[:, ::1]
+) -> cython.void:
+    """Jr (3, 3) of one turn, with Exp(t + d) = Exp(t) Exp(Jr d) to first order."""
+    angle2 = x * x + y * y + z * z
+    b: cython.double = 0.5 - angle2 / 24.0
+    c: cython.double = 1.0 / 6.0 - angle2 / 120.0
+    if not angle2 < 1e-6:
+        angle = sqrt(angle2)
+        b, c = (1.0 - cos(angle)) / angle2, (angle - sin(angle)) / (angle2 * angle)
+    d = 1.0 - c * angle2
+    out[0, 0], out[0, 1], out[0, 2] = d + c * x * x, c * x * y + b * z, c * x * z - b * y
+    out[1, 0], out[1, 1], out[1, 2] = c * x * y - b * z, d + c * y * y, c * y * z + b * x
+    out[2, 0], out[2, 1], out[2, 2] = c * x * z + b * y, c * y * z - b * x, d + c * z * z
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def multiply(
+    a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
+) -> cython.void:
+    """``out`` = A B of matrices (3, 3)."""
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def multiply_transposed(
+    a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
+) -> cython.void:
+    """``out`` = A B' of matrices (3, 3)."""
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = a[i, 0] * b[j, 0] + a[i, 1] * b[j, 1] + a[i, 2] * b[j, 2]
+
+
+def given(array: NDArray[np.float64], name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """The array stored row by row, refused where it has another shape; of another type it is by the view of it."""
+    if array.shape != shape:
+        raise ValueError(f"{name}: {array.shape} where {shape} is read")
+    return np.ascontiguousarray(array)

@@ -1,0 +1,118 @@
+"""How the palm moves and is seen, in NumPy as the formulas stand in the papers."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from carpus.core import so3
+from carpus.core.tracking.kernel import ModeMixture, switching
+from carpus.core.tracking.motion import PalmMotion
+from carpus.core.tracking.palm_state import (
+    MOVING,
+    POSE,
+    POSITION,
+    RATE,
+    SHAPE,
+    SIZE,
+    SOFT,
+    TURN,
+    VELOCITY,
+    PalmEstimate,
+    View,
+)
+from carpus.core.tracking.soft_tissue import HOME, WRIST, DigitSpeeds
+from carpus.core.tracking.unscented import Weights
+from carpus.core.types import FloatArray
+from tests.compiled.oracle.mixture import merged
+
+DISCS, FLOOR = np.arange(6), 1e-14
+_OF_WRIST, _OF_THUMB, _OF_KNUCKLES = slice(0, 3), slice(3, 6), slice(6, 18)
+_OF_DISC = 3 * DISCS[:, None, None] + np.arange(3)[:, None]  # (6, 3, 1): each disc's own u, v, z
+_BY_SHAPE, _BY_SKIN = (first + 3 * DISCS[:, None, None] + np.arange(3) for first in (SHAPE.start, SOFT.start))
+
+
+def switch_modes(motion: PalmMotion, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds) -> FloatArray:
+    """Probability (K, K) to go from row to column mode."""
+    tissue, turning_rad_s = motion.tissue, float(np.linalg.norm(rate_rad_s))
+    rates = tissue.rates.copy()
+    if tissue.follows_joints:
+        rates[HOME, 1:] += tissue.leaving_per_rad * max(turning_rad_s, *digits)
+    elif tissue.count > 1:
+        rates[: tissue.resting, WRIST] *= 0.2 + min(turning_rad_s / tissue.turning_rad_s, 3.0)
+    total = rates.sum(axis=1)
+    leave = -np.expm1(-total * dt_s)
+    by_tissue = rates * (leave / np.maximum(total, 1e-12))[:, None]
+    np.fill_diagonal(by_tissue, 1.0 - leave)
+    out: FloatArray = by_tissue[motion.tissue_of[:, None], motion.tissue_of]
+    scales, resting = motion.scales.size, motion.scales.size * tissue.resting
+    out[:resting, :resting] *= np.kron(switching(scales, motion.dwell_s, dt_s), np.ones((tissue.resting,) * 2))
+    out[resting:, :resting] /= scales
+    return out
+
+
+def move_palm(
+    motion: PalmMotion, rate_rad_s: FloatArray, dt_s: float, unseen: FloatArray | None, digits: DigitSpeeds
+) -> tuple[FloatArray, ...]:
+    """F (12, 12) and Q (K, 12, 12) of what moves, shares kept (K, n), Q of the tissue (K, r, r), the turn (3, 3)."""
+    noise, tissue, scales2 = motion.noise, motion.tissue, (motion.scale_of**2)[:, None, None]
+    turned, on_the_way = so3.exp(rate_rad_s * dt_s), so3.right_jacobian(rate_rad_s * dt_s)
+    moving = np.eye(MOVING.stop)
+    moving[POSITION, VELOCITY] = dt_s * np.eye(3)
+    moving[TURN, TURN], moving[TURN, RATE] = turned.T, dt_s * on_the_way
+    driven = np.zeros((motion.modes, MOVING.stop, MOVING.stop))
+    for place, speed, q, along, unscaled in (
+        (POSITION, VELOCITY, noise.push, np.eye(3), np.zeros((3, 3))),
+        (TURN, RATE, noise.turning, on_the_way, np.zeros((3, 3)) if unseen is None else unseen),
+    ):
+        more = np.maximum(motion.unseen_scale**2 - scales2, 0.0)
+        across = along @ unscaled
+        driven[:, place, place] = q * dt_s**3 / 3.0 * (scales2 * (along @ along.T) + more * (across @ across.T))
+        driven[:, place, speed] = q * dt_s**2 / 2.0 * (scales2 * along + more * across)
+        driven[:, speed, place] = np.swapaxes(driven[:, place, speed], 1, 2)
+        driven[:, speed, speed] = q * dt_s * (scales2 * np.eye(3) + more * unscaled)
+    fading = dt_s / tissue.lasts_s
+    if tissue.follows_joints:
+        turning_rad_s = float(np.linalg.norm(rate_rad_s))
+        speeds = np.full(SOFT.stop - SOFT.start, max(turning_rad_s, *digits))
+        speeds[_OF_WRIST], speeds[_OF_THUMB], speeds[_OF_KNUCKLES] = turning_rad_s, digits.thumb, digits.fingers
+        fading += dt_s / tissue.lasts_rad * speeds
+    soft = np.exp(-fading)
+    kept = np.ones((motion.modes, SIZE))
+    kept[:, SOFT] = soft[motion.tissue_of]
+    relaxing = tissue.stationary * (1.0 - soft[:, :, None] * soft[:, None, :])
+    return moving, driven, kept, relaxing[motion.tissue_of], turned
+
+
+def see_palm(estimate: PalmEstimate, mixture: ModeMixture, view: View, weights: Weights) -> tuple[FloatArray, ...]:
+    """Value (1, 18), slope (1, 18, n) and error (1, 18, 18) of h; each disc's mean (6, 3) and covariance (6, 3, 3)."""
+    root = np.linalg.cholesky(estimate.covariance[POSE[:, None], POSE] + FLOOR * np.eye(POSE.size))
+    offset = weights.scale * np.concatenate((np.zeros((1, POSE.size)), root.T, -root.T))
+    place = view.palm_m + estimate.shape_m + estimate.skin_m
+    turned = estimate.rotation_w2_w0 @ so3.exp(offset[:, 3:])
+    in_w0 = place @ np.swapaxes(turned, 1, 2) + (estimate.position_m + offset[:, :3])[:, None]
+    image = in_w0 @ view.rotation_w0_cam.T + view.translation_w0_cam_m
+    image[..., :2] = view.camera.project(image)
+    flat = image.reshape(len(image), -1)
+    value = weights.mean @ flat
+    plus, minus = flat[1 : POSE.size + 1], flat[POSE.size + 1 :]
+    half, bend, middle = (plus - minus) * (0.5 / weights.scale), 0.5 * (plus + minus) - value, flat[0] - value
+    error = 2.0 * weights.covariance[1] * (bend.T @ bend) + weights.covariance[0] * np.outer(middle, middle)
+    slope = np.zeros((value.size, SIZE))
+    slope[:, POSE] = solve_triangular(root, half, lower=True, trans="T", check_finite=False).T
+    by_place = view.camera.slope(image[0]) @ (view.rotation_w0_cam @ estimate.rotation_w2_w0)
+    slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = by_place
+    slope[2::3, SHAPE] -= view.hidden
+    value[2::3] -= view.hidden @ estimate.value[SHAPE]
+    mean = (value + slope @ (mixture.probability[0] @ mixture.mean[0])).reshape(-1, 3)
+    whole = (slope @ estimate.covariance @ slope.T + error).reshape(6, 3, 6, 3)
+    return value[None], slope[None], error[None], mean, whole[DISCS, :, DISCS, :]
+
+
+def reset_errors(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[FloatArray, ...]:
+    """Rotation, value and covariance of the estimate moved to the mixture's mean; the modes' means from there."""
+    mean, covariance = merged(mixture)
+    apart = mixture.mean - mean[:, None]
+    apart[..., TURN] += 0.5 * (mixture.mean[..., TURN] @ so3.skew(mean[0, TURN]))
+    moved = nominal.moved(mean[0], covariance[0])
+    return moved.rotation_w2_w0, moved.value, moved.covariance, apart

@@ -1,0 +1,53 @@
+"""The fit to the back of the hand in NumPy."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carpus.core import so3
+from carpus.core.hand.back_surface import BackSurface
+from carpus.core.tracking.palm_state import PalmEstimate, View
+from carpus.core.tracking.surface_fit import SurfaceSettings
+from carpus.core.types import FloatArray, SurfaceSamples
+
+KEPT = np.array([0, 1, 5])
+"""Turn about X and Y and shift along Z among turn and shift."""
+
+
+def fit_surface(
+    estimate: PalmEstimate, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
+) -> tuple[FloatArray | float | int, ...] | None:
+    """What the compiled function tells."""
+    in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
+    in_w0 = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam
+    rotation, position, middle = estimate.rotation_w2_w0, estimate.position_m, surface.middle_m
+    shifted, turned = np.zeros(3), np.zeros(3)
+    for _ in range(settings.steps):
+        place = (in_w0 - position) @ rotation - middle
+        plane = planes_under(place, surface)
+        over = np.vecdot(place, plane[:, :3]) + plane[:, 3]
+        near = np.abs(over) < settings.most_m
+        if np.count_nonzero(near) < settings.least:
+            return None
+        weight = near * settings.huber_m / np.maximum(np.abs(over), settings.huber_m)
+        by_pose = np.concatenate((np.cross(place, plane[:, :3]), plane[:, :3]), axis=1).T
+        weighed = by_pose[KEPT] * weight
+        inverse = np.linalg.inv(weighed @ by_pose[KEPT].T)
+        about_x, about_y, up = inverse @ (weighed @ over)
+        turn = np.array((about_x, about_y, 0.0))
+        shift = np.array((0.0, 0.0, up)) - np.cross(turn, middle)
+        shifted, turned = shifted + shift, turned + turn
+        position, rotation = position + rotation @ shift, rotation @ so3.exp(turn)
+    kept, pixel = weighed[:, near], samples.pixel[near]
+    overlap = np.maximum(1.0 - np.abs(pixel[:, None] - pixel) / view.camera.sensor.patch_px, 0.0).prod(axis=-1)
+    spread2 = float(weight @ over**2 / weight.sum())
+    sums = weighed @ by_pose.T, kept @ kept.T, kept @ overlap @ kept.T
+    return turned, shifted, inverse, *sums, spread2, int(np.count_nonzero(near))
+
+
+def planes_under(place: FloatArray, surface: BackSurface) -> FloatArray:
+    """Planes (S, 4) of the nodes nearest to places (S, 3) about the surface's middle."""
+    rows, columns = surface.height_m.shape
+    node = np.rint(place @ surface.to_node[:3] + surface.to_node[3])
+    column, row = np.clip(np.where(np.isnan(node), 0.0, node), 0.0, (columns + 1.0, rows + 1.0)).astype(np.int64).T
+    return surface.plane[row * (columns + 2) + column]
