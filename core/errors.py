@@ -1,7 +1,7 @@
-"""What can go wrong: each kind of fault, and what is said of it; :mod:`core.words` puts the facts in. What ``happened``
-is the class's own description; beside it stands only what it does not say.
+"""What can go wrong: each kind of fault with its words; :mod:`core.words` puts the facts in.
 
-Short main clauses in the present tense; the program is Carpus, the person is not blamed.
+What ``happened`` is the class's own description; a docstring adds only what it does not say. The sentences are for a
+clinician: no command, option or file format, which belong into ``support``.
 """
 
 from __future__ import annotations
@@ -11,13 +11,20 @@ from typing import ClassVar
 
 from carpus.core.phrase import Phrase, phrase
 
-_UNCHANGED = phrase("Nothing has been changed.")
+UNEXPECTED = "C-000"
+"""Code of what no class foresees: a mistake of the program."""
+
+_UNCHANGED = phrase("Nothing was changed.")
 _FILE_UNCHANGED = phrase("The file was not changed.")
 _RECORDING_UNCHANGED = phrase("The recording was not changed.")
-_GOES_ON = phrase("The measurement goes on.")
-_NOTHING_YET = phrase("Nothing has been recorded, so nothing is lost.")
-_STORED = phrase("Everything recorded so far is stored on this computer.")
-_INSTALL = phrase("Install it; “carpus doctor” says what and how.")
+_GOES_ON = phrase("The measurement continues.")
+_NOTHING_YET = phrase("Nothing has been recorded yet.")
+_STORED = phrase("Everything recorded so far is saved on this computer.")
+_SESSION_REFERENCE = phrase("Session and reference were not changed.")
+_CALIBRATION = phrase("The camera’s calibration was not changed.")
+_ASK_INSTALL = phrase("Ask your IT support to install it.")
+_COPY_AGAIN = phrase("Copy the recording again from its source.")
+_GAPS = phrase("All other frames are used. The gaps are marked.")
 
 
 class CarpusFault(Exception):
@@ -25,285 +32,378 @@ class CarpusFault(Exception):
 
     ``subject`` is the file, folder, device or marker concerned; ``detail`` the measured fact
     (a number, a name, a line), a :class:`Phrase` where it says more. Neither ever holds a patient's name.
-    Each class states ``safe`` itself, and only what is known wherever it is raised: there is no default.
-    ``happened``, whether the data are ``safe``, and what to ``do`` have places for ``{subject}`` and ``{detail}``.
+    ``happened``, whether the data are ``safe`` and what to ``do`` have places for ``{subject}`` and ``{detail}``;
+    ``safe`` says only what is known wherever the fault is raised. ``code`` identifies the class for IT support, in the
+    window, in the log and in the documents, and never changes; ``title`` is its subject area; ``support`` is for who
+    installs and repairs: commands and file names, behind “Details” in the window.
     """
 
+    code: ClassVar[str] = UNEXPECTED
+    title: ClassVar[Phrase]
     happened: ClassVar[Phrase]
     safe: ClassVar[Phrase]
     do: ClassVar[Phrase]
+    support: ClassVar[str] = ""
 
     def __init__(self, subject: str | Path = "", detail: str = "") -> None:
         self.subject = str(subject)
         # A damaged file's own words may be no text; what is told must be storable and printable everywhere.
         storable = str(detail).encode("utf-8", "backslashreplace").decode("utf-8")
         self.detail = detail if isinstance(detail, Phrase) and detail == storable else storable
-        super().__init__(f"{type(self).__name__}: {self.subject} {self.detail}".strip())
+        super().__init__(f"{self.code} {type(self).__name__}: {self.subject} {self.detail}".strip())
 
 
 class RecordingMissing(CarpusFault):
-    happened = phrase("There is no recording at {subject} ({detail}).")
+    code = "C-101"
+    title = phrase("Recording")
+    happened = phrase("Recording not found: {subject} ({detail}).")
     safe = _UNCHANGED
     do = phrase("Check the name and the folder.")
 
 
 class RecordingUnreadable(CarpusFault):
+    code = "C-102"
+    title = phrase("Recording")
     happened = phrase("The recording cannot be read: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Copy the recording again from where it was made, or correct the list.")
+    do = phrase("Copy the recording again, or correct its list of frames.")
 
 
 class RecordingEmpty(CarpusFault):
-    happened = phrase("The recording holds no picture: {subject} ({detail}).")
+    code = "C-103"
+    title = phrase("Recording")
+    happened = phrase("The recording contains no frames: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
     do = phrase("Choose another recording, or record again.")
 
 
 class PictureDamaged(CarpusFault):
-    happened = phrase("A picture of the recording cannot be used: {subject} ({detail}).")
+    code = "C-104"
+    title = phrase("Recording")
+    happened = phrase("A frame of the recording is damaged: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.")
+    do = _COPY_AGAIN
+    support = phrase("“carpus track --leave-out-damaged” continues without it.")
 
 
 class FirstPictureDamaged(PictureDamaged):
     """The one on which the markers are clicked, without which nothing goes on."""
 
-    happened = phrase("The first picture of the recording cannot be used: {subject} ({detail}).")
+    code = "C-105"
+    title = phrase("Recording")
+    happened = phrase("The first frame of the recording is damaged: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Copy the recording again from where it was made.")
+    do = _COPY_AGAIN
+    support = ""
 
 
 class PictureSizeChanged(CarpusFault):
-    happened = phrase("The pictures of the recording differ in size: {subject} ({detail}).")
+    code = "C-106"
+    title = phrase("Recording")
+    happened = phrase("The frames of the recording differ in size: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Use a recording whose pictures all have one size.")
+    do = phrase("Use a recording whose frames all have the same size.")
 
 
 class TimesUnordered(CarpusFault):
-    happened = phrase("The times of the recording do not rise: {subject} ({detail}).")
+    code = "C-107"
+    title = phrase("Recording")
+    happened = phrase("The frame times are out of order: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Put the list in the order of time with each time once, or record again.")
+    do = phrase("Record again, or correct the list of frames.")
 
 
 class DepthMissing(CarpusFault):
+    code = "C-108"
+    title = phrase("Recording")
     happened = phrase("The recording has no usable depth: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Use a recording of colour and depth.")
+    do = phrase("Use a recording with colour and depth.")
 
 
 class CameraFileUnreadable(CarpusFault):
-    happened = phrase("The file of the camera cannot be used: {subject} ({detail}).")
+    code = "C-201"
+    title = phrase("Camera")
+    happened = phrase("The camera file cannot be used: {subject} ({detail}).")
     safe = _FILE_UNCHANGED
     do = phrase("Calibrate the camera again, or correct the file.")
 
 
 class ClicksUnreadable(CarpusFault):
-    happened = phrase("The clicks cannot be read: {subject} ({detail}).")
+    code = "C-301"
+    title = phrase("Markers")
+    happened = phrase("The clicked markers cannot be read: {subject} ({detail}).")
     safe = _FILE_UNCHANGED
-    do = phrase("Correct the file, or click the markers again.")
+    do = phrase("Click the markers again, or correct the file.")
 
 
 class ProtocolUnknown(CarpusFault):
-    happened = phrase("There is no set of markers with the name {subject} ({detail}).")
+    code = "C-302"
+    title = phrase("Markers")
+    happened = phrase("There is no marker set called {subject} ({detail}).")
     safe = _UNCHANGED
     do = phrase("Use wrist6 or hand21.")
 
 
 class ClickOutsidePicture(CarpusFault):
-    happened = phrase("A click lies outside the picture: {subject} ({detail}).")
+    code = "C-303"
+    title = phrase("Markers")
+    happened = phrase("A click lies outside the image: {subject} ({detail}).")
     safe = _NOTHING_YET
-    do = phrase("Click the marker in the first picture of this recording.")
+    do = phrase("Click the marker in the first frame of this recording.")
 
 
 class ClickOnNoMarker(CarpusFault):
-    happened = phrase("A click has no blue marker of its own: {subject}.")
+    code = "C-304"
+    title = phrase("Markers")
+    happened = phrase("No separate blue marker was found at a click: {subject}.")
     safe = _NOTHING_YET
-    do = phrase("Click nearer to the marker, or check the light.")
+    do = phrase("Click closer to the marker, or check the light.")
 
 
 class MarkerWithoutDepth(CarpusFault):
+    code = "C-305"
+    title = phrase("Markers")
     happened = phrase("The camera measures no depth at a marker: {subject}.")
     safe = _NOTHING_YET
-    do = phrase("Move the hand a little, and keep sunlight and shine off the markers.")
+    do = phrase("Move the hand a little. Keep sunlight and reflections off the markers.")
 
 
 class CalibrationImpossible(CarpusFault):
-    happened = phrase("The clicked markers do not make a hand ({subject}).")
+    code = "C-306"
+    title = phrase("Markers")
+    happened = phrase("The clicked points do not form a hand ({subject}).")
     safe = _NOTHING_YET
-    do = phrase("Click every marker again under its own name.")
+    do = phrase("Click every marker again, in the order shown.")
 
 
 class OutputExists(CarpusFault):
-    happened = phrase("There is a file already at {subject}.")
-    safe = phrase("That file is untouched; Carpus never overwrites.")
+    code = "C-401"
+    title = phrase("Files")
+    happened = phrase("A file with this name already exists: {subject}.")
+    safe = phrase("That file was not changed.")
     do = phrase("Choose another name.")
 
 
 class ExtraMissing(CarpusFault):
     """A Python package that is installed only when asked for is not installed; ``subject`` is its name."""
 
-    happened = phrase("This needs the Python package {subject}, which is not installed.")
+    code = "C-001"
+    title = phrase("Installation")
+    happened = phrase("A Python package that this needs is not installed: {subject}.")
     safe = _UNCHANGED
-    do = _INSTALL
+    do = _ASK_INSTALL
 
 
 class NotCompiled(CarpusFault):
     """Modules of ``core/compiled`` that are there as source alone; ``subject`` names them."""
 
-    happened = phrase("Carpus was not installed completely: a compiled part of it is missing ({subject}).")
+    code = "C-002"
+    title = phrase("Installation")
+    happened = phrase("Carpus was not installed completely: a compiled part is missing ({subject}).")
     safe = _UNCHANGED
-    do = phrase("Install Carpus anew.")
+    do = phrase("Install Carpus again.")
 
 
 class SchedulerUnreachable(CarpusFault):
+    code = "C-003"
+    title = phrase("Installation")
     happened = phrase("The scheduler at {subject} does not answer ({detail}).")
     safe = _UNCHANGED
-    do = phrase("Check the address, or leave out --scheduler to use this machine.")
+    do = phrase("Check the address.")
+    support = phrase("Without --scheduler this computer does the work.")
 
 
 class OutputBusy(CarpusFault):
-    happened = phrase("Another program is making {subject} at this moment.")
+    code = "C-402"
+    title = phrase("Files")
+    happened = phrase("Another program is writing {subject}.")
     safe = phrase("It is left to that program.")
-    do = phrase("Wait until it has ended, or choose another folder.")
+    do = phrase("Wait until it has finished, or choose another folder.")
 
 
 class OutputNotWritable(CarpusFault):
+    code = "C-403"
+    title = phrase("Files")
     happened = phrase("Carpus cannot write to {subject} ({detail}).")
-    safe = phrase("What was stored before is safe.")
-    do = phrase("Check that the folder exists and that you may write there, or choose another one.")
+    safe = phrase("Everything saved before is safe.")
+    do = phrase("Check that the folder exists and that you may write there, or choose another folder.")
 
 
 class DiskFull(CarpusFault):
     """No room was left while writing; what was written is kept."""
 
-    happened = phrase("The disk has no room left for {subject} ({detail}).")
-    safe = phrase("Everything stored before is safe. What was just being written may be missing.")
+    code = "C-404"
+    title = phrase("Files")
+    happened = phrase("The disk has no space left for {subject} ({detail}).")
+    safe = phrase("Everything saved before is safe. What was being written may be missing.")
     do = phrase("Free some space, or choose another disk.")
 
 
 class SessionUnreadable(CarpusFault):
-    happened = phrase("This session cannot be read: {subject} ({detail}).")
-    safe = phrase("The file is untouched, and all other sessions are safe.")
-    do = phrase("Check that it is a session of this or an older Carpus, or take it from a back-up.")
+    code = "C-501"
+    title = phrase("Session")
+    happened = phrase("This session cannot be opened: {subject} ({detail}).")
+    safe = phrase("The file was not changed. All other sessions are safe.")
+    do = phrase("If it was copied, copy it again. Otherwise restore it from a backup.")
 
 
 class SessionMissing(SessionUnreadable):
+    code = "C-502"
+    title = phrase("Session")
     happened = phrase("File not found: {subject}.")
     safe = _UNCHANGED
     do = phrase("Check the path.")
 
 
 class SessionChanged(CarpusFault):
-    happened = phrase("This session was changed after it was finished: {subject}.")
-    safe = phrase("It can still be read; its seal does not fit what it holds now.")
-    do = phrase("Take it from a back-up, or do not rely on its figures.")
+    code = "C-503"
+    title = phrase("Session")
+    happened = phrase("This session was modified after it was completed: {subject}.")
+    safe = phrase("It can be opened, but its values may have been altered.")
+    do = phrase("Use the copy in a backup.")
+    support = phrase("Its SHA-256 checksum does not match.")
 
 
 class SessionUnfinished(SessionUnreadable):
     """A part file of Carpus 0.2.0, which only its recovery reads."""
 
+    code = "C-504"
+    title = phrase("Session")
     happened = phrase("This session is not finished: {subject}.")
-    safe = phrase("What was recorded of it is there.")
-    do = phrase("Finish it with “carpus recover”, or wait until its recording has ended.")
+    safe = phrase("What was recorded is safe.")
+    do = phrase("Wait until its recording has ended, or restart Carpus: it completes the session.")
+    support = phrase("“carpus recover” completes it too.")
 
 
 class ReferenceUnreadable(CarpusFault):
+    code = "C-601"
+    title = phrase("Comparison")
     happened = phrase("The reference cannot be read: {subject} ({detail}).")
-    safe = phrase("The session and the reference were not changed.")
+    safe = _SESSION_REFERENCE
     do = phrase("Use C3D, TRC, MOT, a CSV table with its column map, or a session.")
 
 
 class ReferenceUnsuited(CarpusFault):
-    happened = phrase("Nothing in the reference can be compared: {subject} ({detail}).")
-    safe = phrase("The session and the reference were not changed.")
-    do = phrase("Check that it is the same movement, and say which column or marker is which.")
+    code = "C-602"
+    title = phrase("Comparison")
+    happened = phrase("The reference has nothing to compare: {subject} ({detail}).")
+    safe = _SESSION_REFERENCE
+    do = phrase("Check that it is the same movement, and state which column or marker is which.")
 
 
 class StudyUnsuited(CarpusFault):
-    happened = phrase("These sessions make no test and retest: {subject} ({detail}).")
-    safe = phrase("What counts as a change stays as it is.")
-    do = phrase("Measure each person twice, discs put on anew, within 14 days; 10 people are the least.")
+    code = "C-603"
+    title = phrase("Comparison")
+    happened = phrase("These sessions are not a test-retest study: {subject} ({detail}).")
+    safe = phrase("The limits of change stay as they are.")
+    do = phrase("Measure at least 10 people twice within 14 days, with the markers placed anew each time.")
 
 
 class SettingsInvalid(CarpusFault):
-    happened = phrase("A setting cannot be used: {subject} ({detail}).")
+    code = "C-004"
+    title = phrase("Settings")
+    happened = phrase("A setting is invalid: {subject} ({detail}).")
     safe = _UNCHANGED
-    do = phrase("Correct the setting, or take it out to use the usual value.")
+    do = phrase("Correct the setting, or remove it to use the default.")
 
 
 class ChangedMeanwhile(CarpusFault):
     """Somebody else changed the same thing since it was read; ``subject`` is its table."""
 
-    happened = phrase("Somebody else has changed this meanwhile, so your change was not kept.")
-    safe = phrase("What the other person entered is kept.")
-    do = phrase("Open it again, look at what stands there now, and enter your change once more.")
+    code = "C-701"
+    title = phrase("Patients")
+    happened = phrase("Someone else changed this record, so your change was not saved.")
+    safe = phrase("The other change is saved.")
+    do = phrase("Open it again and enter your change once more.")
 
 
 class PseudonymGiven(CarpusFault):
     """A pseudonym was given on two computers before they had one store; the number ``detail`` was put behind the second
     one."""
 
-    happened = phrase("The name {subject} was given on two computers: the second patient has ({detail}) behind it.")
-    safe = phrase("All sessions of both patients are kept apart.")
-    do = phrase("Change the name in the patient’s entry if another one is better.")
+    code = "C-702"
+    title = phrase("Patients")
+    happened = phrase("Two patients had the name {subject}: the second one now has ({detail}) after it.")
+    safe = phrase("Their sessions are kept apart.")
+    do = phrase("If another name is better, change it in the patient’s entry.")
 
 
 class ServerGone(CarpusFault):
     """The clinic's server for records does not answer; nobody waits for it."""
 
-    happened = phrase("The clinic’s server for records does not answer: {subject} ({detail}).")
-    safe = phrase("All sessions are safe. What was being entered just now may not have been kept.")
-    do = phrase(
-        "Measure all the same, and enter the rest when the server answers; if it lasts, ask whoever looks after it."
-    )
+    code = "C-703"
+    title = phrase("Patients")
+    happened = phrase("The clinic’s records server does not answer: {subject} ({detail}).")
+    safe = phrase("All sessions are safe. What was being entered may not be saved.")
+    do = phrase("Continue measuring. If the server stays away, ask your IT support.")
 
 
 class NameUnsuited(CarpusFault):
-    happened = phrase("This cannot be a name: {detail} ({subject}).")
+    code = "C-704"
+    title = phrase("Patients")
+    happened = phrase("This cannot be used as a name: {detail} ({subject}).")
     safe = _UNCHANGED
-    do = phrase("Type the name by hand instead of pasting it.")
+    do = phrase("Type the name instead of pasting it.")
 
 
 class DriverMissing(CarpusFault):
-    happened = phrase("The driver of the camera is not on this computer, or cannot be loaded ({detail}).")
+    code = "C-202"
+    title = phrase("Camera")
+    happened = phrase("The camera driver is not installed or cannot be loaded ({detail}).")
     safe = _UNCHANGED
-    do = _INSTALL
+    do = phrase("Ask your IT support to install the driver.")
+    support = phrase("“carpus doctor” says what is missing and how to install it.")
 
 
 class DriverFailed(CarpusFault):
     """The library of a camera died or no longer answers; it ran in a process of its own."""
 
-    happened = phrase("The driver of the camera has stopped: {subject} ({detail}).")
+    code = "C-203"
+    title = phrase("Camera")
+    happened = phrase("The camera driver has stopped: {subject} ({detail}).")
     safe = _STORED
     do = phrase("Unplug the camera, plug it in again and start once more.")
 
 
 class CameraUnknown(CarpusFault):
-    happened = phrase("No kind of camera is called {subject} ({detail}).")
+    code = "C-204"
+    title = phrase("Camera")
+    happened = phrase("There is no camera type called {subject} ({detail}).")
     safe = _NOTHING_YET
-    do = phrase("Choose the camera by one of these names, in the settings or with --camera.")
+    do = phrase("Choose the camera in the settings.")
+    support = phrase("On the command line, --camera names it.")
 
 
 class CameraMissing(CarpusFault):
-    happened = phrase("Carpus sees no camera ({detail}).")
+    code = "C-205"
+    title = phrase("Camera")
+    happened = phrase("No camera was found ({detail}).")
     safe = _NOTHING_YET
-    do = phrase("Plug the camera straight into the computer.")
+    do = phrase("Plug the camera directly into the computer.")
 
 
 class CameraBusy(CarpusFault):
-    happened = phrase("Another program uses the camera ({detail}).")
+    code = "C-206"
+    title = phrase("Camera")
+    happened = phrase("Another program is using the camera ({detail}).")
     safe = _NOTHING_YET
     do = phrase("Close the other program, then try again.")
 
 
 class CameraPermission(CarpusFault):
-    happened = phrase("The camera is there, but you may not open it ({detail}).")
+    code = "C-207"
+    title = phrase("Camera")
+    happened = phrase("You do not have permission to open the camera ({detail}).")
     safe = _NOTHING_YET
-    do = phrase("Give yourself access to it; “carpus doctor” says how.")
+    do = phrase("Ask your IT support for access to the camera.")
+    support = phrase("“carpus doctor” says how to give it.")
 
 
 class CameraUnsuited(CarpusFault):
-    happened = phrase("This camera does not give the pictures that Carpus needs: {subject} ({detail}).")
+    code = "C-208"
+    title = phrase("Camera")
+    happened = phrase("This camera does not deliver the images that Carpus needs: {subject} ({detail}).")
     safe = _STORED
     do = phrase("Use a camera with colour and depth, such as the Xtion.")
 
@@ -311,293 +411,366 @@ class CameraUnsuited(CarpusFault):
 class CameraLost(CarpusFault):
     """The camera was unplugged or sends no more pictures. Told when it happens, raised when it does not come back."""
 
-    happened = phrase("The camera sends no more pictures: {subject} ({detail}).")
+    code = "C-209"
+    title = phrase("Camera")
+    happened = phrase("The camera has stopped sending images: {subject} ({detail}).")
     safe = _STORED
-    do = phrase("Plug the camera in again; tracking and recording then go on by themselves.")
+    do = phrase("Plug the camera in again. Tracking and recording then continue automatically.")
 
 
 class OtherCamera(CameraLost):
     """Another camera is plugged in than the one that is wanted. Told while that one is away; raised at the opening."""
 
-    happened = phrase("Carpus waits for its camera: {subject}. Another one is there ({detail}).")
+    code = "C-210"
+    title = phrase("Camera")
+    happened = phrase("A different camera is connected ({detail}). Carpus expects {subject}.")
     safe = _STORED
-    do = phrase("Plug its own camera in again; what was begun then goes on by itself.")
+    do = phrase("Connect the expected camera. What was begun then continues automatically.")
 
 
 class CameraReturned(CarpusFault):
     """Told, never raised: the lost camera delivers again; ``detail`` is how long it was away."""
 
+    code = "C-211"
+    title = phrase("Camera")
     happened = phrase("The camera is back: {subject} (away for {detail}).")
     safe = _STORED
-    do = phrase("Go on; the pause is marked in the session.")
+    do = phrase("Continue. The gap is marked in the session.")
 
 
 class ExposureNotHeld(CarpusFault):
     """Told, never raised."""
 
-    happened = phrase("The camera cannot hold its exposure: {subject}.")
+    code = "C-212"
+    title = phrase("Camera")
+    happened = phrase("The camera cannot keep its exposure constant: {subject}.")
     safe = _GOES_ON
-    do = phrase("Keep the light as it is while you measure.")
+    do = phrase("Keep the light constant while you measure.")
 
 
 class RecordingDamaged(CarpusFault):
+    code = "C-109"
+    title = phrase("Recording")
     happened = phrase("The recording is damaged: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Copy the recording again from where it was made.")
+    do = _COPY_AGAIN
 
 
 class RecordingUnsupported(CarpusFault):
-    happened = phrase("Carpus cannot use the pictures of this recording: {subject} ({detail}).")
+    code = "C-110"
+    title = phrase("Recording")
+    happened = phrase("The image format of this recording is not supported: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
-    do = phrase("Record again with colour and depth of one size.")
+    do = phrase("Record again with colour and depth of the same size.")
 
 
 class PicturesLost(CarpusFault):
     """Told, never raised: damaged pictures of a recording were left out; ``detail`` counts them."""
 
-    happened = phrase("Damaged pictures of the recording are left out: {subject} ({detail}).")
-    safe = phrase("All other pictures are used, and the gaps are marked.")
-    do = phrase("Copy the recording again if there are many.")
+    code = "C-111"
+    title = phrase("Recording")
+    happened = phrase("Damaged frames were excluded: {subject} ({detail}).")
+    safe = _GAPS
+    do = phrase("If there are many, copy the recording again.")
 
 
 class PicturesEnlarged(CarpusFault):
     """Told, never raised: pictures of one kind were smaller and have been enlarged."""
 
-    happened = phrase("Some pictures are smaller and have been enlarged: {subject} ({detail}).")
+    code = "C-112"
+    title = phrase("Recording")
+    happened = phrase("Some frames are smaller and were enlarged: {subject} ({detail}).")
     safe = _GOES_ON
-    do = phrase("Set colour and depth to one size next time.")
+    do = phrase("Use the same size for colour and depth next time.")
 
 
 class IntrinsicsAssumed(CarpusFault):
     """Told, never raised: no camera file says how this camera sees, so ``detail`` is used in its place."""
 
-    happened = phrase(
-        "There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off."
-    )
+    code = "C-213"
+    title = phrase("Camera")
+    happened = phrase("No camera calibration was found with {subject}: lengths may be several per cent off ({detail}).")
     safe = _GOES_ON
-    do = phrase("Put the camera_info.yaml of the camera beside it.")
+    do = phrase("Calibrate the camera in the settings.")
+    support = phrase("Or put the camera’s camera_info.yaml beside the recording.")
 
 
 class UnitAssumed(CarpusFault):
     """Told, never raised: the numbers of a recording make sense in another unit than its form has."""
 
-    happened = phrase("By its numbers, the recording has {detail}, and Carpus reads it so: {subject}.")
+    code = "C-113"
+    title = phrase("Recording")
+    happened = phrase("By its numbers the recording has {detail}, and Carpus reads it that way: {subject}.")
     safe = _RECORDING_UNCHANGED
-    do = phrase("If this is not so, correct the list, or state depth_unit_m in camera_info.yaml.")
+    do = phrase("If this is wrong, correct the list of frames or state the unit of depth.")
+    support = phrase("camera_info.yaml states it as depth_unit_m.")
 
 
 class TimesTwice(CarpusFault):
     """Told, never raised: lines of a list with the time of the one before are left out; ``detail`` counts them."""
 
-    happened = phrase("Pictures with the same time as the one before are left out: {subject} ({detail}).")
-    safe = phrase("All other pictures are used, and the gaps are marked.")
-    do = phrase("Record again if there are many.")
+    code = "C-114"
+    title = phrase("Recording")
+    happened = phrase("Frames with a repeated time were excluded: {subject} ({detail}).")
+    safe = _GAPS
+    do = phrase("If there are many, record again.")
 
 
 class RegistrationAssumed(CarpusFault):
     """Told, never raised: nothing says whether depth lies on colour; it is taken as so."""
 
-    happened = phrase("Nothing says whether depth lies on colour in {subject}; Carpus takes it so.")
+    code = "C-115"
+    title = phrase("Recording")
+    happened = phrase(
+        "It is not stated whether depth and colour are aligned in {subject}; Carpus assumes that they are."
+    )
     safe = _GOES_ON
-    do = phrase("Write “registered: true” or “false” into its camera_info.yaml.")
+    do = phrase("State it in the camera file.")
+    support = phrase("Write “registered: true” or “registered: false” into camera_info.yaml.")
 
 
 class DepthNotRegistered(CarpusFault):
     """Told, never raised: depth is known not to lie on colour, so depths are read beside the markers."""
 
-    happened = phrase("Depth does not lie on colour in {subject}, so depths are less sure.")
+    code = "C-116"
+    title = phrase("Recording")
+    happened = phrase("Depth and colour are not aligned in {subject}, so depths are less accurate.")
     safe = _GOES_ON
-    do = phrase("Switch on registration in the camera next time.")
+    do = phrase("Turn on depth registration in the camera settings next time.")
 
 
 class DiskTooSlow(CarpusFault):
     """Pictures came faster than they could be stored; what was stored is kept."""
 
-    happened = phrase("The disk is too slow for the recording, so it has ended: {subject} ({detail}).")
-    safe = phrase("Everything stored up to then is safe.")
-    do = phrase("Record to a disk inside this computer, and close other programs.")
+    code = "C-405"
+    title = phrase("Files")
+    happened = phrase("The disk is too slow, so the recording has ended: {subject} ({detail}).")
+    safe = phrase("Everything saved until then is safe.")
+    do = phrase("Record to a disk in this computer, and close other programs.")
 
 
 class NotLookedBack(CarpusFault):
     """Told, never raised to a person: looking back at a live session failed or took too long; it is as tracked."""
 
-    happened = phrase("Carpus could not look back at the session: {subject} ({detail}).")
-    safe = phrase("All of it is stored as it was measured live.")
-    do = phrase("Run “carpus track” on the session to look back at it.")
+    code = "C-505"
+    title = phrase("Session")
+    happened = phrase("Smoothing of this session failed: {subject} ({detail}).")
+    safe = phrase("The live measurement is saved.")
+    do = phrase("You can use the session as it is.")
+    support = phrase("“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.")
 
 
 class NotCorrectable(CarpusFault):
+    code = "C-506"
+    title = phrase("Session")
     happened = phrase("The markers of this session cannot be corrected: {subject} ({detail}).")
-    safe = phrase("The session is unchanged, and its repetitions can be left out.")
-    do = phrase("Leave out the repetitions that should not count, or track the recording again with “carpus track”.")
+    safe = phrase("The session was not changed.")
+    do = phrase("Exclude the repetitions that are wrong, or record again.")
+    support = phrase("Or track the recording again with “carpus track”.")
 
 
 class NotCorrected(CarpusFault):
     """Tracking a session again with corrected markers did not come to its end; the old result is unchanged."""
 
-    happened = phrase("Tracking again stopped: {subject} ({detail}).")
-    safe = phrase("The old result is unchanged.")
-    do = phrase("Try again, or correct another picture too.")
+    code = "C-507"
+    title = phrase("Session")
+    happened = phrase("The re-analysis failed: {subject} ({detail}).")
+    safe = phrase("The previous result was not changed.")
+    do = phrase("Try again, or correct another frame first.")
 
 
 class RegisterUnreadable(CarpusFault):
-    happened = phrase("The list of patients cannot be opened: {subject} ({detail}).")
-    safe = phrase("The session files are not touched. Names and notes are in this file alone: keep it.")
-    do = phrase("Start Carpus again. If that does not help, ask your IT support.")
+    code = "C-705"
+    title = phrase("Patients")
+    happened = phrase("The patient list cannot be opened: {subject} ({detail}).")
+    safe = phrase("Session files are safe. Keep this file: names and notes are stored in it alone.")
+    do = phrase("Restart Carpus. If that does not help, ask your IT support.")
 
 
 class RegisterVersionUnknown(RegisterUnreadable):
     """A register of a newer Carpus, or one that says no version that there is."""
 
-    happened = phrase("The list of patients is of another version of Carpus: {subject} ({detail}).")
+    code = "C-706"
+    title = phrase("Patients")
+    happened = phrase("The patient list was made by another version of Carpus: {subject} ({detail}).")
     safe = _UNCHANGED
-    do = phrase("Bring Carpus up to date on this computer.")
+    do = phrase("Update Carpus on this computer.")
 
 
 class RegisterBusy(RegisterUnreadable):
-    happened = phrase("The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).")
+    code = "C-707"
+    title = phrase("Patients")
+    happened = phrase("The patient list is open in another window of Carpus or another program: {subject} ({detail}).")
     safe = _UNCHANGED
-    do = phrase("Close Carpus first, then try again.")
+    do = phrase("Close it there, then try again.")
 
 
 class RegisterJournalLeft(RegisterUnreadable):
     """Of a window that is open on another computer, or of one that ended without warning."""
 
-    happened = phrase(
-        "The last changes of the list of patients lie in its journal, "
-        "which needs a folder that can be written: {subject}."
-    )
+    code = "C-708"
+    title = phrase("Patients")
+    happened = phrase("Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.")
     safe = _UNCHANGED
-    do = phrase("Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.")
+    do = phrase("Close Carpus on other computers. If that does not help, ask your IT support for write access.")
 
 
 class RegisterDamaged(RegisterUnreadable):
     """The register's file is broken or not a register; reading it again does not help."""
 
-    happened = phrase("The list of patients is damaged: {subject} ({detail}).")
+    code = "C-709"
+    title = phrase("Patients")
+    happened = phrase("The patient list is damaged: {subject} ({detail}).")
     safe = RegisterUnreadable.safe
-    do = phrase("Start Carpus again: it keeps what can still be read. If names are missing then, restore a back-up.")
+    do = phrase("Restart Carpus: it keeps what can still be read. If names are missing, restore a backup.")
 
 
 class RegisterSetAside(CarpusFault):
     """Told, never raised: a damaged register was given another name, and the list made again from the sessions."""
 
+    code = "C-710"
+    title = phrase("Patients")
     happened = phrase(
-        "The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions."
+        "The patient list was damaged. It was rebuilt from the sessions and what could be read ({detail})."
     )
     safe = phrase(
-        "All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}."
+        "All sessions are safe. Names, notes and comments may be missing. The damaged list is kept as {subject}."
     )
-    do = phrase("Look through the list; restore it from a back-up, or enter again what is missing.")
+    do = phrase("Check the list, or restore a backup.")
 
 
 class RegisterMissing(CarpusFault):
     """Told, never raised: there are sessions and no list of patients, so that one was made from them."""
 
-    happened = phrase("There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.")
-    safe = phrase("All sessions are safe. If there was a list before, its names, notes and comments are gone.")
-    do = phrase("Restore the list from a back-up, or enter the names again.")
+    code = "C-711"
+    title = phrase("Patients")
+    happened = phrase("The patient list was missing and was rebuilt from the sessions: {subject}.")
+    safe = phrase("All sessions are safe. If there was a list before, its names, notes and comments are missing.")
+    do = phrase("Restore a backup, or enter the names again.")
 
 
 class LogUnguarded(CarpusFault):
     """Told, never raised: what keeps the log from being changed had been taken out of the store."""
 
-    happened = phrase(
-        "What keeps the log of deeds from being changed had been taken out of {subject}; it is there again."
-    )
-    safe = phrase("Patients and sessions are safe. Lines of the log may have been changed or taken out.")
-    do = phrase("Compare the log with that of a back-up.")
+    code = "C-712"
+    title = phrase("Patients")
+    happened = phrase("The write protection of the audit log in {subject} had been removed. Carpus has restored it.")
+    safe = phrase("Patients and sessions are safe. Entries of the log may have been altered.")
+    do = phrase("Compare the log with a backup, and tell your data-protection officer.")
 
 
 class FilesSetApart(CarpusFault):
     """Told, never raised: files among the sessions that are none; ``subject`` names some, ``detail`` counts them."""
 
-    happened = phrase("{detail} among the sessions cannot be read and are set apart: {subject}.")
-    safe = phrase("They are untouched where they are, and all other sessions are safe.")
-    do = phrase("Take them from a back-up, or leave them; Carpus does not open them again.")
+    code = "C-508"
+    title = phrase("Session")
+    happened = phrase("{detail} among the sessions cannot be read and were ignored: {subject}.")
+    safe = phrase("They were not changed. All other sessions are safe.")
+    do = phrase("Restore them from a backup.")
 
 
 class RecordingWaits(CarpusFault):
     """Told, never raised: a finished session waits at ``subject`` until the folder of the sessions can be reached."""
 
-    happened = phrase("The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.")
-    safe = phrase("All of it is safe on this computer.")
-    do = phrase("Go on. Connect the disk or the network again; Carpus then moves the session by itself.")
+    code = "C-406"
+    title = phrase("Files")
+    happened = phrase("The session folder is not available ({detail}). The session is saved in {subject}.")
+    safe = phrase("It is safe on this computer.")
+    do = phrase("Continue. When the disk or network is back, Carpus moves the session automatically.")
 
 
 class NothingRecorded(CarpusFault):
     """Told, never raised: a recording had ended before its first frame was stored."""
 
-    happened = phrase("A recording ended before its first second was stored: {subject}. There is nothing to recover.")
-    safe = phrase("Everything that was recorded before is safe.")
+    code = "C-117"
+    title = phrase("Recording")
+    happened = phrase("A recording ended before its first second was saved: {subject}. There is nothing to recover.")
+    safe = phrase("Everything recorded before is safe.")
     do = phrase("Record this exercise again.")
 
 
 class WaitingErased(CarpusFault):
     """Told, never raised: a recording that waited on this computer was of a patient who has been erased meanwhile."""
 
-    happened = phrase(
-        "A recording that waited on this computer was of a patient who has been erased: it is erased too."
-    )
-    safe = phrase("Nothing else has been changed.")
-    do = phrase("Nothing need be done.")
+    code = "C-713"
+    title = phrase("Patients")
+    happened = phrase("A recording that waited on this computer belonged to a deleted patient and was deleted as well.")
+    safe = phrase("Nothing else was changed.")
+    do = phrase("No action is needed.")
 
 
 class RecordingReturned(CarpusFault):
     """Told, never raised: a session that waited on this computer is among the others now."""
 
-    happened = phrase("A session that waited on this computer is in the folder of the sessions now: {subject}.")
-    safe = phrase("All of it is safe.")
-    do = phrase("Review it as any other.")
+    code = "C-407"
+    title = phrase("Files")
+    happened = phrase("A session that was kept on this computer is now in the session folder: {subject}.")
+    safe = phrase("It is complete.")
+    do = phrase("Review it like any other session.")
 
 
 class FolderMissing(CarpusFault):
+    code = "C-408"
+    title = phrase("Files")
     happened = phrase("There is no folder {subject}.")
     safe = _UNCHANGED
-    do = phrase("Name the folder that holds the sessions.")
+    do = phrase("Choose the folder that contains the sessions.")
 
 
 class ShareEmpty(FolderMissing):
-    happened = phrase("There is nothing that Carpus made in the folder of the sessions: {subject}.")
-    safe = phrase(
-        "Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there."
-    )
-    do = phrase("Is the share connected? Connect it; if the sessions were moved, copy them there.")
+    code = "C-409"
+    title = phrase("Files")
+    happened = phrase("The session folder contains nothing from Carpus: {subject}.")
+    safe = phrase("Nothing was changed. New recordings are kept on this computer.")
+    do = phrase("Check that the network share is connected.")
 
 
 class NoDataFolder(CarpusFault):
-    happened = phrase("There is nothing of Carpus in the folder {subject}.")
+    code = "C-410"
+    title = phrase("Files")
+    happened = phrase("The folder contains no Carpus data: {subject}.")
     safe = _UNCHANGED
-    do = phrase("Name the folder that holds the patients; carpus doctor says which it is.")
+    do = phrase("Choose the folder that contains the patients.")
+    support = phrase("“carpus doctor” says which one it is.")
 
 
 class DataFolderChanged(CarpusFault):
     """Told at a start: ``subject`` is opened, ``detail`` is the folder of the start before, or of the settings."""
 
-    happened = phrase("Carpus shows another data folder: {subject}.")
-    safe = phrase("Before it was {detail}. Carpus has moved nothing out of it.")
-    do = phrase("If patients are missing here, choose the data folder in Settings.")
+    code = "C-411"
+    title = phrase("Files")
+    happened = phrase("Carpus now uses another data folder: {subject}.")
+    safe = phrase("Before it was {detail}. Nothing was moved.")
+    do = phrase("If patients are missing here, choose the data folder in the settings.")
 
 
 class FolderInUse(CarpusFault):
-    happened = phrase("Another Carpus is using the patients of {subject}.")
+    code = "C-412"
+    title = phrase("Files")
+    happened = phrase("Another Carpus is using this data folder: {subject}.")
     safe = _UNCHANGED
-    do = phrase("Go to the window that is open already, or choose another folder.")
+    do = phrase("Use the window that is already open, or choose another folder.")
 
 
 class SessionsMissing(CarpusFault):
+    code = "C-509"
+    title = phrase("Session")
     happened = phrase("There is no session in {subject}.")
     safe = _UNCHANGED
-    do = phrase("Measure one, or name the folder that holds the sessions.")
+    do = phrase("Measure one, or choose the folder that contains the sessions.")
 
 
 class PatientUnknown(CarpusFault):
-    happened = phrase("There is no patient {subject} ({detail}).")
+    code = "C-714"
+    title = phrase("Patients")
+    happened = phrase("There is no patient called {subject} ({detail}).")
     safe = _UNCHANGED
-    do = phrase("Choose one of the patients that there are.")
+    do = phrase("Choose an existing patient.")
 
 
 class PseudonymTaken(CarpusFault):
+    code = "C-715"
+    title = phrase("Patients")
     happened = phrase("The name {subject} belongs to another patient.")
     safe = _UNCHANGED
     do = phrase("Choose another name.")
@@ -606,23 +779,27 @@ class PseudonymTaken(CarpusFault):
 class ErasureUnfinished(CarpusFault):
     """Files of what was erased could not be deleted yet; ``subject`` names one, ``detail`` counts them."""
 
+    code = "C-716"
+    title = phrase("Patients")
     happened = phrase("Not all files could be deleted yet ({detail} left, such as {subject}).")
-    safe = phrase("They are in no list any more, and Carpus tries again whenever it starts.")
-    do = phrase(
-        "Close other programs that have them open, or allow Carpus to write in their folder, and start it again."
-    )
+    safe = phrase("They are no longer listed. Carpus tries again at each start.")
+    do = phrase("Close other programs that use them, then restart Carpus.")
 
 
 class ErasureLeadsOut(CarpusFault):
     """Nothing was erased: ``subject`` is a link on the way to what should go."""
 
-    happened = phrase("Nothing was erased: {subject} is a link that leads elsewhere.")
-    safe = phrase("Carpus deletes no file behind a link; everything is as it was.")
-    do = phrase("Put what it leads to in its place, then erase again.")
+    code = "C-717"
+    title = phrase("Patients")
+    happened = phrase("Nothing was deleted: {subject} is a link to another place.")
+    safe = phrase("Everything is as it was.")
+    do = phrase("Ask your IT support to replace the link by its target, then delete again.")
 
 
 class BackupPlaceUnsuited(CarpusFault):
-    happened = phrase("Back-ups cannot lie there: {subject} ({detail}).")
+    code = "C-801"
+    title = phrase("Backup")
+    happened = phrase("Backups cannot be stored there: {subject} ({detail}).")
     safe = _UNCHANGED
     do = phrase("Choose a folder on another disk.")
 
@@ -630,58 +807,77 @@ class BackupPlaceUnsuited(CarpusFault):
 class BackupIncomplete(CarpusFault):
     """Told after a back-up: ``subject`` is missing or cannot be read, and so are ``detail`` files in all."""
 
-    happened = phrase("The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.")
-    safe = phrase("Everything else is in it.")
-    do = phrase("Bring the session folder or its disk back, then back up again.")
+    code = "C-802"
+    title = phrase("Backup")
+    happened = phrase("The backup is incomplete: {subject} is missing or cannot be read; {detail} in all.")
+    safe = phrase("All other files are in the backup.")
+    do = phrase("Reconnect the session folder or its disk, then back up again.")
 
 
 class BackupUnequal(CarpusFault):
     """What is read back of a back-up is not what was written; ``subject`` begins the name of its content."""
 
-    happened = phrase("The back-up is damaged: a content read back is not what was written ({subject}, {detail}).")
-    safe = phrase("The data on this computer are as they were.")
-    do = phrase("Back up onto another disk now, and do not trust this one any more.")
+    code = "C-803"
+    title = phrase("Backup")
+    happened = phrase(
+        "The backup’s verification failed: a file read back differs from the original ({subject}, {detail})."
+    )
+    safe = phrase("The data on this computer are intact.")
+    do = phrase("Back up to another disk now, and replace this one.")
 
 
 class BackupUnreadable(CarpusFault):
-    happened = phrase("The back-up cannot be read: {subject} ({detail}).")
+    code = "C-804"
+    title = phrase("Backup")
+    happened = phrase("The backup cannot be read: {subject} ({detail}).")
     safe = _FILE_UNCHANGED
-    do = phrase("Choose another back-up, or bring Carpus up to date.")
+    do = phrase("Choose another backup, or update Carpus.")
 
 
 class BackupMissing(CarpusFault):
-    happened = phrase("There is no back-up in {subject}.")
+    code = "C-805"
+    title = phrase("Backup")
+    happened = phrase("There is no backup in {subject}.")
     safe = _UNCHANGED
-    do = phrase("Choose the folder that holds the back-ups.")
+    do = phrase("Choose the folder that contains the backups.")
 
 
 class BoardMissing(CarpusFault):
-    happened = phrase("The printed board is not to be seen: {subject} ({detail}).")
-    safe = phrase("The calibration of the camera stays as it is.")
-    do = phrase("Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.")
+    code = "C-214"
+    title = phrase("Camera")
+    happened = phrase("The calibration board is not visible: {subject} ({detail}).")
+    safe = _CALIBRATION
+    do = phrase("Hold the whole printed board in the camera image, in good light.")
+    support = phrase("“carpus calibrate-camera --board” prints it.")
 
 
 class BoardViewsAlike(CarpusFault):
-    happened = phrase("The pictures of the board are too few or too alike: {subject} ({detail}).")
-    safe = phrase("The calibration of the camera stays as it is.")
-    do = phrase(
-        "Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still."
-    )
+    code = "C-215"
+    title = phrase("Camera")
+    happened = phrase("The images of the board are too few or too similar: {subject} ({detail}).")
+    safe = _CALIBRATION
+    do = phrase("Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.")
 
 
 class BoardUnfit(CarpusFault):
+    code = "C-216"
+    title = phrase("Camera")
     happened = phrase("The corners do not fit a flat board: {subject} ({detail}).")
-    safe = phrase("The calibration of the camera stays as it is.")
-    do = phrase("Glue the board onto something stiff and flat, give it light, and hold it still.")
+    safe = _CALIBRATION
+    do = phrase("Glue the board to something stiff and flat, light it well, and hold it still.")
 
 
 class CardMissing(CarpusFault):
-    happened = phrase("The check card is not to be seen well enough: {subject} ({detail}).")
+    code = "C-217"
+    title = phrase("Camera")
+    happened = phrase("The check card is not visible: {subject} ({detail}).")
     safe = _UNCHANGED
-    do = phrase("Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.")
+    do = phrase("Lay it flat under the camera, all of it in the image, about 60 cm away, in good light.")
 
 
 class PinUncheckable(CarpusFault):
+    code = "C-901"
+    title = phrase("Lock")
     happened = phrase("The PIN cannot be checked: {subject} is missing on this computer ({detail}).")
-    safe = phrase("Nothing is lost; everything stays hidden.")
-    do = phrase("Whoever looks after this computer installs Carpus again, with all its parts.")
+    safe = phrase("Nothing is lost. Everything stays hidden.")
+    do = phrase("Ask your IT support to reinstall Carpus.")

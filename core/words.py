@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import PureWindowsPath
 
 from carpus.core import errors
 from carpus.core.errors import CarpusFault
@@ -17,15 +18,25 @@ Say = Callable[[str], str]
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """The three answers of every message; ``safe`` is empty where nothing is recorded yet."""
+    """The three answers of every message; of a fault also its subject area, its code and ``details`` for IT support.
+
+    ``safe`` is empty where nothing is recorded yet.
+    """
 
     happened: str
     safe: str
     do: str
+    title: str = ""
+    code: str = ""
+    details: tuple[str, ...] = ()
 
 
 _BINDING = " (for|at|to|in|für|auf|nach|unter|per|su|a) "
 """What binds a fact to its sentence, in all languages, and goes with it where there is none."""
+
+_FACT_IN_BRACKETS = re.compile(r" \((\{subject\}, )?\{detail\}\)")
+MAX_LETTERS = 32
+"""Of a name in the window."""
 
 _ABOUT_MARKERS = (
     errors.ClickOutsidePicture,
@@ -60,24 +71,67 @@ MARKERS: dict[str, Phrase] = {
 """Clinical name of every marker."""
 
 
-def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) -> Words:
-    """The three answers for this fault; ``marker_names`` adds the markers' names of the files to the clinical ones;
-    ``say`` says a phrase in another language."""
+def words_of(fault: CarpusFault, *, marker_names: bool = False, brief: bool = False, say: Say = str) -> Words:
+    """Fill the facts of a fault into its sentences.
+
+    Parameters
+    ----------
+    fault
+        The fault.
+    marker_names
+        Add the markers' names of the files to the clinical ones.
+    brief
+        For the window: only the end of a path, and the measured fact among the details, where it stands in brackets.
+    say
+        Says a phrase in another language.
+    """
     subject = fault.subject
     if isinstance(fault, _ABOUT_MARKERS):
         spoken = markers_in_words(subject.split(", "), say)
         subject = f"{spoken}, {subject}" if marker_names and subject else spoken
     detail = say(fault.detail)
-    said = [_filled(say(text), subject, detail) for text in (fault.happened, fault.safe, fault.do)]
-    if isinstance(fault, errors.ExtraMissing) and subject:
-        said[2] = say(how_to_install(subject))
-    return Words(*said)
+    templates = [say(text) for text in (fault.happened, fault.safe, fault.do)]
+    support = _support_of(fault, say)
+    if brief:
+        templates = [_FACT_IN_BRACKETS.sub("", text) for text in templates]
+        subject = end_of_path(subject)
+    happened, safe, do = (_filled(text, subject, detail) for text in templates)
+    details = tuple(part for part in (fault.subject, " ".join(detail.split()), support) if part)
+    return Words(happened, safe, do, say(fault.title), fault.code, details)
 
 
 def one_sentence(fault: CarpusFault) -> str:
-    """One line for the command line: what happened, with which file, whether data are safe, and what to do."""
+    """One line for the command line: what happened, to which file, whether data are safe, what to do, and the code."""
     words = words_of(fault, marker_names=True)
-    return " ".join(part for part in (words.happened, words.safe, words.do) if part)
+    parts = (words.happened, words.safe, words.do, _support_of(fault, str), f"({words.code})")
+    return " ".join(part for part in parts if part)
+
+
+def _support_of(fault: CarpusFault, say: Say) -> str:
+    """What who installs and repairs can do besides."""
+    if isinstance(fault, errors.ExtraMissing) and fault.subject:
+        return say(how_to_install(fault.subject))
+    return say(fault.support)
+
+
+def shorten(name: str, max_letters: int = MAX_LETTERS) -> str:
+    """Return the beginning and the end of a long name.
+
+    >>> shorten("Linden-42_2026-11-20_113600_WRIST_FE_right.h5", 24)
+    'Linden-42_20…FE_right.h5'
+    """
+    if len(name) <= max_letters:
+        return name
+    tail = (max_letters - 1) // 2
+    return f"{name[: max_letters - 1 - tail]}…{name[-tail:]}"
+
+
+def end_of_path(text: str) -> str:
+    """Return the last folder and the name of a path; any other text stays."""
+    path = PureWindowsPath(text)  # takes both kinds of stroke
+    if not path.root or len(path.parts) < 3:
+        return text
+    return f"…/{shorten(path.parent.name)}/{shorten(path.name)}"
 
 
 def marker_in_words(marker: str, say: Say = str) -> str:

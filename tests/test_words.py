@@ -17,6 +17,7 @@ from carpus.core.calibration.result import FINDINGS, CalibrationFinding, Finding
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import HAND21
 from carpus.core.words import marker_in_words, markers_in_words, one_sentence, words_of
+from tests.fault_page import PAGE, fault_page
 
 JARGON = re.compile(r"\b(exception|abort|aborted|null|None|nan)\b", re.IGNORECASE)
 """Words of programmers, which no clinician reads."""
@@ -58,6 +59,32 @@ def test_every_fault_states_for_itself_whether_the_data_are_safe() -> None:
     }  # fmt: skip
 
 
+def test_fault_codes_each_class_has_one_of_its_own() -> None:
+    assert [kind.__name__ for kind in KINDS if not re.fullmatch(r"C-\d{3}", vars(kind).get("code", ""))] == []
+    assert len({kind.code for kind in KINDS}) == len(KINDS)
+    assert all(kind.title for kind in KINDS)
+    assert all(kind.code in str(kind("x")) for kind in KINDS), "the log has it"
+
+
+def test_fault_page_is_that_of_the_classes() -> None:
+    assert PAGE.read_text(encoding="utf-8") == fault_page(), "python -m tests.fault_page"
+
+
+SUPPORT = re.compile(r"carpus [a-z]|--\w|\.yaml|\.json|\bpip\b|\bsudo\b|chmod|[“„]")
+
+
+def test_fault_sentences_for_clinicians_name_no_command_or_file_of_the_program() -> None:
+    assert [text for text in texts() if SUPPORT.search(text)] == []
+
+
+def test_fault_brief_words_keep_the_measured_fact_among_the_details() -> None:
+    words = words_of(errors.SessionUnreadable("/data/sessions/p1/a.h5", "truncated file"), brief=True)
+    assert words.happened == "This session cannot be opened: …/p1/a.h5."
+    assert words.details == ("/data/sessions/p1/a.h5", "truncated file")
+    assert words.code == "C-501"
+    assert one_sentence(errors.SessionUnreadable("a.h5", "truncated file")).endswith("(C-501)")
+
+
 def test_no_two_faults_say_the_same_of_what_happened() -> None:
     assert len({kind.happened for kind in KINDS}) == len(KINDS)
 
@@ -87,7 +114,7 @@ def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -
         for text in (words.happened, words.safe, words.do, line):
             assert not re.search(r"\(\)|  | [.;:,)]|[{}]|\n", text), text
             assert not re.search(r"\b(for|at|to|in|named|the)[.;,]", text), text
-        assert line.endswith(".")
+        assert line.removesuffix(f" ({kind.code})").endswith(".")
         assert words.do[1:] in line
     assert "{odd}" in one_sentence(kind("{odd}", "{odd}")) or "{subject}" not in kind.happened
     if kind.__name__.startswith(("Recording", "Picture", "Output", "Clicks", "Session", "DiskFull", "CameraFile")):
@@ -98,7 +125,7 @@ def test_a_file_and_its_line_are_named() -> None:
     fault = errors.RecordingUnreadable("/take/rgb.txt", "line 7 is not a time and a file name: 'x'")
     assert one_sentence(fault) == (
         "The recording cannot be read: /take/rgb.txt (line 7 is not a time and a file name: 'x'). The recording was "
-        "not changed. Copy the recording again from where it was made, or correct the list."
+        "not changed. Copy the recording again, or correct its list of frames. (C-102)"
     )
 
 
@@ -115,7 +142,7 @@ def test_markers_are_called_by_their_clinical_names() -> None:
 
 def test_a_fault_about_a_marker_names_it_for_the_clinic_and_for_the_file() -> None:
     fault = errors.ClickOutsidePicture("MCP3", "700, 20 in a picture of 640 x 480 pixels")
-    assert words_of(fault).happened.startswith("A click lies outside the picture: middle knuckle (700")
+    assert words_of(fault).happened.startswith("A click lies outside the image: middle knuckle (700")
     assert "middle knuckle, MCP3 (700, 20" in one_sentence(fault)
 
 

@@ -11,8 +11,9 @@ from PySide6.QtCore import QObject
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.core.rounding import rounded
+from carpus.core.words import shorten
 from carpus.ui import numbers, terms
-from carpus.ui.fault_words import finding_words, shortened
+from carpus.ui.fault_words import finding_words
 from carpus.ui.flow import STEPS, TABS, ScreenContext
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ class Bar(QObject):
             camera.show_state("good", self.tr("Saved {time}").format(time=f"{saved_at:%H:%M}"))
         elif now.kind == "file" and now.source is not None:
             name = Path(now.choice.path).name
-            camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))
+            camera.show_state("good", self.tr("Recording {name}").format(name=shorten(name, MOST_NAME)))
         elif self._is_demo or (now.kind == "practice" and (now.source is not None or place in STEPS)):
             camera.show_state("good", self.tr("Simulated camera"))
         elif self._camera.there:

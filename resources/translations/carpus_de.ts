@@ -817,7 +817,7 @@
     </message>
     <message>
         <source>Lock</source>
-        <translation>Sperren</translation>
+        <translation>Sperre</translation>
     </message>
     <message>
         <source>Search for a patient</source>
@@ -3508,64 +3508,12 @@
         <translation>{difference}: über dem Messfehler ({limit})</translation>
     </message>
     <message>
-        <source>A click has no blue marker of its own: {subject}.</source>
-        <translation>Ein Klick trifft keinen eigenen blauen Marker: {subject}.</translation>
-    </message>
-    <message>
-        <source>A click lies outside the picture: {subject} ({detail}).</source>
-        <translation>Ein Klick liegt außerhalb des Bildes: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>A picture of the recording cannot be used: {subject} ({detail}).</source>
-        <translation>Ein Bild der Aufnahme ist nicht verwendbar: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>A setting cannot be used: {subject} ({detail}).</source>
-        <translation>Eine Einstellung ist nicht verwendbar: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>All of it is safe on this computer.</source>
-        <translation>Alles ist sicher auf diesem Computer.</translation>
-    </message>
-    <message>
-        <source>All of it is safe.</source>
-        <translation>Alles davon ist sicher.</translation>
-    </message>
-    <message>
-        <source>All of it is stored as it was measured live.</source>
-        <translation>Alles ist gespeichert, wie es live gemessen wurde.</translation>
-    </message>
-    <message>
-        <source>All other pictures are used, and the gaps are marked.</source>
-        <translation>Alle anderen Bilder werden verwendet, und die Lücken sind gekennzeichnet.</translation>
-    </message>
-    <message>
-        <source>Another Carpus is using the patients of {subject}.</source>
-        <translation>Ein anderes Carpus verwendet diese Patienten: {subject}.</translation>
-    </message>
-    <message>
         <source>Another blue spot fits the {markers} better.</source>
         <translation>{markers}: Eine andere blaue Stelle passt besser.</translation>
     </message>
     <message>
         <source>Another blue spot lies close to the {markers}: it may be the disc.</source>
         <translation>{markers}: Dicht daneben liegt eine andere blaue Stelle, die der Marker sein könnte.</translation>
-    </message>
-    <message>
-        <source>Another program is making {subject} at this moment.</source>
-        <translation>Ein anderes Programm erstellt das gerade: {subject}.</translation>
-    </message>
-    <message>
-        <source>Another program uses the camera ({detail}).</source>
-        <translation>Ein anderes Programm verwendet die Kamera ({detail}).</translation>
-    </message>
-    <message>
-        <source>Back up onto another disk now, and do not trust this one any more.</source>
-        <translation>Sichern Sie jetzt auf einen anderen Datenträger, und vertrauen Sie diesem nicht mehr.</translation>
-    </message>
-    <message>
-        <source>Back-ups cannot lie there: {subject} ({detail}).</source>
-        <translation>Sicherungen können dort nicht liegen: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
@@ -3576,28 +3524,8 @@
         <translation>Kamerarechte, {title}</translation>
     </message>
     <message>
-        <source>Carpus cannot use the pictures of this recording: {subject} ({detail}).</source>
-        <translation>Carpus kann die Bilder dieser Aufnahme nicht verwenden: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>Carpus cannot write to {subject} ({detail}).</source>
-        <translation>Carpus kann hier nicht schreiben: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Carpus could not look back at the session: {subject} ({detail}).</source>
-        <translation>Carpus konnte die Sitzung nicht nachrechnen: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Carpus deletes no file behind a link; everything is as it was.</source>
-        <translation>Carpus löscht keine Datei hinter einem Link; alles ist, wie es war.</translation>
-    </message>
-    <message>
-        <source>Carpus sees no camera ({detail}).</source>
-        <translation>Carpus sieht keine Kamera ({detail}).</translation>
-    </message>
-    <message>
-        <source>Carpus waits for its camera: {subject}. Another one is there ({detail}).</source>
-        <translation>Carpus wartet auf seine Kamera: {subject}. Eine andere ist da ({detail}).</translation>
+        <translation>Carpus kann nicht nach {subject} schreiben ({detail}).</translation>
     </message>
     <message>
         <source>Check that a disc was clicked there, and not another blue spot.</source>
@@ -3606,22 +3534,6 @@
     <message>
         <source>Check that every marker is clicked under its own name.</source>
         <translation>Prüfen Sie, ob jeder Marker unter seinem Namen angeklickt ist.</translation>
-    </message>
-    <message>
-        <source>Check that it is a session of this or an older Carpus, or take it from a back-up.</source>
-        <translation>Prüfen Sie, ob es eine Sitzung dieses oder eines älteren Carpus ist, oder nehmen Sie sie aus einer Sicherung.</translation>
-    </message>
-    <message>
-        <source>Check that it is the same movement, and say which column or marker is which.</source>
-        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und sagen Sie, welche Spalte oder welcher Marker was ist.</translation>
-    </message>
-    <message>
-        <source>Check that the folder exists and that you may write there, or choose another one.</source>
-        <translation>Prüfen Sie, ob es den Ordner gibt und Sie dort schreiben dürfen, oder wählen Sie einen anderen.</translation>
-    </message>
-    <message>
-        <source>Check the address, or leave out --scheduler to use this machine.</source>
-        <translation>Prüfen Sie die Adresse, oder lassen Sie --scheduler weg, um diesen Computer zu verwenden.</translation>
     </message>
     <message>
         <source>Check the name and the folder.</source>
@@ -3633,11 +3545,7 @@
     </message>
     <message>
         <source>Choose a folder on another disk.</source>
-        <translation>Wählen Sie einen Ordner auf einem anderen Datenträger.</translation>
-    </message>
-    <message>
-        <source>Choose another back-up, or bring Carpus up to date.</source>
-        <translation>Wählen Sie eine andere Sicherung, oder bringen Sie Carpus auf den neuesten Stand.</translation>
+        <translation>Wählen Sie einen Ordner auf einer anderen Festplatte.</translation>
     </message>
     <message>
         <source>Choose another name.</source>
@@ -3646,10 +3554,6 @@
     <message>
         <source>Choose another recording, or record again.</source>
         <translation>Wählen Sie eine andere Aufnahme, oder nehmen Sie neu auf.</translation>
-    </message>
-    <message>
-        <source>Choose the folder that holds the back-ups.</source>
-        <translation>Wählen Sie den Ordner mit den Sicherungen.</translation>
     </message>
     <message>
         <source>Choose the other side, or click the markers again.</source>
@@ -3664,20 +3568,12 @@
         <translation>Klicken Sie jeden der beiden auf seinem eigenen Marker an.</translation>
     </message>
     <message>
-        <source>Click every marker again under its own name.</source>
-        <translation>Klicken Sie jeden Marker neu unter seinem Namen an.</translation>
-    </message>
-    <message>
         <source>Click it again in its middle, and keep the hand still.</source>
         <translation>Klicken Sie ihn neu in seiner Mitte an, und halten Sie die Hand ruhig.</translation>
     </message>
     <message>
         <source>Click nearer to the marker, or check the light.</source>
         <translation>Klicken Sie näher am Marker, oder prüfen Sie das Licht.</translation>
-    </message>
-    <message>
-        <source>Click the marker in the first picture of this recording.</source>
-        <translation>Klicken Sie den Marker im ersten Bild dieser Aufnahme an.</translation>
     </message>
     <message>
         <source>Click the {markers} again in its middle, or cover the other spot.</source>
@@ -3688,52 +3584,16 @@
         <translation>Uhr</translation>
     </message>
     <message>
-        <source>Close other programs that have them open, or allow Carpus to write in their folder, and start it again.</source>
-        <translation>Schließen Sie andere Programme, die sie offen haben, oder erlauben Sie Carpus, in ihrem Ordner zu schreiben, und starten Sie es neu.</translation>
-    </message>
-    <message>
         <source>Close the other program that uses the camera.</source>
         <translation>Schließen Sie das andere Programm, das die Kamera verwendet.</translation>
     </message>
     <message>
         <source>Close the other program, then try again.</source>
-        <translation>Schließen Sie das andere Programm, und versuchen Sie es noch einmal.</translation>
-    </message>
-    <message>
-        <source>Compare the log with that of a back-up.</source>
-        <translation>Vergleichen Sie das Protokoll mit dem einer Sicherung.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again from where it was made, or correct the list.</source>
-        <translation>Kopieren Sie die Aufnahme noch einmal von ihrem Ursprung, oder berichtigen Sie die Liste.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again from where it was made.</source>
-        <translation>Kopieren Sie die Aufnahme noch einmal von ihrem Ursprung.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.</source>
-        <translation>Kopieren Sie die Aufnahme noch einmal von ihrem Ursprung; carpus track --leave-out-damaged macht ohne das Bild weiter.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again if there are many.</source>
-        <translation>Kopieren Sie die Aufnahme noch einmal, wenn es viele sind.</translation>
-    </message>
-    <message>
-        <source>Correct the file, or click the markers again.</source>
-        <translation>Berichtigen Sie die Datei, oder klicken Sie die Marker neu an.</translation>
-    </message>
-    <message>
-        <source>Correct the setting, or take it out to use the usual value.</source>
-        <translation>Berichtigen Sie die Einstellung, oder entfernen Sie sie, um den üblichen Wert zu verwenden.</translation>
+        <translation>Schließen Sie das andere Programm, und versuchen Sie es dann noch einmal.</translation>
     </message>
     <message>
         <source>Cover the spot with the question mark, or give it its name.</source>
         <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr den Namen.</translation>
-    </message>
-    <message>
-        <source>Damaged pictures of the recording are left out: {subject} ({detail}).</source>
-        <translation>Beschädigte Bilder der Aufnahme sind ausgelassen: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Data folder</source>
@@ -3744,28 +3604,12 @@
         <translation>Tiefe und Farbe decken sich hier nicht: {markers} ({value} {unit}, bis {limit} ist gut).</translation>
     </message>
     <message>
-        <source>Depth does not lie on colour in {subject}, so depths are less sure.</source>
-        <translation>Tiefe und Farbe decken sich nicht: {subject}; Tiefen sind darum weniger sicher.</translation>
-    </message>
-    <message>
         <source>Disk</source>
         <translation>Speicherplatz</translation>
     </message>
     <message>
         <source>Driver</source>
         <translation>Treiber</translation>
-    </message>
-    <message>
-        <source>Everything recorded so far is stored on this computer.</source>
-        <translation>Alles bisher Aufgenommene ist auf diesem Computer gespeichert.</translation>
-    </message>
-    <message>
-        <source>Everything stored up to then is safe.</source>
-        <translation>Alles bis dahin Gespeicherte ist sicher.</translation>
-    </message>
-    <message>
-        <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
-        <translation>Schließen Sie sie mit „carpus recover“ ab, oder warten Sie, bis ihre Aufnahme endet.</translation>
     </message>
     <message>
         <source>Firmware</source>
@@ -3781,31 +3625,15 @@
     </message>
     <message>
         <source>Free some space, or choose another disk.</source>
-        <translation>Schaffen Sie Platz, oder wählen Sie einen anderen Datenträger.</translation>
+        <translation>Schaffen Sie Platz, oder wählen Sie eine andere Festplatte.</translation>
     </message>
     <message>
         <source>Free space on the disk of {folder}.</source>
         <translation>Schaffen Sie Platz auf dem Datenträger von {folder}.</translation>
     </message>
     <message>
-        <source>Give yourself access to it; “carpus doctor” says how.</source>
-        <translation>Geben Sie sich Zugriff; „carpus doctor“ sagt, wie.</translation>
-    </message>
-    <message>
         <source>Give yourself the right to write there, or choose another folder in the settings.</source>
         <translation>Geben Sie sich dort Schreibrecht, oder wählen Sie in den Einstellungen einen anderen Ordner.</translation>
-    </message>
-    <message>
-        <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
-        <translation>Kleben Sie die Tafel auf etwas Steifes, Flaches, geben Sie Licht, und halten Sie sie still.</translation>
-    </message>
-    <message>
-        <source>Go on; the pause is marked in the session.</source>
-        <translation>Machen Sie weiter; die Pause ist in der Sitzung vermerkt.</translation>
-    </message>
-    <message>
-        <source>Go to the window that is open already, or choose another folder.</source>
-        <translation>Gehen Sie zum schon offenen Fenster, oder wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
         <source>Install Carpus again: part of it is missing.</source>
@@ -3832,10 +3660,6 @@
         <translation>Installieren Sie es und das Genannte neu.</translation>
     </message>
     <message>
-        <source>Install it; “carpus doctor” says what and how.</source>
-        <translation>Installieren Sie ihn; „carpus doctor“ sagt, was und wie.</translation>
-    </message>
-    <message>
         <source>Install the camera rights named above and plug the camera in again.</source>
         <translation>Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
     </message>
@@ -3848,16 +3672,8 @@
         <translation>Installieren Sie die Pakete mit diesen Bibliotheken.</translation>
     </message>
     <message>
-        <source>Is the share connected? Connect it; if the sessions were moved, copy them there.</source>
-        <translation>Ist die Freigabe verbunden? Verbinden; falls die Sitzungen umgezogen sind, dorthin kopieren.</translation>
-    </message>
-    <message>
-        <source>It can still be read; its seal does not fit what it holds now.</source>
-        <translation>Sie ist noch lesbar; ihr Siegel passt nicht zu ihrem jetzigen Inhalt.</translation>
-    </message>
-    <message>
         <source>It is left to that program.</source>
-        <translation>Es bleibt diesem Programm überlassen.</translation>
+        <translation>Sie bleibt diesem Programm überlassen.</translation>
     </message>
     <message>
         <source>Keep the hand still and take the first picture again.</source>
@@ -3872,24 +3688,8 @@
         <translation>Rechenkerne</translation>
     </message>
     <message>
-        <source>Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.</source>
-        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
-    </message>
-    <message>
-        <source>Leave out the repetitions that should not count, or track the recording again with “carpus track”.</source>
-        <translation>Lassen Sie Wiederholungen aus, die nicht zählen sollen, oder verfolgen Sie die Aufnahme neu mit „carpus track“.</translation>
-    </message>
-    <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
         <translation>Sehen Sie die Linien im Bild an, und geben Sie dem Marker seinen richtigen Namen.</translation>
-    </message>
-    <message>
-        <source>Look through the list; restore it from a back-up, or enter again what is missing.</source>
-        <translation>Sehen Sie die Liste durch; stellen Sie sie aus einer Sicherung wieder her, oder tragen Sie ein, was fehlt.</translation>
-    </message>
-    <message>
-        <source>Measure each person twice, discs put on anew, within 14 days; 10 people are the least.</source>
-        <translation>Messen Sie jede Person zweimal, mit neu geklebten Punkten, innerhalb von 14 Tagen; 10 Personen sind das Mindeste.</translation>
     </message>
     <message>
         <source>Mirror</source>
@@ -3902,18 +3702,6 @@
     <message>
         <source>Move the hand a little, and keep sunlight and shine off the marker.</source>
         <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonne und Glanz vom Marker fern.</translation>
-    </message>
-    <message>
-        <source>Move the hand a little, and keep sunlight and shine off the markers.</source>
-        <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonne und Glanz von den Markern fern.</translation>
-    </message>
-    <message>
-        <source>Name the folder that holds the patients; carpus doctor says which it is.</source>
-        <translation>Nennen Sie den Ordner mit den Patienten; carpus doctor sagt, welcher es ist.</translation>
-    </message>
-    <message>
-        <source>Name the folder that holds the sessions.</source>
-        <translation>Nennen Sie den Ordner mit den Sitzungen.</translation>
     </message>
     <message>
         <source>Needed for live cameras. {remedy}</source>
@@ -3929,43 +3717,7 @@
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
-        <translation>Noch nicht alle Dateien ließen sich löschen (übrig: {detail}, etwa {subject}).</translation>
-    </message>
-    <message>
-        <source>Nothing else has been changed.</source>
-        <translation>Sonst wurde nichts geändert.</translation>
-    </message>
-    <message>
-        <source>Nothing has been changed.</source>
-        <translation>Nichts ist geändert.</translation>
-    </message>
-    <message>
-        <source>Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there.</source>
-        <translation>Nichts wurde geändert. Was inzwischen aufgenommen wird, bleibt auf diesem Computer, bis die Freigabe da ist.</translation>
-    </message>
-    <message>
-        <source>Nothing has been recorded, so nothing is lost.</source>
-        <translation>Nichts ist aufgenommen, also ist nichts verloren.</translation>
-    </message>
-    <message>
-        <source>Nothing in the reference can be compared: {subject} ({detail}).</source>
-        <translation>Nichts in der Referenz ist vergleichbar: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Nothing is lost; everything stays hidden.</source>
-        <translation>Nichts ist verloren; alles bleibt verborgen.</translation>
-    </message>
-    <message>
-        <source>Nothing need be done.</source>
-        <translation>Es ist nichts zu tun.</translation>
-    </message>
-    <message>
-        <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
-        <translation>Nichts sagt, ob sich Tiefe und Farbe decken: {subject}; Carpus nimmt es an.</translation>
-    </message>
-    <message>
-        <source>Nothing was erased: {subject} is a link that leads elsewhere.</source>
-        <translation>Nichts wurde gelöscht: {subject} ist ein Link, der anderswohin führt.</translation>
+        <translation>Noch nicht alle Dateien konnten gelöscht werden ({detail} übrig, zum Beispiel {subject}).</translation>
     </message>
     <message>
         <source>NumPy alone, as {name} asks</source>
@@ -3996,16 +3748,8 @@
         <translation>Pakete</translation>
     </message>
     <message>
-        <source>Patients and sessions are safe. Lines of the log may have been changed or taken out.</source>
-        <translation>Patienten und Sitzungen sind sicher. Zeilen des Protokolls können geändert oder entfernt worden sein.</translation>
-    </message>
-    <message>
         <source>Plug in the camera named in the settings, or change the settings.</source>
         <translation>Schließen Sie die in den Einstellungen genannte Kamera an, oder ändern Sie die Einstellungen.</translation>
-    </message>
-    <message>
-        <source>Plug its own camera in again; what was begun then goes on by itself.</source>
-        <translation>Schließen Sie die eigene Kamera wieder an; das Begonnene geht dann von selbst weiter.</translation>
     </message>
     <message>
         <source>Plug the camera in again, into another port, without a hub.</source>
@@ -4016,32 +3760,8 @@
         <translation>Schließen Sie die Kamera neu an; bleibt es so, ist auf Zeiten und Geschwindigkeiten dieser Kamera kein Verlass.</translation>
     </message>
     <message>
-        <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
-        <translation>Schließen Sie die Kamera wieder an; Verfolgung und Aufnahme gehen dann von selbst weiter.</translation>
-    </message>
-    <message>
         <source>Plug the camera in.</source>
         <translation>Schließen Sie die Kamera an.</translation>
-    </message>
-    <message>
-        <source>Plug the camera straight into the computer.</source>
-        <translation>Schließen Sie die Kamera direkt am Computer an.</translation>
-    </message>
-    <message>
-        <source>Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.</source>
-        <translation>Drucken Sie sie mit carpus calibrate-camera --board, und halten Sie sie ganz ins Bild, bei gutem Licht.</translation>
-    </message>
-    <message>
-        <source>Put the camera_info.yaml of the camera beside it.</source>
-        <translation>Legen Sie die camera_info.yaml der Kamera daneben.</translation>
-    </message>
-    <message>
-        <source>Put the list in the order of time with each time once, or record again.</source>
-        <translation>Ordnen Sie die Liste nach der Zeit, jede Zeit einmal, oder nehmen Sie neu auf.</translation>
-    </message>
-    <message>
-        <source>Put what it leads to in its place, then erase again.</source>
-        <translation>Legen Sie an seine Stelle, wohin er führt, und löschen Sie dann erneut.</translation>
     </message>
     <message>
         <source>Python</source>
@@ -4056,28 +3776,8 @@
         <translation>Qt {qt}; kein Bildschirm</translation>
     </message>
     <message>
-        <source>Record again with colour and depth of one size.</source>
-        <translation>Nehmen Sie neu auf, mit Farbe und Tiefe in gleicher Größe.</translation>
-    </message>
-    <message>
-        <source>Record to a disk inside this computer, and close other programs.</source>
-        <translation>Nehmen Sie auf einen Datenträger in diesem Computer auf, und schließen Sie andere Programme.</translation>
-    </message>
-    <message>
         <source>Registration</source>
         <translation>Deckung von Tiefe und Farbe</translation>
-    </message>
-    <message>
-        <source>Restore the list from a back-up, or enter the names again.</source>
-        <translation>Stellen Sie die Liste aus einer Sicherung wieder her, oder tragen Sie die Namen neu ein.</translation>
-    </message>
-    <message>
-        <source>Review it as any other.</source>
-        <translation>Sehen Sie sie an wie jede andere.</translation>
-    </message>
-    <message>
-        <source>Run “carpus track” on the session to look back at it.</source>
-        <translation>Führen Sie „carpus track“ mit der Sitzung aus, um sie nachzurechnen.</translation>
     </message>
     <message>
         <source>Run “{command}”.</source>
@@ -4092,18 +3792,6 @@
         <translation>Ausführen: sudo apt-get install libopenni2-0</translation>
     </message>
     <message>
-        <source>Set colour and depth to one size next time.</source>
-        <translation>Stellen Sie nächstes Mal Farbe und Tiefe auf gleiche Größe.</translation>
-    </message>
-    <message>
-        <source>Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still.</source>
-        <translation>Zeigen Sie die Tafel überall im Bild, nach allen vier Seiten geneigt, nah und fern, und halten Sie sie still.</translation>
-    </message>
-    <message>
-        <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
-        <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>Start the window from a desktop. The commands for files work without a screen.</source>
         <translation>Starten Sie das Fenster aus einem Desktop. Die Befehle für Dateien gehen ohne Bildschirm.</translation>
     </message>
@@ -4112,40 +3800,16 @@
         <translation>Tauschen Sie die beiden Namen, oder klicken Sie beide Marker neu an.</translation>
     </message>
     <message>
-        <source>Switch on registration in the camera next time.</source>
-        <translation>Schalten Sie nächstes Mal die Deckung von Tiefe und Farbe in der Kamera ein.</translation>
-    </message>
-    <message>
         <source>Switch on registration in the camera, or track without depth.</source>
         <translation>Schalten Sie die Deckung von Tiefe und Farbe in der Kamera ein, oder verfolgen Sie ohne Tiefe.</translation>
-    </message>
-    <message>
-        <source>Take it from a back-up, or do not rely on its figures.</source>
-        <translation>Nehmen Sie sie aus einer Sicherung, oder verlassen Sie sich nicht auf ihre Werte.</translation>
     </message>
     <message>
         <source>Take the spot with the question mark, if it is the disc.</source>
         <translation>Nehmen Sie die Stelle mit dem Fragezeichen, wenn sie der Punkt ist.</translation>
     </message>
     <message>
-        <source>Take them from a back-up, or leave them; Carpus does not open them again.</source>
-        <translation>Nehmen Sie sie aus einer Sicherung, oder lassen Sie sie; Carpus öffnet sie nicht mehr.</translation>
-    </message>
-    <message>
-        <source>That file is untouched; Carpus never overwrites.</source>
-        <translation>Sie ist unberührt; Carpus überschreibt nie.</translation>
-    </message>
-    <message>
         <source>The PIN cannot be checked: {subject} is missing on this computer ({detail}).</source>
-        <translation>Die PIN lässt sich nicht prüfen; auf diesem Computer fehlt: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The back-up cannot be read: {subject} ({detail}).</source>
-        <translation>Die Sicherung ist nicht lesbar: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The back-up is damaged: a content read back is not what was written ({subject}, {detail}).</source>
-        <translation>Die Sicherung ist beschädigt: Zurückgelesenes ist nicht das Geschriebene ({subject}, {detail}).</translation>
+        <translation>Die PIN kann nicht geprüft werden: {subject} fehlt auf diesem Computer ({detail}).</translation>
     </message>
     <message>
         <source>1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm.</source>
@@ -4158,18 +3822,6 @@
     <message>
         <source>3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds.</source>
         <translation>3. Flach unter die Kamera legen, etwa 60 cm entfernt, und 30 Sekunden lang prüfen.</translation>
-    </message>
-    <message>
-        <source>A recording that waited on this computer was of a patient who has been erased: it is erased too.</source>
-        <translation>Eine Aufnahme, die auf diesem Computer wartete, war von einem Patienten, der gelöscht wurde: Auch sie ist gelöscht.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe. If there was a list before, its names, notes and comments are gone.</source>
-        <translation>Alle Sitzungen sind sicher. Gab es vorher eine Liste, sind ihre Namen, Notizen und Kommentare verloren.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
-        <translation>Alle Sitzungen sind sicher; Namen, Notizen und Kommentare können fehlen. Die beschädigte Liste liegt in {subject}.</translation>
     </message>
     <message>
         <source>As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.</source>
@@ -4188,24 +3840,12 @@
         <translation>ChArUco-Tafel {columns} x {rows}, Felder von {size} mm</translation>
     </message>
     <message>
-        <source>Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.</source>
-        <translation>Schließen Sie Carpus überall, wo es offen ist; hilft das nicht, kopieren Sie den Ordner an einen Ort, an dem er beschreibbar ist.</translation>
-    </message>
-    <message>
-        <source>Everything stored before is safe. What was just being written may be missing.</source>
-        <translation>Alles vorher Gespeicherte ist sicher. Was gerade geschrieben wurde, kann fehlen.</translation>
-    </message>
-    <message>
         <source>Install Carpus anew.</source>
         <translation>Carpus neu installieren.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
         <translation>Sie braucht einen USB-2-Anschluss; manche USB-3-Anschlüsse lehnen Kameras mit alter Firmware ab.</translation>
-    </message>
-    <message>
-        <source>Keep the light as it is while you measure.</source>
-        <translation>Lassen Sie das Licht während der Messung, wie es ist.</translation>
     </message>
     <message>
         <source>Orbbec driver</source>
@@ -4224,24 +3864,12 @@
         <translation>RealSense-Treiber</translation>
     </message>
     <message>
-        <source>The calibration of the camera stays as it is.</source>
-        <translation>Die Kalibrierung der Kamera bleibt, wie sie ist.</translation>
-    </message>
-    <message>
-        <source>The camera cannot hold its exposure: {subject}.</source>
-        <translation>Die Kamera kann ihre Belichtung nicht halten: {subject}.</translation>
-    </message>
-    <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
-        <translation>Die Kamera ist wieder da: {subject} (weg: {detail}).</translation>
+        <translation>Die Kamera ist wieder da: {subject} (war {detail} weg).</translation>
     </message>
     <message>
         <source>The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).</source>
         <translation>Die Kamera misst falsch: {what} (die Grenzen sind {most_angle}° und {most_length} mm, alle Längen {most_share} %).</translation>
-    </message>
-    <message>
-        <source>The camera is there, but you may not open it ({detail}).</source>
-        <translation>Die Kamera ist da, aber Sie dürfen sie nicht öffnen ({detail}).</translation>
     </message>
     <message>
         <source>The camera measures no depth at a marker: {subject}.</source>
@@ -4256,64 +3884,16 @@
         <translation>Die Kamera misst richtig: höchstens {angle}° und {length} mm Abweichung; die Grenzen sind {most_angle}° und {most_length} mm.</translation>
     </message>
     <message>
-        <source>The camera sends no more pictures: {subject} ({detail}).</source>
-        <translation>Die Kamera sendet keine Bilder mehr: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The check card is not to be seen well enough: {subject} ({detail}).</source>
-        <translation>Die Prüfkarte ist nicht gut genug zu sehen: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The clicked markers do not make a hand ({subject}).</source>
-        <translation>Die angeklickten Marker ergeben keine Hand ({subject}).</translation>
-    </message>
-    <message>
-        <source>The clicks cannot be read: {subject} ({detail}).</source>
-        <translation>Die Klicks sind nicht lesbar: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The clicks for the {markers} are on one marker.</source>
         <translation>Diese Klicks liegen auf einem einzigen Marker: {markers}.</translation>
     </message>
     <message>
         <source>The corners do not fit a flat board: {subject} ({detail}).</source>
-        <translation>Die Ecken passen nicht zu einer flachen Tafel: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The data on this computer are as they were.</source>
-        <translation>Die Daten auf diesem Computer sind, wie sie waren.</translation>
-    </message>
-    <message>
-        <source>The disk has no room left for {subject} ({detail}).</source>
-        <translation>Der Datenträger ist voll: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The disk is too slow for the recording, so it has ended: {subject} ({detail}).</source>
-        <translation>Der Datenträger ist zu langsam, darum endete die Aufnahme: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The driver of the camera has stopped: {subject} ({detail}).</source>
-        <translation>Der Treiber der Kamera ist stehen geblieben: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The driver of the camera is not on this computer, or cannot be loaded ({detail}).</source>
-        <translation>Der Treiber der Kamera fehlt auf diesem Computer oder lässt sich nicht laden ({detail}).</translation>
-    </message>
-    <message>
-        <source>The file is untouched, and all other sessions are safe.</source>
-        <translation>Die Datei ist unberührt, und alle anderen Sitzungen sind sicher.</translation>
-    </message>
-    <message>
-        <source>The file of the camera cannot be used: {subject} ({detail}).</source>
-        <translation>Die Datei der Kamera ist nicht verwendbar: {subject} ({detail}).</translation>
+        <translation>Die Ecken passen nicht zu einer ebenen Tafel: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The file was not changed.</source>
         <translation>Die Datei wurde nicht verändert.</translation>
-    </message>
-    <message>
-        <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
-        <translation>Das erste Bild der Aufnahme ist nicht zu gebrauchen: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
@@ -4340,64 +3920,28 @@
         <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
     </message>
     <message>
-        <source>The last changes of the list of patients lie in its journal, which needs a folder that can be written: {subject}.</source>
-        <translation>Die letzten Änderungen der Patientenliste liegen in ihrem Journal, das nur in einem beschreibbaren Ordner übernommen wird: {subject}.</translation>
-    </message>
-    <message>
-        <source>The list of patients cannot be opened: {subject} ({detail}).</source>
-        <translation>Die Liste der Patienten lässt sich nicht öffnen: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The list of patients is damaged: {subject} ({detail}).</source>
-        <translation>Die Liste der Patienten ist beschädigt: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
         <translation>{markers}: Der Marker liegt {value} mm neben seinem Platz (bis {limit} mm ist gut).</translation>
     </message>
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
-        <translation>Die Marker dieser Sitzung lassen sich nicht berichtigen: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The measurement goes on.</source>
-        <translation>Die Messung geht weiter.</translation>
+        <translation>Die Marker dieser Sitzung können nicht korrigiert werden: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The name {subject} belongs to another patient.</source>
-        <translation>Diesen Namen hat schon jemand anderes: {subject}.</translation>
+        <translation>Der Name {subject} gehört einem anderen Patienten.</translation>
     </message>
     <message>
         <source>The names look shifted: the marker clicked as {first} is the {second}.</source>
         <translation>Die Namen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber „{second}“.</translation>
     </message>
     <message>
-        <source>The old result is unchanged.</source>
-        <translation>Das alte Ergebnis ist unverändert.</translation>
-    </message>
-    <message>
-        <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
-        <translation>Die Bilder der Tafel sind zu wenige oder zu ähnlich: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The pictures of the recording differ in size: {subject} ({detail}).</source>
-        <translation>Die Bilder der Aufnahme sind verschieden groß: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The printed board is not to be seen: {subject} ({detail}).</source>
-        <translation>Die gedruckte Tafel ist nicht zu sehen: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
-        <translation>Die Aufnahme ist nicht lesbar: {subject} ({detail}).</translation>
+        <translation>Die Aufnahme kann nicht gelesen werden: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The recording has no usable depth: {subject} ({detail}).</source>
         <translation>Die Aufnahme hat keine brauchbare Tiefe: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The recording holds no picture: {subject} ({detail}).</source>
-        <translation>Die Aufnahme enthält kein Bild: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The recording is damaged: {subject} ({detail}).</source>
@@ -4409,79 +3953,23 @@
     </message>
     <message>
         <source>The reference cannot be read: {subject} ({detail}).</source>
-        <translation>Die Referenz ist nicht lesbar: {subject} ({detail}).</translation>
+        <translation>Die Referenz kann nicht gelesen werden: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The scheduler at {subject} does not answer ({detail}).</source>
-        <translation>Der Verteiler antwortet nicht: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The session and the reference were not changed.</source>
-        <translation>Sitzung und Referenz wurden nicht verändert.</translation>
-    </message>
-    <message>
-        <source>The session is unchanged, and its repetitions can be left out.</source>
-        <translation>Die Sitzung ist unverändert, und Wiederholungen lassen sich auslassen.</translation>
-    </message>
-    <message>
-        <source>The times of the recording do not rise: {subject} ({detail}).</source>
-        <translation>Die Zeiten der Aufnahme steigen nicht an: {subject} ({detail}).</translation>
+        <translation>Der Scheduler unter {subject} antwortet nicht ({detail}).</translation>
     </message>
     <message>
         <source>The {markers} does not lie on the line of its finger.</source>
         <translation>{markers}: nicht auf der Linie des Fingers.</translation>
     </message>
     <message>
-        <source>There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.</source>
-        <translation>Es gibt Sitzungen, aber keine Liste der Patienten ({subject}); Carpus hat eine aus den Sitzungen angelegt.</translation>
-    </message>
-    <message>
-        <source>There is a file already at {subject}.</source>
-        <translation>Diese Datei gibt es schon: {subject}.</translation>
-    </message>
-    <message>
-        <source>There is no back-up in {subject}.</source>
-        <translation>Hier ist keine Sicherung: {subject}.</translation>
-    </message>
-    <message>
-        <source>There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off.</source>
-        <translation>Zur Kamera von {subject} fehlt die Datei; Carpus verwendet {detail}, und Längen können einige Prozent daneben liegen.</translation>
-    </message>
-    <message>
         <source>There is no folder {subject}.</source>
-        <translation>Diesen Ordner gibt es nicht: {subject}.</translation>
-    </message>
-    <message>
-        <source>There is no set of markers with the name {subject} ({detail}).</source>
-        <translation>Diesen Markersatz gibt es nicht: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is nothing of Carpus in the folder {subject}.</source>
-        <translation>Im Ordner {subject} ist nichts von Carpus.</translation>
-    </message>
-    <message>
-        <source>There is nothing that Carpus made in the folder of the sessions: {subject}.</source>
-        <translation>Im Ordner der Sitzungen liegt nichts, was Carpus gemacht hat: {subject}.</translation>
+        <translation>Es gibt keinen Ordner {subject}.</translation>
     </message>
     <message>
         <source>There is one more blue spot on the hand than there are names.</source>
         <translation>Auf der Hand ist eine blaue Stelle mehr, als es Namen gibt.</translation>
-    </message>
-    <message>
-        <source>These sessions make no test and retest: {subject} ({detail}).</source>
-        <translation>Diese Sitzungen ergeben keinen Wiederholungstest: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>They are in no list any more, and Carpus tries again whenever it starts.</source>
-        <translation>Sie stehen in keiner Liste mehr, und Carpus versucht es bei jedem Start wieder.</translation>
-    </message>
-    <message>
-        <source>They are untouched where they are, and all other sessions are safe.</source>
-        <translation>Sie liegen unberührt, wo sie sind, und alle anderen Sitzungen sind sicher.</translation>
-    </message>
-    <message>
-        <source>This camera does not give the pictures that Carpus needs: {subject} ({detail}).</source>
-        <translation>Diese Kamera liefert nicht die Bilder, die Carpus braucht: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>This camera does not lay depth on colour by itself; depths will be read beside the markers.</source>
@@ -4500,10 +3988,6 @@
         <translation>Das sieht nach der anderen Hand aus.</translation>
     </message>
     <message>
-        <source>This needs the Python package {subject}, which is not installed.</source>
-        <translation>Dafür wird das Python-Paket {subject} gebraucht, das nicht installiert ist.</translation>
-    </message>
-    <message>
         <source>This port is slow for it. {port}</source>
         <translation>Dieser Anschluss ist langsam für sie. {port}</translation>
     </message>
@@ -4512,24 +3996,8 @@
         <translation>Dieser Anschluss ist zu langsam. {port}</translation>
     </message>
     <message>
-        <source>This session cannot be read: {subject} ({detail}).</source>
-        <translation>Diese Sitzung ist nicht lesbar: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>This session is not finished: {subject}.</source>
         <translation>Diese Sitzung ist nicht abgeschlossen: {subject}.</translation>
-    </message>
-    <message>
-        <source>This session was changed after it was finished: {subject}.</source>
-        <translation>Diese Sitzung wurde nach ihrem Ende verändert: {subject}.</translation>
-    </message>
-    <message>
-        <source>Tracking again stopped: {subject} ({detail}).</source>
-        <translation>Das neue Verfolgen brach ab: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Try again, or correct another picture too.</source>
-        <translation>Versuchen Sie es noch einmal, oder berichtigen Sie ein weiteres Bild.</translation>
     </message>
     <message>
         <source>Turn the back of the hand to the camera.</source>
@@ -4537,23 +4005,15 @@
     </message>
     <message>
         <source>Unplug the camera, plug it in again and start once more.</source>
-        <translation>Ziehen Sie die Kamera ab, schließen Sie sie wieder an, und starten Sie noch einmal.</translation>
+        <translation>Ziehen Sie die Kamera ab, stecken Sie sie wieder ein und starten Sie neu.</translation>
     </message>
     <message>
         <source>Use C3D, TRC, MOT, a CSV table with its column map, or a session.</source>
-        <translation>Verwenden Sie C3D, TRC, MOT, eine CSV-Tabelle mit Spaltenzuordnung oder eine Sitzung.</translation>
+        <translation>Verwenden Sie C3D, TRC, MOT, eine CSV-Tabelle mit ihrer Spaltenzuordnung oder eine Sitzung.</translation>
     </message>
     <message>
         <source>Use a camera with colour and depth, such as the Xtion.</source>
-        <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, etwa die Xtion.</translation>
-    </message>
-    <message>
-        <source>Use a recording of colour and depth.</source>
-        <translation>Verwenden Sie eine Aufnahme mit Farbe und Tiefe.</translation>
-    </message>
-    <message>
-        <source>Use a recording whose pictures all have one size.</source>
-        <translation>Verwenden Sie eine Aufnahme mit gleich großen Bildern.</translation>
+        <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, zum Beispiel die Xtion.</translation>
     </message>
     <message>
         <source>Use another USB port, without a hub and without other cameras on it; end other heavy programs.</source>
@@ -4564,32 +4024,8 @@
         <translation>Verwenden Sie wrist6 oder hand21.</translation>
     </message>
     <message>
-        <source>Wait until it has ended, or choose another folder.</source>
-        <translation>Warten Sie, bis es fertig ist, oder wählen Sie einen anderen Ordner.</translation>
-    </message>
-    <message>
         <source>Wedge: cut along the lines, fold back along the dashes</source>
         <translation>Keil: an den Linien schneiden, an den Strichen nach hinten falten</translation>
-    </message>
-    <message>
-        <source>What counts as a change stays as it is.</source>
-        <translation>Was als Änderung zählt, bleibt, wie es ist.</translation>
-    </message>
-    <message>
-        <source>What keeps the log of deeds from being changed had been taken out of {subject}; it is there again.</source>
-        <translation>Was das Protokoll vor Änderungen schützt, war aus {subject} entfernt; es ist wieder da.</translation>
-    </message>
-    <message>
-        <source>What was recorded of it is there.</source>
-        <translation>Was von ihr aufgenommen wurde, ist da.</translation>
-    </message>
-    <message>
-        <source>What was stored before is safe.</source>
-        <translation>Was vorher gespeichert wurde, ist sicher.</translation>
-    </message>
-    <message>
-        <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
-        <translation>Wer diesen Computer betreut, installiert Carpus neu, mit allen Teilen.</translation>
     </message>
     <message>
         <source>Window</source>
@@ -4598,10 +4034,6 @@
     <message>
         <source>Wrist, all ways</source>
         <translation>Handgelenk, alle Richtungen</translation>
-    </message>
-    <message>
-        <source>Write “registered: true” or “false” into its camera_info.yaml.</source>
-        <translation>Schreiben Sie „registered: true“ oder „false“ in die camera_info.yaml.</translation>
     </message>
     <message>
         <source>You may not open {node}. Install the camera rights named above and plug it in again.</source>
@@ -5464,10 +4896,6 @@
         <translation>{count} Gelenkwinkel mit anderen Namen als {name}</translation>
     </message>
     <message>
-        <source>{detail} among the sessions cannot be read and are set apart: {subject}.</source>
-        <translation>{detail} bei den Sitzungen nicht lesbar, darum abgesondert: {subject}.</translation>
-    </message>
-    <message>
         <source>{detail}; {count} rows read</source>
         <translation>{detail}; {count} Zeilen gelesen</translation>
     </message>
@@ -5680,38 +5108,6 @@
         <translation>Probepatient</translation>
     </message>
     <message>
-        <source>Choose one of the patients that there are.</source>
-        <translation>Wählen Sie einen der Patienten, die es gibt.</translation>
-    </message>
-    <message>
-        <source>Choose the camera by one of these names, in the settings or with --camera.</source>
-        <translation>Wählen Sie die Kamera mit einem dieser Namen, in den Einstellungen oder mit --camera.</translation>
-    </message>
-    <message>
-        <source>Close Carpus first, then try again.</source>
-        <translation>Schließen Sie erst Carpus, und versuchen Sie es dann noch einmal.</translation>
-    </message>
-    <message>
-        <source>Measure one, or name the folder that holds the sessions.</source>
-        <translation>Messen Sie eine, oder nennen Sie den Ordner mit den Sitzungen.</translation>
-    </message>
-    <message>
-        <source>No kind of camera is called {subject} ({detail}).</source>
-        <translation>Keine Art von Kamera heißt {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).</source>
-        <translation>Das Fenster von Carpus oder ein anderes Programm hat die Patientenliste geöffnet: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is no patient {subject} ({detail}).</source>
-        <translation>Es gibt keinen Patienten {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is no recording at {subject} ({detail}).</source>
-        <translation>Bei {subject} gibt es keine Aufnahme ({detail}).</translation>
-    </message>
-    <message>
         <source>There is no session in {subject}.</source>
         <translation>In {subject} gibt es keine Sitzung.</translation>
     </message>
@@ -5828,10 +5224,6 @@
         <translation>ASSH, Summe der aktiven Beugung in der Faust</translation>
     </message>
     <message>
-        <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
-        <translation>Die Patientenliste war beschädigt ({detail}); eine neue enthält, was lesbar war, und die Sitzungen.</translation>
-    </message>
-    <message>
         <source>The packed program does without {packages}; Carpus from its source can have it.</source>
         <translation>Das gepackte Programm kommt ohne {packages} aus; Carpus aus den Quellen kann es haben.</translation>
     </message>
@@ -5940,26 +5332,6 @@
         <translation>{people} Personen, {sessions} Sitzungen, {kinds}</translation>
     </message>
     <message>
-        <source>Open it again, look at what stands there now, and enter your change once more.</source>
-        <translation>Öffnen Sie es noch einmal, sehen Sie nach, was jetzt dort steht, und geben Sie Ihre Änderung erneut ein.</translation>
-    </message>
-    <message>
-        <source>Somebody else has changed this meanwhile, so your change was not kept.</source>
-        <translation>Jemand anderes hat dies inzwischen geändert; Ihre Änderung wurde darum nicht gespeichert.</translation>
-    </message>
-    <message>
-        <source>This cannot be a name: {detail} ({subject}).</source>
-        <translation>Das kann kein Name sein: {detail} ({subject}).</translation>
-    </message>
-    <message>
-        <source>Type the name by hand instead of pasting it.</source>
-        <translation>Tippen Sie den Namen ein, statt ihn einzufügen.</translation>
-    </message>
-    <message>
-        <source>What the other person entered is kept.</source>
-        <translation>Was die andere Person eingegeben hat, bleibt erhalten.</translation>
-    </message>
-    <message>
         <source>it holds a sign that cannot be seen</source>
         <translation>er enthält ein unsichtbares Zeichen</translation>
     </message>
@@ -5972,32 +5344,12 @@
         <translation>nicht im Ordner der Sitzungen</translation>
     </message>
     <message>
-        <source>All sessions of both patients are kept apart.</source>
-        <translation>Alle Sitzungen beider Patienten bleiben getrennt.</translation>
-    </message>
-    <message>
-        <source>Change the name in the patient’s entry if another one is better.</source>
-        <translation>Ändern Sie den Namen im Eintrag, wenn ein anderer besser ist.</translation>
-    </message>
-    <message>
-        <source>The clinic’s server for records does not answer: {subject} ({detail}).</source>
-        <translation>Der Server der Klinik für Patientendaten antwortet nicht: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>{count} per stroke, {seconds} s in all</source>
         <translation>{count} je Bewegung, zusammen {seconds} s</translation>
     </message>
     <message>
         <source>Stops on the way, mean</source>
         <translation>Halte unterwegs, Mittel</translation>
-    </message>
-    <message>
-        <source>Everything else is in it.</source>
-        <translation>Alles andere ist darin.</translation>
-    </message>
-    <message>
-        <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
-        <translation>Der Sicherung fehlen Dateien: {subject} ist nicht da oder nicht lesbar; {detail} insgesamt.</translation>
     </message>
     <message>
         <source>No change proven since {day}.</source>
@@ -6160,18 +5512,6 @@
         <translation>Wird aufgeholt: noch {seconds} s</translation>
     </message>
     <message>
-        <source>Something happened that Carpus does not know.</source>
-        <translation>Etwas ist geschehen, das Carpus nicht kennt.</translation>
-    </message>
-    <message>
-        <source>Everything stored before is safe.</source>
-        <translation>Alles vorher Gespeicherte ist sicher.</translation>
-    </message>
-    <message>
-        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation>Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
-    </message>
-    <message>
         <source>Side · {finger}</source>
         <translation>Seite · {finger}</translation>
     </message>
@@ -6206,18 +5546,6 @@
     <message>
         <source>progress</source>
         <translation>Verlauf</translation>
-    </message>
-    <message>
-        <source>Before it was {detail}. Carpus has moved nothing out of it.</source>
-        <translation>Vorher war es {detail}. Carpus hat daraus nichts verschoben.</translation>
-    </message>
-    <message>
-        <source>Carpus shows another data folder: {subject}.</source>
-        <translation>Carpus zeigt einen anderen Datenordner: {subject}.</translation>
-    </message>
-    <message>
-        <source>If patients are missing here, choose the data folder in Settings.</source>
-        <translation>Fehlen hier Patienten, wählen Sie den Datenordner in den Einstellungen.</translation>
     </message>
     <message>
         <source>This picture with the hand alone</source>
@@ -6368,22 +5696,6 @@
         <translation>Nicht vergleichbar: {why}. Die Werte werden gezeigt, beurteilt wird nichts.</translation>
     </message>
     <message>
-        <source>By its numbers, the recording has {detail}, and Carpus reads it so: {subject}.</source>
-        <translation>Den Zahlen nach hat die Aufnahme {detail}, und Carpus liest sie so: {subject}.</translation>
-    </message>
-    <message>
-        <source>If this is not so, correct the list, or state depth_unit_m in camera_info.yaml.</source>
-        <translation>Wenn das nicht stimmt, die Liste berichtigen oder depth_unit_m in camera_info.yaml angeben.</translation>
-    </message>
-    <message>
-        <source>Pictures with the same time as the one before are left out: {subject} ({detail}).</source>
-        <translation>Bilder mit derselben Zeit wie das vorige sind ausgelassen: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Record again if there are many.</source>
-        <translation>Neu aufnehmen, wenn es viele sind.</translation>
-    </message>
-    <message>
         <source>depth in millimetres, not 5000 per metre</source>
         <translation>Tiefe in Millimetern, nicht 5000 pro Meter</translation>
     </message>
@@ -6456,24 +5768,8 @@
         <translation>Pronation–Supination</translation>
     </message>
     <message>
-        <source>Bring the session folder or its disk back, then back up again.</source>
-        <translation>Schließen Sie den Sitzungsordner oder seinen Datenträger wieder an und sichern Sie noch einmal.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera again, or correct the file.</source>
-        <translation>Kalibrieren Sie die Kamera neu, oder berichtigen Sie die Datei.</translation>
-    </message>
-    <message>
-        <source>Start Carpus again. If that does not help, ask your IT support.</source>
-        <translation>Starten Sie Carpus neu. Hilft das nicht, fragen Sie Ihre IT-Betreuung.</translation>
-    </message>
-    <message>
-        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a back-up.</source>
-        <translation>Starten Sie Carpus neu: Was noch lesbar ist, bleibt erhalten. Fehlen danach Namen, stellen Sie eine Sicherung wieder her.</translation>
-    </message>
-    <message>
-        <source>The session files are not touched. Names and notes are in this file alone: keep it.</source>
-        <translation>Die Sitzungsdateien sind unberührt. Namen und Notizen stehen nur in dieser Datei: behalten Sie sie.</translation>
+        <translation>Kalibrieren Sie die Kamera neu, oder korrigieren Sie die Datei.</translation>
     </message>
     <message>
         <source>People: {people}, sessions: {sessions}.</source>
@@ -6541,7 +5837,7 @@
     </message>
     <message>
         <source>Check the path.</source>
-        <translation>Den Pfad prüfen.</translation>
+        <translation>Prüfen Sie den Pfad.</translation>
     </message>
     <message>
         <source>File not found: {subject}.</source>
@@ -6572,36 +5868,12 @@
         <translation>Der passive Umfang übertrifft den aktiven nicht um mehr als den Messfehler.</translation>
     </message>
     <message>
-        <source>Bring Carpus up to date on this computer.</source>
-        <translation>Bringen Sie Carpus auf diesem Computer auf den neuesten Stand.</translation>
-    </message>
-    <message>
-        <source>The list of patients is of another version of Carpus: {subject} ({detail}).</source>
-        <translation>Die Patientenliste stammt von einer anderen Version von Carpus: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>another filter than Carpus’ own tracked it</source>
         <translation>ein anderer Filter als der von Carpus hat sie verfolgt</translation>
     </message>
     <message>
         <source>Record this exercise again.</source>
         <translation>Nehmen Sie diese Übung noch einmal auf.</translation>
-    </message>
-    <message>
-        <source>A recording ended before its first second was stored: {subject}. There is nothing to recover.</source>
-        <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war: {subject}. Es gibt nichts wiederherzustellen.</translation>
-    </message>
-    <message>
-        <source>A session that waited on this computer is in the folder of the sessions now: {subject}.</source>
-        <translation>Eine Sitzung, die auf diesem Computer gewartet hat, liegt jetzt im Ordner der Sitzungen: {subject}.</translation>
-    </message>
-    <message>
-        <source>Everything that was recorded before is safe.</source>
-        <translation>Alles, was vorher aufgenommen wurde, ist sicher.</translation>
-    </message>
-    <message>
-        <source>Go on. Connect the disk or the network again; Carpus then moves the session by itself.</source>
-        <translation>Arbeiten Sie weiter. Verbinden Sie den Datenträger oder das Netz wieder; Carpus verschiebt die Sitzung dann automatisch.</translation>
     </message>
     <message>
         <source>no answer for {seconds} s</source>
@@ -6620,22 +5892,6 @@
         <translation>was geschrieben wurde, wird anders gelesen</translation>
     </message>
     <message>
-        <source>The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.</source>
-        <translation>Der Ordner der Sitzungen ist nicht erreichbar ({detail}); die Sitzung wird in {subject} aufbewahrt.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe. What was being entered just now may not have been kept.</source>
-        <translation>Alle Sitzungen sind sicher. Was gerade eingegeben wurde, ist vielleicht nicht gespeichert.</translation>
-    </message>
-    <message>
-        <source>Measure all the same, and enter the rest when the server answers; if it lasts, ask whoever looks after it.</source>
-        <translation>Messen Sie trotzdem, und geben Sie das Übrige ein, wenn der Server antwortet; dauert es an, fragen Sie, wer ihn betreut.</translation>
-    </message>
-    <message>
-        <source>The name {subject} was given on two computers: the second patient has ({detail}) behind it.</source>
-        <translation>Der Name {subject} wurde auf zwei Computern vergeben: Beim zweiten Patienten steht ({detail}) dahinter.</translation>
-    </message>
-    <message>
         <source>no answer</source>
         <translation>keine Antwort</translation>
     </message>
@@ -6648,16 +5904,848 @@
         <translation>die Hand war während der Bewegung zeitweise nicht zu sehen</translation>
     </message>
     <message>
-        <source>Carpus was not installed completely: a compiled part of it is missing ({subject}).</source>
-        <translation>Carpus wurde nicht vollständig installiert: Ein kompilierter Teil davon fehlt ({subject}).</translation>
-    </message>
-    <message>
         <source>Compiled parts</source>
         <translation>Kompilierte Teile</translation>
     </message>
     <message>
         <source>all there</source>
         <translation>alle vorhanden</translation>
+    </message>
+    <message>
+        <source>A Python package that this needs is not installed: {subject}.</source>
+        <translation>Ein dafür benötigtes Python-Paket ist nicht installiert: {subject}.</translation>
+    </message>
+    <message>
+        <source>A click lies outside the image: {subject} ({detail}).</source>
+        <translation>Ein Klick liegt außerhalb des Bildes: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A different camera is connected ({detail}). Carpus expects {subject}.</source>
+        <translation>Eine andere Kamera ist angeschlossen ({detail}). Carpus erwartet {subject}.</translation>
+    </message>
+    <message>
+        <source>A file with this name already exists: {subject}.</source>
+        <translation>Eine Datei mit diesem Namen gibt es schon: {subject}.</translation>
+    </message>
+    <message>
+        <source>A frame of the recording is damaged: {subject} ({detail}).</source>
+        <translation>Ein Bild der Aufnahme ist beschädigt: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A recording ended before its first second was saved: {subject}. There is nothing to recover.</source>
+        <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war: {subject}. Es gibt nichts wiederherzustellen.</translation>
+    </message>
+    <message>
+        <source>A recording that waited on this computer belonged to a deleted patient and was deleted as well.</source>
+        <translation>Eine Aufnahme, die auf diesem Computer wartete, gehörte zu einem gelöschten Patienten und wurde ebenfalls gelöscht.</translation>
+    </message>
+    <message>
+        <source>A session that was kept on this computer is now in the session folder: {subject}.</source>
+        <translation>Eine Sitzung, die auf diesem Computer lag, ist jetzt im Sitzungsordner: {subject}.</translation>
+    </message>
+    <message>
+        <source>A setting is invalid: {subject} ({detail}).</source>
+        <translation>Eine Einstellung ist ungültig: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>All other files are in the backup.</source>
+        <translation>Alle anderen Dateien sind in der Sicherung.</translation>
+    </message>
+    <message>
+        <source>All other frames are used. The gaps are marked.</source>
+        <translation>Alle anderen Bilder werden verwendet. Die Lücken sind markiert.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. If there was a list before, its names, notes and comments are missing.</source>
+        <translation>Alle Sitzungen sind sicher. Wenn es vorher eine Liste gab, fehlen ihre Namen, Notizen und Kommentare.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. Names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
+        <translation>Alle Sitzungen sind sicher. Namen, Notizen und Kommentare können fehlen. Die beschädigte Liste ist als {subject} aufgehoben.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. What was being entered may not be saved.</source>
+        <translation>Alle Sitzungen sind sicher. Was gerade eingegeben wurde, ist vielleicht nicht gespeichert.</translation>
+    </message>
+    <message>
+        <source>Another Carpus is using this data folder: {subject}.</source>
+        <translation>Ein anderes Carpus benutzt diesen Datenordner: {subject}.</translation>
+    </message>
+    <message>
+        <source>Another program is using the camera ({detail}).</source>
+        <translation>Ein anderes Programm benutzt die Kamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>Another program is writing {subject}.</source>
+        <translation>Ein anderes Programm schreibt gerade {subject}.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support for access to the camera.</source>
+        <translation>Bitten Sie Ihre IT-Betreuung um Zugriff auf die Kamera.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to install it.</source>
+        <translation>Bitten Sie Ihre IT-Betreuung, es zu installieren.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to install the driver.</source>
+        <translation>Bitten Sie Ihre IT-Betreuung, den Treiber zu installieren.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to reinstall Carpus.</source>
+        <translation>Bitten Sie Ihre IT-Betreuung, Carpus neu zu installieren.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to replace the link by its target, then delete again.</source>
+        <translation>Bitten Sie Ihre IT-Betreuung, die Verknüpfung durch ihr Ziel zu ersetzen, und löschen Sie dann noch einmal.</translation>
+    </message>
+    <message>
+        <source>Back up to another disk now, and replace this one.</source>
+        <translation>Sichern Sie jetzt auf eine andere Festplatte, und ersetzen Sie diese.</translation>
+    </message>
+    <message>
+        <source>Backup</source>
+        <translation>Datensicherung</translation>
+    </message>
+    <message>
+        <source>Backups cannot be stored there: {subject} ({detail}).</source>
+        <translation>Sicherungen können dort nicht liegen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Before it was {detail}. Nothing was moved.</source>
+        <translation>Vorher war es {detail}. Es wurde nichts verschoben.</translation>
+    </message>
+    <message>
+        <source>By its numbers the recording has {detail}, and Carpus reads it that way: {subject}.</source>
+        <translation>Nach ihren Zahlen hat die Aufnahme {detail}, und Carpus liest sie so: {subject}.</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera in the settings.</source>
+        <translation>Kalibrieren Sie die Kamera in den Einstellungen.</translation>
+    </message>
+    <message>
+        <source>Carpus now uses another data folder: {subject}.</source>
+        <translation>Carpus verwendet jetzt einen anderen Datenordner: {subject}.</translation>
+    </message>
+    <message>
+        <source>Carpus was not installed completely: a compiled part is missing ({subject}).</source>
+        <translation>Carpus wurde nicht vollständig installiert: Ein kompilierter Teil fehlt ({subject}).</translation>
+    </message>
+    <message>
+        <source>Check that it is the same movement, and state which column or marker is which.</source>
+        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und geben Sie an, welche Spalte oder welcher Marker was ist.</translation>
+    </message>
+    <message>
+        <source>Check that the folder exists and that you may write there, or choose another folder.</source>
+        <translation>Prüfen Sie, ob der Ordner existiert und ob Sie dort schreiben dürfen, oder wählen Sie einen anderen.</translation>
+    </message>
+    <message>
+        <source>Check that the network share is connected.</source>
+        <translation>Prüfen Sie, ob die Netzwerkfreigabe verbunden ist.</translation>
+    </message>
+    <message>
+        <source>Check the address.</source>
+        <translation>Prüfen Sie die Adresse.</translation>
+    </message>
+    <message>
+        <source>Check the list, or restore a backup.</source>
+        <translation>Prüfen Sie die Liste, oder stellen Sie eine Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>Choose an existing patient.</source>
+        <translation>Wählen Sie einen vorhandenen Patienten.</translation>
+    </message>
+    <message>
+        <source>Choose another backup, or update Carpus.</source>
+        <translation>Wählen Sie eine andere Sicherung, oder aktualisieren Sie Carpus.</translation>
+    </message>
+    <message>
+        <source>Choose the camera in the settings.</source>
+        <translation>Wählen Sie die Kamera in den Einstellungen.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that contains the backups.</source>
+        <translation>Wählen Sie den Ordner mit den Sicherungen.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that contains the patients.</source>
+        <translation>Wählen Sie den Ordner mit den Patienten.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that contains the sessions.</source>
+        <translation>Wählen Sie den Ordner mit den Sitzungen.</translation>
+    </message>
+    <message>
+        <source>Click closer to the marker, or check the light.</source>
+        <translation>Klicken Sie näher am Marker, oder prüfen Sie das Licht.</translation>
+    </message>
+    <message>
+        <source>Click every marker again, in the order shown.</source>
+        <translation>Klicken Sie alle Marker noch einmal an, in der gezeigten Reihenfolge.</translation>
+    </message>
+    <message>
+        <source>Click the marker in the first frame of this recording.</source>
+        <translation>Klicken Sie den Marker im ersten Bild dieser Aufnahme an.</translation>
+    </message>
+    <message>
+        <source>Click the markers again, or correct the file.</source>
+        <translation>Klicken Sie die Marker noch einmal an, oder korrigieren Sie die Datei.</translation>
+    </message>
+    <message>
+        <source>Close Carpus on other computers. If that does not help, ask your IT support for write access.</source>
+        <translation>Schließen Sie Carpus auf anderen Computern. Wenn das nicht hilft, bitten Sie Ihre IT-Betreuung um Schreibzugriff.</translation>
+    </message>
+    <message>
+        <source>Close it there, then try again.</source>
+        <translation>Schließen Sie sie dort, und versuchen Sie es dann noch einmal.</translation>
+    </message>
+    <message>
+        <source>Close other programs that use them, then restart Carpus.</source>
+        <translation>Schließen Sie andere Programme, die sie benutzen, und starten Sie Carpus neu.</translation>
+    </message>
+    <message>
+        <source>Compare the log with a backup, and tell your data-protection officer.</source>
+        <translation>Vergleichen Sie das Protokoll mit einer Sicherung, und informieren Sie Ihre Datenschutzbeauftragte.</translation>
+    </message>
+    <message>
+        <source>Comparison</source>
+        <translation>Vergleich</translation>
+    </message>
+    <message>
+        <source>Connect the expected camera. What was begun then continues automatically.</source>
+        <translation>Schließen Sie die erwartete Kamera an. Was begonnen wurde, läuft dann automatisch weiter.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. If the server stays away, ask your IT support.</source>
+        <translation>Messen Sie weiter. Wenn der Server nicht wiederkommt, fragen Sie Ihre IT-Betreuung.</translation>
+    </message>
+    <message>
+        <source>Continue. The gap is marked in the session.</source>
+        <translation>Fahren Sie fort. Die Lücke ist in der Sitzung markiert.</translation>
+    </message>
+    <message>
+        <source>Continue. When the disk or network is back, Carpus moves the session automatically.</source>
+        <translation>Fahren Sie fort. Wenn Festplatte oder Netz wieder da sind, verschiebt Carpus die Sitzung automatisch.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from its source.</source>
+        <translation>Kopieren Sie die Aufnahme noch einmal von ihrer Quelle.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again, or correct its list of frames.</source>
+        <translation>Kopieren Sie die Aufnahme noch einmal, oder korrigieren Sie ihre Bildliste.</translation>
+    </message>
+    <message>
+        <source>Correct the setting, or remove it to use the default.</source>
+        <translation>Korrigieren Sie die Einstellung, oder entfernen Sie sie, um die Voreinstellung zu verwenden.</translation>
+    </message>
+    <message>
+        <source>Damaged frames were excluded: {subject} ({detail}).</source>
+        <translation>Beschädigte Bilder wurden ausgeschlossen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Depth and colour are not aligned in {subject}, so depths are less accurate.</source>
+        <translation>Tiefe und Farbe sind in {subject} nicht deckungsgleich, daher sind die Tiefen ungenauer.</translation>
+    </message>
+    <message>
+        <source>Everything is as it was.</source>
+        <translation>Alles ist, wie es war.</translation>
+    </message>
+    <message>
+        <source>Everything recorded before is safe.</source>
+        <translation>Alles vorher Aufgenommene ist sicher.</translation>
+    </message>
+    <message>
+        <source>Everything recorded so far is saved on this computer.</source>
+        <translation>Alles bisher Aufgenommene ist auf diesem Computer gespeichert.</translation>
+    </message>
+    <message>
+        <source>Everything saved before is safe. What was being written may be missing.</source>
+        <translation>Alles vorher Gespeicherte ist sicher. Was gerade geschrieben wurde, kann fehlen.</translation>
+    </message>
+    <message>
+        <source>Everything saved until then is safe.</source>
+        <translation>Alles bis dahin Gespeicherte ist sicher.</translation>
+    </message>
+    <message>
+        <source>Exclude the repetitions that are wrong, or record again.</source>
+        <translation>Schließen Sie die falschen Wiederholungen aus, oder nehmen Sie neu auf.</translation>
+    </message>
+    <message>
+        <source>Files</source>
+        <translation>Dateien</translation>
+    </message>
+    <message>
+        <source>Frames with a repeated time were excluded: {subject} ({detail}).</source>
+        <translation>Bilder mit wiederholter Zeit wurden ausgeschlossen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Glue the board to something stiff and flat, light it well, and hold it still.</source>
+        <translation>Kleben Sie die Tafel auf etwas Steifes, Ebenes, beleuchten Sie sie gut und halten Sie sie ruhig.</translation>
+    </message>
+    <message>
+        <source>Hold the whole printed board in the camera image, in good light.</source>
+        <translation>Halten Sie die ganze gedruckte Tafel ins Kamerabild, bei gutem Licht.</translation>
+    </message>
+    <message>
+        <source>If another name is better, change it in the patient’s entry.</source>
+        <translation>Wenn ein anderer Name besser ist, ändern Sie ihn beim Patienten.</translation>
+    </message>
+    <message>
+        <source>If it was copied, copy it again. Otherwise restore it from a backup.</source>
+        <translation>Wenn sie kopiert wurde, kopieren Sie sie noch einmal. Sonst stellen Sie sie aus einer Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>If patients are missing here, choose the data folder in the settings.</source>
+        <translation>Wenn hier Patienten fehlen, wählen Sie den Datenordner in den Einstellungen.</translation>
+    </message>
+    <message>
+        <source>If there are many, copy the recording again.</source>
+        <translation>Wenn es viele sind, kopieren Sie die Aufnahme noch einmal.</translation>
+    </message>
+    <message>
+        <source>If there are many, record again.</source>
+        <translation>Wenn es viele sind, nehmen Sie neu auf.</translation>
+    </message>
+    <message>
+        <source>If this is wrong, correct the list of frames or state the unit of depth.</source>
+        <translation>Wenn das falsch ist, korrigieren Sie die Bildliste oder geben Sie die Einheit der Tiefe an.</translation>
+    </message>
+    <message>
+        <source>Install Carpus again.</source>
+        <translation>Installieren Sie Carpus noch einmal.</translation>
+    </message>
+    <message>
+        <source>Installation</source>
+        <translation>Installation</translation>
+    </message>
+    <message>
+        <source>It can be opened, but its values may have been altered.</source>
+        <translation>Sie kann geöffnet werden, aber ihre Werte können verändert sein.</translation>
+    </message>
+    <message>
+        <source>It is complete.</source>
+        <translation>Sie ist vollständig.</translation>
+    </message>
+    <message>
+        <source>It is not stated whether depth and colour are aligned in {subject}; Carpus assumes that they are.</source>
+        <translation>Es ist nicht angegeben, ob Tiefe und Farbe in {subject} deckungsgleich sind; Carpus nimmt es an.</translation>
+    </message>
+    <message>
+        <source>It is safe on this computer.</source>
+        <translation>Sie ist auf diesem Computer sicher.</translation>
+    </message>
+    <message>
+        <source>Its SHA-256 checksum does not match.</source>
+        <translation>Ihre SHA-256-Prüfsumme stimmt nicht.</translation>
+    </message>
+    <message>
+        <source>Keep the light constant while you measure.</source>
+        <translation>Lassen Sie das Licht während der Messung unverändert.</translation>
+    </message>
+    <message>
+        <source>Lay it flat under the camera, all of it in the image, about 60 cm away, in good light.</source>
+        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
+    </message>
+    <message>
+        <source>Measure at least 10 people twice within 14 days, with the markers placed anew each time.</source>
+        <translation>Messen Sie mindestens 10 Personen zweimal innerhalb von 14 Tagen, jedes Mal mit neu gesetzten Markern.</translation>
+    </message>
+    <message>
+        <source>Measure one, or choose the folder that contains the sessions.</source>
+        <translation>Messen Sie eine, oder wählen Sie den Ordner mit den Sitzungen.</translation>
+    </message>
+    <message>
+        <source>Move the hand a little. Keep sunlight and reflections off the markers.</source>
+        <translation>Bewegen Sie die Hand ein wenig. Halten Sie Sonne und Spiegelungen von den Markern fern.</translation>
+    </message>
+    <message>
+        <source>No action is needed.</source>
+        <translation>Sie müssen nichts tun.</translation>
+    </message>
+    <message>
+        <source>No camera calibration was found with {subject}: lengths may be several per cent off ({detail}).</source>
+        <translation>Zu {subject} wurde keine Kamerakalibrierung gefunden: Längen können um mehrere Prozent abweichen ({detail}).</translation>
+    </message>
+    <message>
+        <source>No camera was found ({detail}).</source>
+        <translation>Es wurde keine Kamera gefunden ({detail}).</translation>
+    </message>
+    <message>
+        <source>No separate blue marker was found at a click: {subject}.</source>
+        <translation>An einem Klick wurde kein eigener blauer Marker gefunden: {subject}.</translation>
+    </message>
+    <message>
+        <source>Nothing else was changed.</source>
+        <translation>Sonst wurde nichts geändert.</translation>
+    </message>
+    <message>
+        <source>Nothing has been recorded yet.</source>
+        <translation>Es wurde noch nichts aufgenommen.</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Everything stays hidden.</source>
+        <translation>Es ist nichts verloren. Alles bleibt verborgen.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Es wurde nichts geändert.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. New recordings are kept on this computer.</source>
+        <translation>Es wurde nichts geändert. Neue Aufnahmen bleiben auf diesem Computer.</translation>
+    </message>
+    <message>
+        <source>Nothing was deleted: {subject} is a link to another place.</source>
+        <translation>Es wurde nichts gelöscht: {subject} ist eine Verknüpfung an einen anderen Ort.</translation>
+    </message>
+    <message>
+        <source>On the command line, --camera names it.</source>
+        <translation>Auf der Kommandozeile nennt sie --camera.</translation>
+    </message>
+    <message>
+        <source>Open it again and enter your change once more.</source>
+        <translation>Öffnen Sie ihn noch einmal, und geben Sie Ihre Änderung erneut ein.</translation>
+    </message>
+    <message>
+        <source>Or put the camera’s camera_info.yaml beside the recording.</source>
+        <translation>Oder legen Sie die camera_info.yaml der Kamera neben die Aufnahme.</translation>
+    </message>
+    <message>
+        <source>Or track the recording again with “carpus track”.</source>
+        <translation>Oder verfolgen Sie die Aufnahme noch einmal mit „carpus track“.</translation>
+    </message>
+    <message>
+        <source>Patients</source>
+        <translation>Patienten</translation>
+    </message>
+    <message>
+        <source>Patients and sessions are safe. Entries of the log may have been altered.</source>
+        <translation>Patienten und Sitzungen sind sicher. Einträge des Protokolls können verändert worden sein.</translation>
+    </message>
+    <message>
+        <source>Plug the camera directly into the computer.</source>
+        <translation>Stecken Sie die Kamera direkt am Computer ein.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in again. Tracking and recording then continue automatically.</source>
+        <translation>Stecken Sie die Kamera wieder ein. Verfolgung und Aufnahme laufen dann automatisch weiter.</translation>
+    </message>
+    <message>
+        <source>Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.</source>
+        <translation>Die letzten Änderungen der Patientenliste können nicht gelesen werden, weil der Ordner schreibgeschützt ist: {subject}.</translation>
+    </message>
+    <message>
+        <source>Reconnect the session folder or its disk, then back up again.</source>
+        <translation>Verbinden Sie den Sitzungsordner oder seine Festplatte wieder, und sichern Sie dann noch einmal.</translation>
+    </message>
+    <message>
+        <source>Record again with colour and depth of the same size.</source>
+        <translation>Nehmen Sie neu auf, mit Farbe und Tiefe in gleicher Größe.</translation>
+    </message>
+    <message>
+        <source>Record again, or correct the list of frames.</source>
+        <translation>Nehmen Sie neu auf, oder korrigieren Sie die Bildliste.</translation>
+    </message>
+    <message>
+        <source>Record to a disk in this computer, and close other programs.</source>
+        <translation>Nehmen Sie auf eine Festplatte in diesem Computer auf, und schließen Sie andere Programme.</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>Recording not found: {subject} ({detail}).</source>
+        <translation>Aufnahme nicht gefunden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Restart Carpus. If that does not help, ask your IT support.</source>
+        <translation>Starten Sie Carpus neu. Wenn das nicht hilft, fragen Sie Ihre IT-Betreuung.</translation>
+    </message>
+    <message>
+        <source>Restart Carpus: it keeps what can still be read. If names are missing, restore a backup.</source>
+        <translation>Starten Sie Carpus neu: Es behält, was noch lesbar ist. Wenn Namen fehlen, stellen Sie eine Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>Restore a backup, or enter the names again.</source>
+        <translation>Stellen Sie eine Sicherung wieder her, oder geben Sie die Namen neu ein.</translation>
+    </message>
+    <message>
+        <source>Restore them from a backup.</source>
+        <translation>Stellen Sie sie aus einer Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>Review it like any other session.</source>
+        <translation>Sehen Sie sie wie jede andere Sitzung durch.</translation>
+    </message>
+    <message>
+        <source>Session and reference were not changed.</source>
+        <translation>Sitzung und Referenz wurden nicht verändert.</translation>
+    </message>
+    <message>
+        <source>Session files are safe. Keep this file: names and notes are stored in it alone.</source>
+        <translation>Die Sitzungsdateien sind sicher. Behalten Sie diese Datei: Nur in ihr stehen Namen und Notizen.</translation>
+    </message>
+    <message>
+        <source>Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.</source>
+        <translation>Zeigen Sie die Tafel überall im Bild, nach allen vier Seiten geneigt, nah und fern. Halten Sie sie ruhig.</translation>
+    </message>
+    <message>
+        <source>Smoothing of this session failed: {subject} ({detail}).</source>
+        <translation>Die Glättung dieser Sitzung ist fehlgeschlagen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Some frames are smaller and were enlarged: {subject} ({detail}).</source>
+        <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Someone else changed this record, so your change was not saved.</source>
+        <translation>Jemand anderes hat diesen Eintrag geändert, deshalb wurde Ihre Änderung nicht gespeichert.</translation>
+    </message>
+    <message>
+        <source>State it in the camera file.</source>
+        <translation>Geben Sie es in der Kameradatei an.</translation>
+    </message>
+    <message>
+        <source>That file was not changed.</source>
+        <translation>Diese Datei wurde nicht verändert.</translation>
+    </message>
+    <message>
+        <source>The backup cannot be read: {subject} ({detail}).</source>
+        <translation>Die Sicherung kann nicht gelesen werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The backup is incomplete: {subject} is missing or cannot be read; {detail} in all.</source>
+        <translation>Die Sicherung ist unvollständig: {subject} fehlt oder kann nicht gelesen werden; insgesamt {detail}.</translation>
+    </message>
+    <message>
+        <source>The backup’s verification failed: a file read back differs from the original ({subject}, {detail}).</source>
+        <translation>Die Prüfung der Sicherung ist fehlgeschlagen: Eine zurückgelesene Datei weicht vom Original ab ({subject}, {detail}).</translation>
+    </message>
+    <message>
+        <source>The calibration board is not visible: {subject} ({detail}).</source>
+        <translation>Die Kalibriertafel ist nicht zu sehen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera cannot keep its exposure constant: {subject}.</source>
+        <translation>Die Kamera kann ihre Belichtung nicht konstant halten: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera driver has stopped: {subject} ({detail}).</source>
+        <translation>Der Kameratreiber hat aufgehört zu arbeiten: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera driver is not installed or cannot be loaded ({detail}).</source>
+        <translation>Der Kameratreiber ist nicht installiert oder kann nicht geladen werden ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera file cannot be used: {subject} ({detail}).</source>
+        <translation>Die Kameradatei kann nicht verwendet werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera has stopped sending images: {subject} ({detail}).</source>
+        <translation>Die Kamera sendet keine Bilder mehr: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera’s calibration was not changed.</source>
+        <translation>Die Kalibrierung der Kamera wurde nicht verändert.</translation>
+    </message>
+    <message>
+        <source>The check card is not visible: {subject} ({detail}).</source>
+        <translation>Die Prüfkarte ist nicht zu sehen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicked markers cannot be read: {subject} ({detail}).</source>
+        <translation>Die angeklickten Marker können nicht gelesen werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicked points do not form a hand ({subject}).</source>
+        <translation>Die angeklickten Punkte ergeben keine Hand ({subject}).</translation>
+    </message>
+    <message>
+        <source>The clinic’s records server does not answer: {subject} ({detail}).</source>
+        <translation>Der Patientenserver der Klinik antwortet nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The data on this computer are intact.</source>
+        <translation>Die Daten auf diesem Computer sind unversehrt.</translation>
+    </message>
+    <message>
+        <source>The disk has no space left for {subject} ({detail}).</source>
+        <translation>Die Festplatte hat keinen Platz mehr für {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The disk is too slow, so the recording has ended: {subject} ({detail}).</source>
+        <translation>Die Festplatte ist zu langsam, deshalb wurde die Aufnahme beendet: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The file was not changed. All other sessions are safe.</source>
+        <translation>Die Datei wurde nicht verändert. Alle anderen Sitzungen sind sicher.</translation>
+    </message>
+    <message>
+        <source>The first frame of the recording is damaged: {subject} ({detail}).</source>
+        <translation>Das erste Bild der Aufnahme ist beschädigt: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The folder contains no Carpus data: {subject}.</source>
+        <translation>Der Ordner enthält keine Daten von Carpus: {subject}.</translation>
+    </message>
+    <message>
+        <source>The frame times are out of order: {subject} ({detail}).</source>
+        <translation>Die Bildzeiten sind nicht aufsteigend: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The frames of the recording differ in size: {subject} ({detail}).</source>
+        <translation>Die Bilder der Aufnahme sind unterschiedlich groß: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The image format of this recording is not supported: {subject} ({detail}).</source>
+        <translation>Das Bildformat dieser Aufnahme wird nicht unterstützt: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The images of the board are too few or too similar: {subject} ({detail}).</source>
+        <translation>Die Bilder der Tafel sind zu wenige oder zu ähnlich: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The limits of change stay as they are.</source>
+        <translation>Die Grenzen für Veränderungen bleiben, wie sie sind.</translation>
+    </message>
+    <message>
+        <source>The live measurement is saved.</source>
+        <translation>Die Live-Messung ist gespeichert.</translation>
+    </message>
+    <message>
+        <source>The measurement continues.</source>
+        <translation>Die Messung läuft weiter.</translation>
+    </message>
+    <message>
+        <source>The other change is saved.</source>
+        <translation>Die andere Änderung ist gespeichert.</translation>
+    </message>
+    <message>
+        <source>The patient list cannot be opened: {subject} ({detail}).</source>
+        <translation>Die Patientenliste kann nicht geöffnet werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list is damaged: {subject} ({detail}).</source>
+        <translation>Die Patientenliste ist beschädigt: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list is open in another window of Carpus or another program: {subject} ({detail}).</source>
+        <translation>Die Patientenliste ist in einem anderen Fenster von Carpus oder einem anderen Programm offen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was damaged. It was rebuilt from the sessions and what could be read ({detail}).</source>
+        <translation>Die Patientenliste war beschädigt. Sie wurde aus den Sitzungen und dem Lesbaren neu erstellt ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was made by another version of Carpus: {subject} ({detail}).</source>
+        <translation>Die Patientenliste stammt von einer anderen Version von Carpus: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was missing and was rebuilt from the sessions: {subject}.</source>
+        <translation>Die Patientenliste fehlte und wurde aus den Sitzungen neu erstellt: {subject}.</translation>
+    </message>
+    <message>
+        <source>The previous result was not changed.</source>
+        <translation>Das bisherige Ergebnis wurde nicht verändert.</translation>
+    </message>
+    <message>
+        <source>The re-analysis failed: {subject} ({detail}).</source>
+        <translation>Die neue Auswertung ist fehlgeschlagen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording contains no frames: {subject} ({detail}).</source>
+        <translation>Die Aufnahme enthält keine Bilder: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The reference has nothing to compare: {subject} ({detail}).</source>
+        <translation>Die Referenz enthält nichts Vergleichbares: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session folder contains nothing from Carpus: {subject}.</source>
+        <translation>Der Sitzungsordner enthält nichts von Carpus: {subject}.</translation>
+    </message>
+    <message>
+        <source>The session folder is not available ({detail}). The session is saved in {subject}.</source>
+        <translation>Der Sitzungsordner ist nicht verfügbar ({detail}). Die Sitzung ist in {subject} gespeichert.</translation>
+    </message>
+    <message>
+        <source>The session was not changed.</source>
+        <translation>Die Sitzung wurde nicht verändert.</translation>
+    </message>
+    <message>
+        <source>The write protection of the audit log in {subject} had been removed. Carpus has restored it.</source>
+        <translation>Der Schreibschutz des Protokolls in {subject} war entfernt worden. Carpus hat ihn wiederhergestellt.</translation>
+    </message>
+    <message>
+        <source>Their sessions are kept apart.</source>
+        <translation>Ihre Sitzungen bleiben getrennt.</translation>
+    </message>
+    <message>
+        <source>There is no backup in {subject}.</source>
+        <translation>In {subject} gibt es keine Sicherung.</translation>
+    </message>
+    <message>
+        <source>There is no camera type called {subject} ({detail}).</source>
+        <translation>Es gibt keinen Kameratyp namens {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no marker set called {subject} ({detail}).</source>
+        <translation>Es gibt kein Markerset namens {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no patient called {subject} ({detail}).</source>
+        <translation>Es gibt keinen Patienten namens {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>These sessions are not a test-retest study: {subject} ({detail}).</source>
+        <translation>Diese Sitzungen sind keine Test-Retest-Studie: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>They are no longer listed. Carpus tries again at each start.</source>
+        <translation>Sie sind nicht mehr aufgelistet. Carpus versucht es bei jedem Start noch einmal.</translation>
+    </message>
+    <message>
+        <source>They were not changed. All other sessions are safe.</source>
+        <translation>Sie wurden nicht verändert. Alle anderen Sitzungen sind sicher.</translation>
+    </message>
+    <message>
+        <source>This camera does not deliver the images that Carpus needs: {subject} ({detail}).</source>
+        <translation>Diese Kamera liefert nicht die Bilder, die Carpus braucht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This cannot be used as a name: {detail} ({subject}).</source>
+        <translation>Das kann kein Name sein: {detail} ({subject}).</translation>
+    </message>
+    <message>
+        <source>This session cannot be opened: {subject} ({detail}).</source>
+        <translation>Diese Sitzung kann nicht geöffnet werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This session was modified after it was completed: {subject}.</source>
+        <translation>Diese Sitzung wurde nach ihrem Abschluss verändert: {subject}.</translation>
+    </message>
+    <message>
+        <source>Try again, or correct another frame first.</source>
+        <translation>Versuchen Sie es noch einmal, oder korrigieren Sie zuerst ein anderes Bild.</translation>
+    </message>
+    <message>
+        <source>Turn on depth registration in the camera settings next time.</source>
+        <translation>Schalten Sie beim nächsten Mal in der Kamera die Ausrichtung der Tiefe auf die Farbe ein.</translation>
+    </message>
+    <message>
+        <source>Two patients had the name {subject}: the second one now has ({detail}) after it.</source>
+        <translation>Zwei Patienten hatten den Namen {subject}: Beim zweiten steht jetzt ({detail}) dahinter.</translation>
+    </message>
+    <message>
+        <source>Type the name instead of pasting it.</source>
+        <translation>Tippen Sie den Namen ein, statt ihn einzufügen.</translation>
+    </message>
+    <message>
+        <source>Update Carpus on this computer.</source>
+        <translation>Aktualisieren Sie Carpus auf diesem Computer.</translation>
+    </message>
+    <message>
+        <source>Use a recording whose frames all have the same size.</source>
+        <translation>Verwenden Sie eine Aufnahme, deren Bilder alle gleich groß sind.</translation>
+    </message>
+    <message>
+        <source>Use a recording with colour and depth.</source>
+        <translation>Verwenden Sie eine Aufnahme mit Farbe und Tiefe.</translation>
+    </message>
+    <message>
+        <source>Use the copy in a backup.</source>
+        <translation>Verwenden Sie die Kopie aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>Use the same size for colour and depth next time.</source>
+        <translation>Verwenden Sie beim nächsten Mal für Farbe und Tiefe dieselbe Größe.</translation>
+    </message>
+    <message>
+        <source>Use the window that is already open, or choose another folder.</source>
+        <translation>Verwenden Sie das schon offene Fenster, oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>Wait until it has finished, or choose another folder.</source>
+        <translation>Warten Sie, bis es fertig ist, oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>Wait until its recording has ended, or restart Carpus: it completes the session.</source>
+        <translation>Warten Sie, bis die Aufnahme beendet ist, oder starten Sie Carpus neu: Es schließt die Sitzung ab.</translation>
+    </message>
+    <message>
+        <source>What was recorded is safe.</source>
+        <translation>Was aufgenommen wurde, ist sicher.</translation>
+    </message>
+    <message>
+        <source>Without --scheduler this computer does the work.</source>
+        <translation>Ohne --scheduler rechnet dieser Computer.</translation>
+    </message>
+    <message>
+        <source>Write “registered: true” or “registered: false” into camera_info.yaml.</source>
+        <translation>Schreiben Sie „registered: true“ oder „registered: false“ in camera_info.yaml.</translation>
+    </message>
+    <message>
+        <source>You can use the session as it is.</source>
+        <translation>Sie können die Sitzung so verwenden.</translation>
+    </message>
+    <message>
+        <source>You do not have permission to open the camera ({detail}).</source>
+        <translation>Sie haben keine Berechtigung, die Kamera zu öffnen ({detail}).</translation>
+    </message>
+    <message>
+        <source>camera_info.yaml states it as depth_unit_m.</source>
+        <translation>In camera_info.yaml steht sie als depth_unit_m.</translation>
+    </message>
+    <message>
+        <source>{detail} among the sessions cannot be read and were ignored: {subject}.</source>
+        <translation>{detail} unter den Sitzungen können nicht gelesen werden und wurden ignoriert: {subject}.</translation>
+    </message>
+    <message>
+        <source>“carpus calibrate-camera --board” prints it.</source>
+        <translation>„carpus calibrate-camera --board“ druckt sie.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” says how to give it.</source>
+        <translation>„carpus doctor“ sagt, wie er erteilt wird.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” says what is missing and how to install it.</source>
+        <translation>„carpus doctor“ sagt, was fehlt und wie es installiert wird.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” says which one it is.</source>
+        <translation>„carpus doctor“ sagt, welcher es ist.</translation>
+    </message>
+    <message>
+        <source>“carpus recover” completes it too.</source>
+        <translation>Auch „carpus recover“ schließt sie ab.</translation>
+    </message>
+    <message>
+        <source>“carpus track --leave-out-damaged” continues without it.</source>
+        <translation>„carpus track --leave-out-damaged“ fährt ohne es fort.</translation>
+    </message>
+    <message>
+        <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
+        <translation>„carpus track SITZUNG.h5 --output NEU.h5“ wiederholt die Glättung.</translation>
+    </message>
+    <message>
+        <source>An unexpected error occurred.</source>
+        <translation>Ein unerwarteter Fehler ist aufgetreten.</translation>
+    </message>
+    <message>
+        <source>Everything saved before is safe.</source>
+        <translation>Alles vorher Gespeicherte ist sicher.</translation>
+    </message>
+    <message>
+        <source>Try again. If it happens again, restart Carpus and show the details to your IT support.</source>
+        <translation>Versuchen Sie es noch einmal. Wenn es wieder geschieht, starten Sie Carpus neu und zeigen Sie Ihrer IT-Betreuung die Details.</translation>
+    </message>
+    <message>
+        <source>Program</source>
+        <translation>Programm</translation>
     </message>
 </context>
 <context>
@@ -8733,7 +8821,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Details</source>
-        <translation>Einzelheiten</translation>
+        <translation>Details</translation>
     </message>
     <message>
         <source>Done</source>
@@ -11190,6 +11278,17 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
+    </message>
+</context>
+<context>
+    <name>FaultDetails</name>
+    <message>
+        <source>Details</source>
+        <translation>Details</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>Kopieren</translation>
     </message>
 </context>
 </TS>

@@ -817,7 +817,7 @@
     </message>
     <message>
         <source>Lock</source>
-        <translation>Blocca</translation>
+        <translation>Blocco</translation>
     </message>
     <message>
         <source>Search for a patient</source>
@@ -3508,42 +3508,6 @@
         <translation>{difference}: oltre l’errore di misura ({limit})</translation>
     </message>
     <message>
-        <source>A click has no blue marker of its own: {subject}.</source>
-        <translation>Un clic non ha un marcatore blu proprio: {subject}.</translation>
-    </message>
-    <message>
-        <source>A click lies outside the picture: {subject} ({detail}).</source>
-        <translation>Un clic è fuori dall’immagine: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>A picture of the recording cannot be used: {subject} ({detail}).</source>
-        <translation>Un’immagine della registrazione non si può usare: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>A setting cannot be used: {subject} ({detail}).</source>
-        <translation>Un’impostazione non si può usare: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>All of it is safe on this computer.</source>
-        <translation>È tutta al sicuro su questo computer.</translation>
-    </message>
-    <message>
-        <source>All of it is safe.</source>
-        <translation>È tutta al sicuro.</translation>
-    </message>
-    <message>
-        <source>All of it is stored as it was measured live.</source>
-        <translation>È salvata per intero, così come misurata dal vivo.</translation>
-    </message>
-    <message>
-        <source>All other pictures are used, and the gaps are marked.</source>
-        <translation>Tutte le altre immagini sono usate, e i vuoti sono segnati.</translation>
-    </message>
-    <message>
-        <source>Another Carpus is using the patients of {subject}.</source>
-        <translation>Un altro Carpus sta usando i pazienti di {subject}.</translation>
-    </message>
-    <message>
         <source>Another blue spot fits the {markers} better.</source>
         <translation>Un altro punto blu corrisponde meglio a: {markers}.</translation>
     </message>
@@ -3552,24 +3516,8 @@
         <translation>Un altro punto blu è molto vicino a: {markers}. Potrebbe essere il marcatore.</translation>
     </message>
     <message>
-        <source>Another program is making {subject} at this moment.</source>
-        <translation>In questo momento un altro programma sta creando {subject}.</translation>
-    </message>
-    <message>
-        <source>Another program uses the camera ({detail}).</source>
-        <translation>Un altro programma usa la telecamera ({detail}).</translation>
-    </message>
-    <message>
         <source>As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.</source>
         <translation>Come root, scrivere in {file}: {rule}. Eseguire: udevadm control --reload. Poi ricollegare la telecamera.</translation>
-    </message>
-    <message>
-        <source>Back up onto another disk now, and do not trust this one any more.</source>
-        <translation>Fare ora una copia su un altro disco, e non fidarsi più di questo.</translation>
-    </message>
-    <message>
-        <source>Back-ups cannot lie there: {subject} ({detail}).</source>
-        <translation>Le copie di sicurezza non possono stare lì: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
@@ -3580,28 +3528,8 @@
         <translation>Permessi della telecamera, {title}</translation>
     </message>
     <message>
-        <source>Carpus cannot use the pictures of this recording: {subject} ({detail}).</source>
-        <translation>Carpus non può usare le immagini di questa registrazione: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>Carpus cannot write to {subject} ({detail}).</source>
         <translation>Carpus non può scrivere in {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Carpus could not look back at the session: {subject} ({detail}).</source>
-        <translation>Carpus non ha potuto ricalcolare la seduta a posteriori: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Carpus deletes no file behind a link; everything is as it was.</source>
-        <translation>Carpus non elimina file dietro un collegamento; tutto è come prima.</translation>
-    </message>
-    <message>
-        <source>Carpus sees no camera ({detail}).</source>
-        <translation>Carpus non vede nessuna telecamera ({detail}).</translation>
-    </message>
-    <message>
-        <source>Carpus waits for its camera: {subject}. Another one is there ({detail}).</source>
-        <translation>Carpus attende la sua telecamera: {subject}. Ce n’è un’altra ({detail}).</translation>
     </message>
     <message>
         <source>Check that a disc was clicked there, and not another blue spot.</source>
@@ -3610,22 +3538,6 @@
     <message>
         <source>Check that every marker is clicked under its own name.</source>
         <translation>Controllare che ogni marcatore sia indicato con il suo nome.</translation>
-    </message>
-    <message>
-        <source>Check that it is a session of this or an older Carpus, or take it from a back-up.</source>
-        <translation>Controllare che sia una seduta di questo Carpus o di uno precedente, o riprenderla da una copia di sicurezza.</translation>
-    </message>
-    <message>
-        <source>Check that it is the same movement, and say which column or marker is which.</source>
-        <translation>Controllare che sia lo stesso movimento, e dire quale colonna o marcatore è quale.</translation>
-    </message>
-    <message>
-        <source>Check that the folder exists and that you may write there, or choose another one.</source>
-        <translation>Controllare che la cartella esista e che vi si possa scrivere, o sceglierne un’altra.</translation>
-    </message>
-    <message>
-        <source>Check the address, or leave out --scheduler to use this machine.</source>
-        <translation>Controllare l’indirizzo, o togliere --scheduler per usare questo computer.</translation>
     </message>
     <message>
         <source>Check the name and the folder.</source>
@@ -3640,20 +3552,12 @@
         <translation>Scegliere una cartella su un altro disco.</translation>
     </message>
     <message>
-        <source>Choose another back-up, or bring Carpus up to date.</source>
-        <translation>Scegliere un’altra copia, o aggiornare Carpus.</translation>
-    </message>
-    <message>
         <source>Choose another name.</source>
         <translation>Scegliere un altro nome.</translation>
     </message>
     <message>
         <source>Choose another recording, or record again.</source>
         <translation>Scegliere un’altra registrazione, o registrare di nuovo.</translation>
-    </message>
-    <message>
-        <source>Choose the folder that holds the back-ups.</source>
-        <translation>Scegliere la cartella che contiene le copie.</translation>
     </message>
     <message>
         <source>Choose the other side, or click the markers again.</source>
@@ -3668,20 +3572,12 @@
         <translation>Fare clic su ognuno dei due nel suo marcatore.</translation>
     </message>
     <message>
-        <source>Click every marker again under its own name.</source>
-        <translation>Fare di nuovo clic su ogni marcatore con il suo nome.</translation>
-    </message>
-    <message>
         <source>Click it again in its middle, and keep the hand still.</source>
         <translation>Rifare il clic al suo centro, e tenere ferma la mano.</translation>
     </message>
     <message>
         <source>Click nearer to the marker, or check the light.</source>
         <translation>Fare clic più vicino al marcatore, o controllare la luce.</translation>
-    </message>
-    <message>
-        <source>Click the marker in the first picture of this recording.</source>
-        <translation>Fare clic sul marcatore nella prima immagine di questa registrazione.</translation>
     </message>
     <message>
         <source>Click the {markers} again in its middle, or cover the other spot.</source>
@@ -3692,10 +3588,6 @@
         <translation>Orologio</translation>
     </message>
     <message>
-        <source>Close other programs that have them open, or allow Carpus to write in their folder, and start it again.</source>
-        <translation>Chiudere gli altri programmi che li tengono aperti, o permettere a Carpus di scrivere nella loro cartella, e riavviarlo.</translation>
-    </message>
-    <message>
         <source>Close the other program that uses the camera.</source>
         <translation>Chiudere l’altro programma che usa la telecamera.</translation>
     </message>
@@ -3704,40 +3596,8 @@
         <translation>Chiudere l’altro programma, poi riprovare.</translation>
     </message>
     <message>
-        <source>Compare the log with that of a back-up.</source>
-        <translation>Confronti il registro con quello di una copia di sicurezza.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again from where it was made, or correct the list.</source>
-        <translation>Copiare di nuovo la registrazione dall’originale, o correggere l’elenco.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again from where it was made.</source>
-        <translation>Copiare di nuovo la registrazione dall’originale.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.</source>
-        <translation>Copiare di nuovo la registrazione dall’originale; carpus track --leave-out-damaged prosegue senza.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again if there are many.</source>
-        <translation>Se sono molte, copiare di nuovo la registrazione.</translation>
-    </message>
-    <message>
-        <source>Correct the file, or click the markers again.</source>
-        <translation>Correggere il file, o rifare i clic sui marcatori.</translation>
-    </message>
-    <message>
-        <source>Correct the setting, or take it out to use the usual value.</source>
-        <translation>Correggere l’impostazione, o toglierla per usare il valore usuale.</translation>
-    </message>
-    <message>
         <source>Cover the spot with the question mark, or give it its name.</source>
         <translation>Coprire il punto con il punto interrogativo, o dargli il suo nome.</translation>
-    </message>
-    <message>
-        <source>Damaged pictures of the recording are left out: {subject} ({detail}).</source>
-        <translation>Immagini danneggiate della registrazione escluse: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Data folder</source>
@@ -3748,28 +3608,12 @@
         <translation>Profondità e colore non combaciano: {markers} ({value} {unit}, fino a {limit} è buono).</translation>
     </message>
     <message>
-        <source>Depth does not lie on colour in {subject}, so depths are less sure.</source>
-        <translation>In {subject} la profondità non combacia con il colore, quindi è meno sicura.</translation>
-    </message>
-    <message>
         <source>Disk</source>
         <translation>Disco</translation>
     </message>
     <message>
         <source>Driver</source>
         <translation>Driver</translation>
-    </message>
-    <message>
-        <source>Everything recorded so far is stored on this computer.</source>
-        <translation>Tutto ciò che è stato registrato finora è salvato su questo computer.</translation>
-    </message>
-    <message>
-        <source>Everything stored up to then is safe.</source>
-        <translation>Tutto ciò che è stato salvato fino a quel momento è al sicuro.</translation>
-    </message>
-    <message>
-        <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
-        <translation>Concluderla con “carpus recover”, o attendere la fine della registrazione.</translation>
     </message>
     <message>
         <source>Firmware</source>
@@ -3792,24 +3636,8 @@
         <translation>Liberare spazio sul disco di {folder}.</translation>
     </message>
     <message>
-        <source>Give yourself access to it; “carpus doctor” says how.</source>
-        <translation>Concedere il permesso; “carpus doctor” dice come.</translation>
-    </message>
-    <message>
         <source>Give yourself the right to write there, or choose another folder in the settings.</source>
         <translation>Concedersi il diritto di scrivere lì, o scegliere un’altra cartella nelle impostazioni.</translation>
-    </message>
-    <message>
-        <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
-        <translation>Incollare la tavola su qualcosa di rigido e piano, illuminarla e tenerla ferma.</translation>
-    </message>
-    <message>
-        <source>Go on; the pause is marked in the session.</source>
-        <translation>Continuare; la pausa è segnata nella seduta.</translation>
-    </message>
-    <message>
-        <source>Go to the window that is open already, or choose another folder.</source>
-        <translation>Passare alla finestra già aperta, o scegliere un’altra cartella.</translation>
     </message>
     <message>
         <source>Install Carpus again: part of it is missing.</source>
@@ -3832,10 +3660,6 @@
         <translation>Installarlo di nuovo, con ciò che nomina.</translation>
     </message>
     <message>
-        <source>Install it; “carpus doctor” says what and how.</source>
-        <translation>Installarlo; “carpus doctor” dice che cosa e come.</translation>
-    </message>
-    <message>
         <source>Install the camera rights named above and plug the camera in again.</source>
         <translation>Installare i permessi della telecamera nominati sopra e ricollegare la telecamera.</translation>
     </message>
@@ -3844,12 +3668,8 @@
         <translation>Installare i pacchetti che portano queste librerie.</translation>
     </message>
     <message>
-        <source>It can still be read; its seal does not fit what it holds now.</source>
-        <translation>Si può ancora leggere; il suo sigillo non corrisponde a ciò che contiene ora.</translation>
-    </message>
-    <message>
         <source>It is left to that program.</source>
-        <translation>È lasciato a quel programma.</translation>
+        <translation>Viene lasciato a quel programma.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
@@ -3868,24 +3688,8 @@
         <translation>Nuclei di calcolo</translation>
     </message>
     <message>
-        <source>Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.</source>
-        <translation>Metterlo piatto sotto la telecamera, tutto nell’immagine, a circa 60 cm, con buona luce.</translation>
-    </message>
-    <message>
-        <source>Leave out the repetitions that should not count, or track the recording again with “carpus track”.</source>
-        <translation>Escludere le ripetizioni che non devono contare, o rifare il tracciamento con “carpus track”.</translation>
-    </message>
-    <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
         <translation>Guardare le linee nell’immagine, e dare al marcatore il nome giusto.</translation>
-    </message>
-    <message>
-        <source>Look through the list; restore it from a back-up, or enter again what is missing.</source>
-        <translation>Controlli l’elenco; lo ripristini da una copia di sicurezza o inserisca di nuovo ciò che manca.</translation>
-    </message>
-    <message>
-        <source>Measure each person twice, discs put on anew, within 14 days; 10 people are the least.</source>
-        <translation>Misurare ogni persona due volte, rimettendo i dischetti, entro 14 giorni; servono almeno 10 persone.</translation>
     </message>
     <message>
         <source>Mirror</source>
@@ -3898,18 +3702,6 @@
     <message>
         <source>Move the hand a little, and keep sunlight and shine off the marker.</source>
         <translation>Spostare un poco la mano, e tenere sole e riflessi lontani dal marcatore.</translation>
-    </message>
-    <message>
-        <source>Move the hand a little, and keep sunlight and shine off the markers.</source>
-        <translation>Spostare un poco la mano, e tenere sole e riflessi lontani dai marcatori.</translation>
-    </message>
-    <message>
-        <source>Name the folder that holds the patients; carpus doctor says which it is.</source>
-        <translation>Indicare la cartella che contiene i pazienti; carpus doctor dice qual è.</translation>
-    </message>
-    <message>
-        <source>Name the folder that holds the sessions.</source>
-        <translation>Indicare la cartella che contiene le sedute.</translation>
     </message>
     <message>
         <source>Needed for live cameras. {remedy}</source>
@@ -3925,43 +3717,7 @@
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
-        <translation>Non tutti i file si sono già potuti eliminare (restano {detail}, per esempio {subject}).</translation>
-    </message>
-    <message>
-        <source>Nothing else has been changed.</source>
-        <translation>Null’altro è stato cambiato.</translation>
-    </message>
-    <message>
-        <source>Nothing has been changed.</source>
-        <translation>Nulla è stato cambiato.</translation>
-    </message>
-    <message>
-        <source>Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there.</source>
-        <translation>Nulla è stato cambiato. Ciò che si registra intanto resta su questo computer finché la condivisione non c’è.</translation>
-    </message>
-    <message>
-        <source>Nothing has been recorded, so nothing is lost.</source>
-        <translation>Nulla è stato registrato, quindi nulla è perso.</translation>
-    </message>
-    <message>
-        <source>Nothing in the reference can be compared: {subject} ({detail}).</source>
-        <translation>Nel riferimento non c’è nulla di confrontabile: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Nothing is lost; everything stays hidden.</source>
-        <translation>Nulla è perso; tutto resta nascosto.</translation>
-    </message>
-    <message>
-        <source>Nothing need be done.</source>
-        <translation>Non occorre fare nulla.</translation>
-    </message>
-    <message>
-        <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
-        <translation>Nulla dice se in {subject} la profondità combacia con il colore; Carpus lo suppone.</translation>
-    </message>
-    <message>
-        <source>Nothing was erased: {subject} is a link that leads elsewhere.</source>
-        <translation>Non è stato eliminato nulla: {subject} è un collegamento che porta altrove.</translation>
+        <translation>Non è stato ancora possibile eliminare tutti i file (ne restano {detail}, per esempio {subject}).</translation>
     </message>
     <message>
         <source>NumPy alone, as {name} asks</source>
@@ -3996,20 +3752,12 @@
         <translation>Pacchetti</translation>
     </message>
     <message>
-        <source>Patients and sessions are safe. Lines of the log may have been changed or taken out.</source>
-        <translation>Pazienti e sedute sono al sicuro. Righe del registro possono essere state modificate o tolte.</translation>
-    </message>
-    <message>
         <source>Plug in the camera named in the settings, or change the settings.</source>
         <translation>Collegare la telecamera nominata nelle impostazioni, o cambiare le impostazioni.</translation>
     </message>
     <message>
         <source>Plug it into a USB 3 port, with a USB 3 cable and without a hub.</source>
         <translation>Collegarla a una porta USB 3, con un cavo USB 3 e senza hub.</translation>
-    </message>
-    <message>
-        <source>Plug its own camera in again; what was begun then goes on by itself.</source>
-        <translation>Ricollegare la sua telecamera; ciò che era iniziato prosegue poi da solo.</translation>
     </message>
     <message>
         <source>Plug the camera in again, into another port, without a hub.</source>
@@ -4020,36 +3768,12 @@
         <translation>Ricollegare la telecamera; se resta così, tempi e velocità di questa telecamera non sono affidabili.</translation>
     </message>
     <message>
-        <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
-        <translation>Ricollegare la telecamera; poi tracciamento e registrazione proseguono da soli.</translation>
-    </message>
-    <message>
         <source>Plug the camera in, at best straight into the computer. {port}</source>
         <translation>Collegare la telecamera, meglio se direttamente al computer. {port}</translation>
     </message>
     <message>
         <source>Plug the camera in.</source>
         <translation>Collegare la telecamera.</translation>
-    </message>
-    <message>
-        <source>Plug the camera straight into the computer.</source>
-        <translation>Collegare la telecamera direttamente al computer.</translation>
-    </message>
-    <message>
-        <source>Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.</source>
-        <translation>Stamparla con carpus calibrate-camera --board, e tenerla tutta nell’immagine, con buona luce.</translation>
-    </message>
-    <message>
-        <source>Put the camera_info.yaml of the camera beside it.</source>
-        <translation>Mettervi accanto il file camera_info.yaml della telecamera.</translation>
-    </message>
-    <message>
-        <source>Put the list in the order of time with each time once, or record again.</source>
-        <translation>Mettere l’elenco in ordine di tempo, ogni tempo una volta sola, o registrare di nuovo.</translation>
-    </message>
-    <message>
-        <source>Put what it leads to in its place, then erase again.</source>
-        <translation>Metta al suo posto ciò a cui porta, poi elimini di nuovo.</translation>
     </message>
     <message>
         <source>Python</source>
@@ -4068,28 +3792,8 @@
         <translation>Driver RealSense</translation>
     </message>
     <message>
-        <source>Record again with colour and depth of one size.</source>
-        <translation>Registrare di nuovo con colore e profondità della stessa dimensione.</translation>
-    </message>
-    <message>
-        <source>Record to a disk inside this computer, and close other programs.</source>
-        <translation>Registrare su un disco interno di questo computer, e chiudere gli altri programmi.</translation>
-    </message>
-    <message>
         <source>Registration</source>
         <translation>Registrazione profondità-colore</translation>
-    </message>
-    <message>
-        <source>Restore the list from a back-up, or enter the names again.</source>
-        <translation>Ripristinare l’elenco da una copia di sicurezza, o inserire di nuovo i nomi.</translation>
-    </message>
-    <message>
-        <source>Review it as any other.</source>
-        <translation>Rivederla come ogni altra.</translation>
-    </message>
-    <message>
-        <source>Run “carpus track” on the session to look back at it.</source>
-        <translation>Eseguire “carpus track” sulla seduta per ricalcolarla.</translation>
     </message>
     <message>
         <source>Run “{command}”.</source>
@@ -4104,18 +3808,6 @@
         <translation>Eseguire: sudo apt-get install libopenni2-0</translation>
     </message>
     <message>
-        <source>Set colour and depth to one size next time.</source>
-        <translation>La prossima volta impostare colore e profondità alla stessa dimensione.</translation>
-    </message>
-    <message>
-        <source>Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still.</source>
-        <translation>Mostrare la tavola in ogni parte dell’immagine, inclinata sui quattro lati, vicina e lontana, e tenerla ferma.</translation>
-    </message>
-    <message>
-        <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
-        <translation>Alcune immagini sono più piccole e sono state ingrandite: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>Start the window from a desktop. The commands for files work without a screen.</source>
         <translation>Avviare la finestra da un desktop. I comandi per i file funzionano senza schermo.</translation>
     </message>
@@ -4124,40 +3816,16 @@
         <translation>Scambiare i due nomi, o rifare i clic sui due marcatori.</translation>
     </message>
     <message>
-        <source>Switch on registration in the camera next time.</source>
-        <translation>La prossima volta attivare la registrazione profondità-colore della telecamera.</translation>
-    </message>
-    <message>
         <source>Switch on registration in the camera, or track without depth.</source>
         <translation>Attivare la registrazione profondità-colore della telecamera, o tracciare senza profondità.</translation>
-    </message>
-    <message>
-        <source>Take it from a back-up, or do not rely on its figures.</source>
-        <translation>Riprenderla da una copia di sicurezza, o non fidarsi dei suoi valori.</translation>
     </message>
     <message>
         <source>Take the spot with the question mark, if it is the disc.</source>
         <translation>Prendere il punto con il punto interrogativo, se è il dischetto.</translation>
     </message>
     <message>
-        <source>Take them from a back-up, or leave them; Carpus does not open them again.</source>
-        <translation>Riprenderli da una copia di sicurezza, o lasciarli; Carpus non li apre più.</translation>
-    </message>
-    <message>
-        <source>That file is untouched; Carpus never overwrites.</source>
-        <translation>Quel file non è stato toccato; Carpus non sovrascrive mai.</translation>
-    </message>
-    <message>
         <source>The PIN cannot be checked: {subject} is missing on this computer ({detail}).</source>
-        <translation>Il PIN non si può verificare: su questo computer manca {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The back-up cannot be read: {subject} ({detail}).</source>
-        <translation>La copia di sicurezza non si può leggere: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The back-up is damaged: a content read back is not what was written ({subject}, {detail}).</source>
-        <translation>La copia di sicurezza è danneggiata: un contenuto riletto non è quello scritto ({subject}, {detail}).</translation>
+        <translation>Il PIN non può essere verificato: {subject} manca su questo computer ({detail}).</translation>
     </message>
     <message>
         <source>1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm.</source>
@@ -4172,14 +3840,6 @@
         <translation>3. Metterlo piatto sotto la telecamera, a circa 60 cm, e avviare il controllo per 30 secondi.</translation>
     </message>
     <message>
-        <source>All sessions are safe. If there was a list before, its names, notes and comments are gone.</source>
-        <translation>Tutte le sedute sono al sicuro. Se prima c’era un elenco, i suoi nomi, note e commenti sono perduti.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
-        <translation>Tutte le sedute sono al sicuro; nomi, note e commenti possono mancare. L’elenco danneggiato è conservato in {subject}.</translation>
-    </message>
-    <message>
         <source>Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.</source>
         <translation>Tavola di calibrazione Carpus: {name}. Incollarla ben piana su un supporto rigido. Quadrati: {square}.</translation>
     </message>
@@ -4192,14 +3852,6 @@
         <translation>tavola ChArUco {columns} x {rows}, quadrati di {size} mm</translation>
     </message>
     <message>
-        <source>Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.</source>
-        <translation>Chiudere Carpus ovunque sia aperto; se non basta, copiare la cartella in un posto in cui si possa scrivere.</translation>
-    </message>
-    <message>
-        <source>Everything stored before is safe. What was just being written may be missing.</source>
-        <translation>Tutto ciò che era già salvato è al sicuro. Può mancare ciò che si stava scrivendo.</translation>
-    </message>
-    <message>
         <source>Install Carpus anew.</source>
         <translation>Installare di nuovo Carpus.</translation>
     </message>
@@ -4208,28 +3860,12 @@
         <translation>Installare il pacchetto {package}, che si trova accanto a quello di Carpus.</translation>
     </message>
     <message>
-        <source>Keep the light as it is while you measure.</source>
-        <translation>Non cambiare la luce durante la misura.</translation>
-    </message>
-    <message>
-        <source>The calibration of the camera stays as it is.</source>
-        <translation>La calibrazione della telecamera resta com’è.</translation>
-    </message>
-    <message>
-        <source>The camera cannot hold its exposure: {subject}.</source>
-        <translation>La telecamera non può mantenere l’esposizione: {subject}.</translation>
-    </message>
-    <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
         <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
     </message>
     <message>
         <source>The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).</source>
         <translation>Telecamera fuori limite: {what} (i limiti sono {most_angle}° e {most_length} mm, tutte le lunghezze {most_share} %).</translation>
-    </message>
-    <message>
-        <source>The camera is there, but you may not open it ({detail}).</source>
-        <translation>La telecamera c’è, ma manca il permesso di aprirla ({detail}).</translation>
     </message>
     <message>
         <source>The camera measures no depth at a marker: {subject}.</source>
@@ -4244,22 +3880,6 @@
         <translation>La telecamera misura bene: scarto massimo {angle}° e {length} mm; i limiti sono {most_angle}° e {most_length} mm.</translation>
     </message>
     <message>
-        <source>The camera sends no more pictures: {subject} ({detail}).</source>
-        <translation>La telecamera non manda più immagini: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The check card is not to be seen well enough: {subject} ({detail}).</source>
-        <translation>Il cartoncino di controllo non si vede abbastanza bene: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The clicked markers do not make a hand ({subject}).</source>
-        <translation>I marcatori indicati non formano una mano ({subject}).</translation>
-    </message>
-    <message>
-        <source>The clicks cannot be read: {subject} ({detail}).</source>
-        <translation>I clic non si possono leggere: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The clicks for the {markers} are on one marker.</source>
         <translation>I clic sono sullo stesso marcatore: {markers}.</translation>
     </message>
@@ -4268,40 +3888,8 @@
         <translation>Gli angoli non corrispondono a una tavola piana: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The data on this computer are as they were.</source>
-        <translation>I dati su questo computer sono com’erano.</translation>
-    </message>
-    <message>
-        <source>The disk has no room left for {subject} ({detail}).</source>
-        <translation>Il disco non ha più spazio per {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The disk is too slow for the recording, so it has ended: {subject} ({detail}).</source>
-        <translation>Il disco è troppo lento per la registrazione, che si è conclusa: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The driver of the camera has stopped: {subject} ({detail}).</source>
-        <translation>Il driver della telecamera si è fermato: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The driver of the camera is not on this computer, or cannot be loaded ({detail}).</source>
-        <translation>Il driver della telecamera non è su questo computer, o non si può caricare ({detail}).</translation>
-    </message>
-    <message>
-        <source>The file is untouched, and all other sessions are safe.</source>
-        <translation>Il file non è stato toccato, e tutte le altre sedute sono al sicuro.</translation>
-    </message>
-    <message>
-        <source>The file of the camera cannot be used: {subject} ({detail}).</source>
-        <translation>Il file della telecamera non si può usare: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The file was not changed.</source>
         <translation>Il file non è stato modificato.</translation>
-    </message>
-    <message>
-        <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
-        <translation>La prima immagine della registrazione non è utilizzabile: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
@@ -4328,28 +3916,12 @@
         <translation>La mano è stata ferma solo per {value} immagini ({limit} o più è buono).</translation>
     </message>
     <message>
-        <source>The last changes of the list of patients lie in its journal, which needs a folder that can be written: {subject}.</source>
-        <translation>Le ultime modifiche dell’elenco dei pazienti si trovano nel suo journal, che viene ripreso solo in una cartella in cui si può scrivere: {subject}.</translation>
-    </message>
-    <message>
-        <source>The list of patients cannot be opened: {subject} ({detail}).</source>
-        <translation>L’elenco dei pazienti non si può aprire: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The list of patients is damaged: {subject} ({detail}).</source>
-        <translation>L’elenco dei pazienti è danneggiato: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
         <translation>Marcatore a {value} mm dal suo posto: {markers} (fino a {limit} mm è buono).</translation>
     </message>
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
-        <translation>I marcatori di questa seduta non si possono correggere: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The measurement goes on.</source>
-        <translation>La misura continua.</translation>
+        <translation>I marcatori di questa seduta non possono essere corretti: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The name {subject} belongs to another patient.</source>
@@ -4360,32 +3932,12 @@
         <translation>I nomi sembrano spostati: il marcatore indicato come {first} è in realtà {second}.</translation>
     </message>
     <message>
-        <source>The old result is unchanged.</source>
-        <translation>Il vecchio risultato non è cambiato.</translation>
-    </message>
-    <message>
-        <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
-        <translation>Le immagini della tavola sono troppo poche o troppo simili: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The pictures of the recording differ in size: {subject} ({detail}).</source>
-        <translation>Le immagini della registrazione hanno dimensioni diverse: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The printed board is not to be seen: {subject} ({detail}).</source>
-        <translation>La tavola stampata non si vede: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
-        <translation>La registrazione non si può leggere: {subject} ({detail}).</translation>
+        <translation>La registrazione non può essere letta: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The recording has no usable depth: {subject} ({detail}).</source>
         <translation>La registrazione non ha una profondità utilizzabile: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The recording holds no picture: {subject} ({detail}).</source>
-        <translation>La registrazione non contiene immagini: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The recording is damaged: {subject} ({detail}).</source>
@@ -4397,79 +3949,23 @@
     </message>
     <message>
         <source>The reference cannot be read: {subject} ({detail}).</source>
-        <translation>Il riferimento non si può leggere: {subject} ({detail}).</translation>
+        <translation>Il riferimento non può essere letto: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The scheduler at {subject} does not answer ({detail}).</source>
-        <translation>Lo scheduler in {subject} non risponde ({detail}).</translation>
-    </message>
-    <message>
-        <source>The session and the reference were not changed.</source>
-        <translation>La seduta e il riferimento non sono stati modificati.</translation>
-    </message>
-    <message>
-        <source>The session is unchanged, and its repetitions can be left out.</source>
-        <translation>La seduta non è cambiata, e le sue ripetizioni si possono escludere.</translation>
-    </message>
-    <message>
-        <source>The times of the recording do not rise: {subject} ({detail}).</source>
-        <translation>I tempi della registrazione non sono crescenti: {subject} ({detail}).</translation>
+        <translation>Lo scheduler all’indirizzo {subject} non risponde ({detail}).</translation>
     </message>
     <message>
         <source>The {markers} does not lie on the line of its finger.</source>
         <translation>Non è sulla linea del suo dito: {markers}.</translation>
     </message>
     <message>
-        <source>There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.</source>
-        <translation>Ci sono sedute, ma nessun elenco dei pazienti ({subject}); Carpus ne ha creato uno dalle sedute.</translation>
-    </message>
-    <message>
-        <source>There is a file already at {subject}.</source>
-        <translation>C’è già un file in {subject}.</translation>
-    </message>
-    <message>
-        <source>There is no back-up in {subject}.</source>
-        <translation>Non c’è nessuna copia di sicurezza in {subject}.</translation>
-    </message>
-    <message>
-        <source>There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off.</source>
-        <translation>Manca un file della telecamera per {subject}; Carpus usa {detail}, e le lunghezze possono sbagliare di qualche per cento.</translation>
-    </message>
-    <message>
         <source>There is no folder {subject}.</source>
-        <translation>Non esiste la cartella {subject}.</translation>
-    </message>
-    <message>
-        <source>There is no set of markers with the name {subject} ({detail}).</source>
-        <translation>Non esiste un insieme di marcatori con il nome {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is nothing of Carpus in the folder {subject}.</source>
-        <translation>Nella cartella {subject} non c’è nulla di Carpus.</translation>
-    </message>
-    <message>
-        <source>There is nothing that Carpus made in the folder of the sessions: {subject}.</source>
-        <translation>Nella cartella delle sedute non c’è nulla che Carpus abbia fatto: {subject}.</translation>
+        <translation>La cartella {subject} non esiste.</translation>
     </message>
     <message>
         <source>There is one more blue spot on the hand than there are names.</source>
         <translation>Sulla mano c’è un punto blu in più rispetto ai nomi.</translation>
-    </message>
-    <message>
-        <source>These sessions make no test and retest: {subject} ({detail}).</source>
-        <translation>Queste sedute non formano un test e retest: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>They are in no list any more, and Carpus tries again whenever it starts.</source>
-        <translation>Non sono più in nessun elenco, e Carpus riprova a ogni avvio.</translation>
-    </message>
-    <message>
-        <source>They are untouched where they are, and all other sessions are safe.</source>
-        <translation>Sono intatti dove si trovano, e tutte le altre sedute sono al sicuro.</translation>
-    </message>
-    <message>
-        <source>This camera does not give the pictures that Carpus needs: {subject} ({detail}).</source>
-        <translation>Questa telecamera non dà le immagini che servono a Carpus: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>This camera does not lay depth on colour by itself; depths will be read beside the markers.</source>
@@ -4488,10 +3984,6 @@
         <translation>Questa sembra l’altra mano.</translation>
     </message>
     <message>
-        <source>This needs the Python package {subject}, which is not installed.</source>
-        <translation>Serve il pacchetto Python {subject}, che non è installato.</translation>
-    </message>
-    <message>
         <source>This port is slow for it. {port}</source>
         <translation>Questa porta è lenta per lei. {port}</translation>
     </message>
@@ -4500,24 +3992,8 @@
         <translation>Questa porta è troppo lenta. {port}</translation>
     </message>
     <message>
-        <source>This session cannot be read: {subject} ({detail}).</source>
-        <translation>Questa seduta non si può leggere: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>This session is not finished: {subject}.</source>
         <translation>Questa seduta non è conclusa: {subject}.</translation>
-    </message>
-    <message>
-        <source>This session was changed after it was finished: {subject}.</source>
-        <translation>Questa seduta è stata modificata dopo la conclusione: {subject}.</translation>
-    </message>
-    <message>
-        <source>Tracking again stopped: {subject} ({detail}).</source>
-        <translation>Il nuovo tracciamento si è fermato: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Try again, or correct another picture too.</source>
-        <translation>Riprovare, o correggere anche un’altra immagine.</translation>
     </message>
     <message>
         <source>Turn the back of the hand to the camera.</source>
@@ -4529,19 +4005,11 @@
     </message>
     <message>
         <source>Use C3D, TRC, MOT, a CSV table with its column map, or a session.</source>
-        <translation>Usare C3D, TRC, MOT, una tabella CSV con le sue colonne indicate, o una seduta.</translation>
+        <translation>Usare C3D, TRC, MOT, una tabella CSV con la mappa delle colonne, o una seduta.</translation>
     </message>
     <message>
         <source>Use a camera with colour and depth, such as the Xtion.</source>
         <translation>Usare una telecamera con colore e profondità, come la Xtion.</translation>
-    </message>
-    <message>
-        <source>Use a recording of colour and depth.</source>
-        <translation>Usare una registrazione con colore e profondità.</translation>
-    </message>
-    <message>
-        <source>Use a recording whose pictures all have one size.</source>
-        <translation>Usare una registrazione con immagini tutte della stessa dimensione.</translation>
     </message>
     <message>
         <source>Use another USB port, without a hub and without other cameras on it; end other heavy programs.</source>
@@ -4552,32 +4020,8 @@
         <translation>Usare wrist6 o hand21.</translation>
     </message>
     <message>
-        <source>Wait until it has ended, or choose another folder.</source>
-        <translation>Attendere che abbia finito, o scegliere un’altra cartella.</translation>
-    </message>
-    <message>
         <source>Wedge: cut along the lines, fold back along the dashes</source>
         <translation>Cuneo: tagliare lungo le linee, piegare lungo i tratteggi</translation>
-    </message>
-    <message>
-        <source>What counts as a change stays as it is.</source>
-        <translation>Ciò che vale come cambiamento resta com’è.</translation>
-    </message>
-    <message>
-        <source>What keeps the log of deeds from being changed had been taken out of {subject}; it is there again.</source>
-        <translation>Ciò che protegge il registro dalle modifiche era stato tolto da {subject}; ora c’è di nuovo.</translation>
-    </message>
-    <message>
-        <source>What was recorded of it is there.</source>
-        <translation>Ciò che ne è stato registrato è presente.</translation>
-    </message>
-    <message>
-        <source>What was stored before is safe.</source>
-        <translation>Ciò che era già salvato è al sicuro.</translation>
-    </message>
-    <message>
-        <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
-        <translation>Chi si occupa di questo computer reinstalla Carpus, con tutte le sue parti.</translation>
     </message>
     <message>
         <source>Window</source>
@@ -4586,10 +4030,6 @@
     <message>
         <source>Wrist, all ways</source>
         <translation>Polso, tutti i movimenti</translation>
-    </message>
-    <message>
-        <source>Write “registered: true” or “false” into its camera_info.yaml.</source>
-        <translation>Scrivere “registered: true” o “false” nel suo camera_info.yaml.</translation>
     </message>
     <message>
         <source>You may not open {node}. Install the camera rights named above and plug it in again.</source>
@@ -5452,10 +4892,6 @@
         <translation>{count} angoli articolari con nomi diversi da quelli di {name}</translation>
     </message>
     <message>
-        <source>{detail} among the sessions cannot be read and are set apart: {subject}.</source>
-        <translation>Fra le sedute, file illeggibili messi da parte ({detail}): {subject}.</translation>
-    </message>
-    <message>
         <source>{detail}; {count} rows read</source>
         <translation>{detail}; {count} righe lette</translation>
     </message>
@@ -5668,40 +5104,8 @@
         <translation>Paziente di prova</translation>
     </message>
     <message>
-        <source>Choose one of the patients that there are.</source>
-        <translation>Scegliere uno dei pazienti che ci sono.</translation>
-    </message>
-    <message>
-        <source>Choose the camera by one of these names, in the settings or with --camera.</source>
-        <translation>Scegliere la telecamera con uno di questi nomi, nelle impostazioni o con --camera.</translation>
-    </message>
-    <message>
-        <source>Close Carpus first, then try again.</source>
-        <translation>Chiudere prima Carpus, poi riprovare.</translation>
-    </message>
-    <message>
-        <source>Measure one, or name the folder that holds the sessions.</source>
-        <translation>Misurarne una, oppure indicare la cartella che contiene le sedute.</translation>
-    </message>
-    <message>
-        <source>No kind of camera is called {subject} ({detail}).</source>
-        <translation>Nessun tipo di telecamera si chiama {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).</source>
-        <translation>La finestra di Carpus, o un altro programma, tiene aperto l&apos;elenco dei pazienti: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is no patient {subject} ({detail}).</source>
-        <translation>Non c&apos;è nessun paziente {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is no recording at {subject} ({detail}).</source>
-        <translation>Non c&apos;è nessuna registrazione in {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>There is no session in {subject}.</source>
-        <translation>In {subject} non c&apos;è nessuna seduta.</translation>
+        <translation>In {subject} non ci sono sedute.</translation>
     </message>
     <message>
         <source>did you mean “{meant}”? There are: {names}</source>
@@ -5726,10 +5130,6 @@
     <message>
         <source>Ask whoever looks after this computer. {how}</source>
         <translation>Chieda a chi si occupa di questo computer. {how}</translation>
-    </message>
-    <message>
-        <source>A recording that waited on this computer was of a patient who has been erased: it is erased too.</source>
-        <translation>Una registrazione in attesa su questo computer era di un paziente cancellato: è cancellata anch’essa.</translation>
     </message>
     <message>
         <source>Disk encryption</source>
@@ -5822,14 +5222,6 @@
     <message>
         <source>Install a C compiler (Debian: {packages}) and Carpus anew.</source>
         <translation>Installare un compilatore C (Debian: {packages}) e di nuovo Carpus.</translation>
-    </message>
-    <message>
-        <source>Is the share connected? Connect it; if the sessions were moved, copy them there.</source>
-        <translation>La condivisione è collegata? Collegarla; se le sedute sono state spostate, copiarle lì.</translation>
-    </message>
-    <message>
-        <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
-        <translation>L’elenco dei pazienti era danneggiato ({detail}); uno nuovo contiene ciò che si è potuto leggere, e le sedute.</translation>
     </message>
     <message>
         <source>The packed program does without {packages}; Carpus from its source can have it.</source>
@@ -5940,26 +5332,6 @@
         <translation>{people} persone, {sessions} sedute, {kinds}</translation>
     </message>
     <message>
-        <source>Open it again, look at what stands there now, and enter your change once more.</source>
-        <translation>Riaprilo, guarda che cosa c’è scritto ora e inserisci di nuovo la tua modifica.</translation>
-    </message>
-    <message>
-        <source>Somebody else has changed this meanwhile, so your change was not kept.</source>
-        <translation>Qualcun altro l’ha modificato nel frattempo, perciò la tua modifica non è stata salvata.</translation>
-    </message>
-    <message>
-        <source>This cannot be a name: {detail} ({subject}).</source>
-        <translation>Questo non può essere un nome: {detail} ({subject}).</translation>
-    </message>
-    <message>
-        <source>Type the name by hand instead of pasting it.</source>
-        <translation>Scrivi il nome a mano invece di incollarlo.</translation>
-    </message>
-    <message>
-        <source>What the other person entered is kept.</source>
-        <translation>Ciò che ha inserito l’altra persona resta.</translation>
-    </message>
-    <message>
         <source>it holds a sign that cannot be seen</source>
         <translation>contiene un segno invisibile</translation>
     </message>
@@ -5972,32 +5344,12 @@
         <translation>non nella cartella delle sedute</translation>
     </message>
     <message>
-        <source>All sessions of both patients are kept apart.</source>
-        <translation>Tutte le sedute dei due pazienti restano separate.</translation>
-    </message>
-    <message>
-        <source>Change the name in the patient’s entry if another one is better.</source>
-        <translation>Cambia il nome nella scheda del paziente, se un altro è migliore.</translation>
-    </message>
-    <message>
-        <source>The clinic’s server for records does not answer: {subject} ({detail}).</source>
-        <translation>Il server della clinica per i dati dei pazienti non risponde: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>{count} per stroke, {seconds} s in all</source>
         <translation>{count} per movimento, {seconds} s in tutto</translation>
     </message>
     <message>
         <source>Stops on the way, mean</source>
         <translation>Soste durante il movimento, media</translation>
-    </message>
-    <message>
-        <source>Everything else is in it.</source>
-        <translation>Tutto il resto c’è.</translation>
-    </message>
-    <message>
-        <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
-        <translation>Alla copia di sicurezza mancano file: {subject} non c’è o non si può leggere; {detail} in tutto.</translation>
     </message>
     <message>
         <source>No change proven since {day}.</source>
@@ -6160,18 +5512,6 @@
         <translation>Recupero: ancora {seconds} s</translation>
     </message>
     <message>
-        <source>Something happened that Carpus does not know.</source>
-        <translation>È successo qualcosa che Carpus non conosce.</translation>
-    </message>
-    <message>
-        <source>Everything stored before is safe.</source>
-        <translation>Tutto ciò che era già salvato è al sicuro.</translation>
-    </message>
-    <message>
-        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation>Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
-    </message>
-    <message>
         <source>Side · {finger}</source>
         <translation>Di lato · {finger}</translation>
     </message>
@@ -6206,18 +5546,6 @@
     <message>
         <source>progress</source>
         <translation>andamento</translation>
-    </message>
-    <message>
-        <source>Before it was {detail}. Carpus has moved nothing out of it.</source>
-        <translation>Prima era {detail}. Carpus non ne ha spostato nulla.</translation>
-    </message>
-    <message>
-        <source>Carpus shows another data folder: {subject}.</source>
-        <translation>Carpus mostra un’altra cartella dei dati: {subject}.</translation>
-    </message>
-    <message>
-        <source>If patients are missing here, choose the data folder in Settings.</source>
-        <translation>Se qui mancano pazienti, scegliere la cartella dei dati nelle impostazioni.</translation>
     </message>
     <message>
         <source>This picture with the hand alone</source>
@@ -6368,22 +5696,6 @@
         <translation>Coppia non confrontabile: {why}. I valori sono mostrati, nulla è valutato.</translation>
     </message>
     <message>
-        <source>By its numbers, the recording has {detail}, and Carpus reads it so: {subject}.</source>
-        <translation>Dai suoi numeri la registrazione ha {detail}, e Carpus la legge così: {subject}.</translation>
-    </message>
-    <message>
-        <source>If this is not so, correct the list, or state depth_unit_m in camera_info.yaml.</source>
-        <translation>Se non è giusto, correggere l’elenco o indicare depth_unit_m in camera_info.yaml.</translation>
-    </message>
-    <message>
-        <source>Pictures with the same time as the one before are left out: {subject} ({detail}).</source>
-        <translation>Le immagini con lo stesso tempo della precedente sono escluse: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Record again if there are many.</source>
-        <translation>Registrare di nuovo se sono molte.</translation>
-    </message>
-    <message>
         <source>depth in millimetres, not 5000 per metre</source>
         <translation>profondità in millimetri, non 5000 per metro</translation>
     </message>
@@ -6456,24 +5768,8 @@
         <translation>Pronazione–supinazione</translation>
     </message>
     <message>
-        <source>Bring the session folder or its disk back, then back up again.</source>
-        <translation>Ricollegare la cartella delle sedute o il suo disco, poi rifare la copia di sicurezza.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera again, or correct the file.</source>
-        <translation>Ricalibrare la telecamera, o correggere il file.</translation>
-    </message>
-    <message>
-        <source>Start Carpus again. If that does not help, ask your IT support.</source>
-        <translation>Riavviare Carpus. Se non basta, rivolgersi al supporto informatico.</translation>
-    </message>
-    <message>
-        <source>Start Carpus again: it keeps what can still be read. If names are missing then, restore a back-up.</source>
-        <translation>Riavviare Carpus: conserva ciò che è ancora leggibile. Se poi mancano nomi, ripristinare una copia di sicurezza.</translation>
-    </message>
-    <message>
-        <source>The session files are not touched. Names and notes are in this file alone: keep it.</source>
-        <translation>I file delle sedute non sono stati toccati. Nomi e note sono solo in questo file: conservarlo.</translation>
+        <translation>Calibrare di nuovo la telecamera, o correggere il file.</translation>
     </message>
     <message>
         <source>People: {people}, sessions: {sessions}.</source>
@@ -6572,36 +5868,12 @@
         <translation>L’escursione passiva non supera quella attiva di più dell’errore di misura.</translation>
     </message>
     <message>
-        <source>Bring Carpus up to date on this computer.</source>
-        <translation>Aggiornare Carpus su questo computer.</translation>
-    </message>
-    <message>
-        <source>The list of patients is of another version of Carpus: {subject} ({detail}).</source>
-        <translation>L’elenco dei pazienti è di un’altra versione di Carpus: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>another filter than Carpus’ own tracked it</source>
         <translation>è stata tracciata con un filtro diverso da quello di Carpus</translation>
     </message>
     <message>
         <source>Record this exercise again.</source>
         <translation>Registrare di nuovo questo esercizio.</translation>
-    </message>
-    <message>
-        <source>A recording ended before its first second was stored: {subject}. There is nothing to recover.</source>
-        <translation>Una registrazione è terminata prima che il suo primo secondo fosse salvato: {subject}. Non c’è nulla da recuperare.</translation>
-    </message>
-    <message>
-        <source>A session that waited on this computer is in the folder of the sessions now: {subject}.</source>
-        <translation>Una seduta che attendeva su questo computer è ora nella cartella delle sedute: {subject}.</translation>
-    </message>
-    <message>
-        <source>Everything that was recorded before is safe.</source>
-        <translation>Tutto ciò che è stato registrato prima è al sicuro.</translation>
-    </message>
-    <message>
-        <source>Go on. Connect the disk or the network again; Carpus then moves the session by itself.</source>
-        <translation>Continuare. Ricollegare il disco o la rete: Carpus sposterà poi la seduta automaticamente.</translation>
     </message>
     <message>
         <source>no answer for {seconds} s</source>
@@ -6620,22 +5892,6 @@
         <translation>ciò che è stato scritto non è ciò che viene letto</translation>
     </message>
     <message>
-        <source>The folder of the sessions cannot be reached ({detail}); the session is kept in {subject}.</source>
-        <translation>La cartella delle sedute non è raggiungibile ({detail}); la seduta è conservata in {subject}.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe. What was being entered just now may not have been kept.</source>
-        <translation>Tutte le sedute sono al sicuro. Ciò che si stava inserendo potrebbe non essere stato salvato.</translation>
-    </message>
-    <message>
-        <source>Measure all the same, and enter the rest when the server answers; if it lasts, ask whoever looks after it.</source>
-        <translation>Misurare lo stesso e inserire il resto quando il server risponde; se dura, chiedere a chi se ne occupa.</translation>
-    </message>
-    <message>
-        <source>The name {subject} was given on two computers: the second patient has ({detail}) behind it.</source>
-        <translation>Il nome {subject} è stato dato su due computer: il secondo paziente porta ({detail}) dopo il nome.</translation>
-    </message>
-    <message>
         <source>no answer</source>
         <translation>nessuna risposta</translation>
     </message>
@@ -6648,16 +5904,848 @@
         <translation>la mano è uscita di vista durante il movimento</translation>
     </message>
     <message>
-        <source>Carpus was not installed completely: a compiled part of it is missing ({subject}).</source>
-        <translation>Carpus non è stato installato per intero: ne manca una parte compilata ({subject}).</translation>
-    </message>
-    <message>
         <source>Compiled parts</source>
         <translation>Parti compilate</translation>
     </message>
     <message>
         <source>all there</source>
         <translation>tutte presenti</translation>
+    </message>
+    <message>
+        <source>A Python package that this needs is not installed: {subject}.</source>
+        <translation>Un pacchetto Python necessario non è installato: {subject}.</translation>
+    </message>
+    <message>
+        <source>A click lies outside the image: {subject} ({detail}).</source>
+        <translation>Un clic è fuori dall’immagine: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A different camera is connected ({detail}). Carpus expects {subject}.</source>
+        <translation>È collegata un’altra telecamera ({detail}). Carpus aspetta {subject}.</translation>
+    </message>
+    <message>
+        <source>A file with this name already exists: {subject}.</source>
+        <translation>Esiste già un file con questo nome: {subject}.</translation>
+    </message>
+    <message>
+        <source>A frame of the recording is damaged: {subject} ({detail}).</source>
+        <translation>Un fotogramma della registrazione è danneggiato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A recording ended before its first second was saved: {subject}. There is nothing to recover.</source>
+        <translation>Una registrazione è terminata prima che il primo secondo fosse salvato: {subject}. Non c’è nulla da recuperare.</translation>
+    </message>
+    <message>
+        <source>A recording that waited on this computer belonged to a deleted patient and was deleted as well.</source>
+        <translation>Una registrazione in attesa su questo computer era di un paziente eliminato ed è stata eliminata anch’essa.</translation>
+    </message>
+    <message>
+        <source>A session that was kept on this computer is now in the session folder: {subject}.</source>
+        <translation>Una seduta conservata su questo computer è ora nella cartella delle sedute: {subject}.</translation>
+    </message>
+    <message>
+        <source>A setting is invalid: {subject} ({detail}).</source>
+        <translation>Un’impostazione non è valida: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>All other files are in the backup.</source>
+        <translation>Tutti gli altri file sono nella copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>All other frames are used. The gaps are marked.</source>
+        <translation>Tutti gli altri fotogrammi vengono usati. Le lacune sono indicate.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. If there was a list before, its names, notes and comments are missing.</source>
+        <translation>Tutte le sedute sono al sicuro. Se prima esisteva un elenco, mancano i suoi nomi, note e commenti.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. Names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
+        <translation>Tutte le sedute sono al sicuro. Nomi, note e commenti possono mancare. L’elenco danneggiato è conservato come {subject}.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. What was being entered may not be saved.</source>
+        <translation>Tutte le sedute sono al sicuro. Ciò che si stava inserendo potrebbe non essere salvato.</translation>
+    </message>
+    <message>
+        <source>Another Carpus is using this data folder: {subject}.</source>
+        <translation>Un altro Carpus sta usando questa cartella dei dati: {subject}.</translation>
+    </message>
+    <message>
+        <source>Another program is using the camera ({detail}).</source>
+        <translation>Un altro programma sta usando la telecamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>Another program is writing {subject}.</source>
+        <translation>Un altro programma sta scrivendo {subject}.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support for access to the camera.</source>
+        <translation>Chiedere al supporto informatico l’accesso alla telecamera.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to install it.</source>
+        <translation>Chiedere al supporto informatico di installarlo.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to install the driver.</source>
+        <translation>Chiedere al supporto informatico di installare il driver.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to reinstall Carpus.</source>
+        <translation>Chiedere al supporto informatico di reinstallare Carpus.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to replace the link by its target, then delete again.</source>
+        <translation>Chiedere al supporto informatico di sostituire il collegamento con ciò a cui porta, poi eliminare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Back up to another disk now, and replace this one.</source>
+        <translation>Eseguire subito la copia su un altro disco, e sostituire questo.</translation>
+    </message>
+    <message>
+        <source>Backup</source>
+        <translation>Copia di sicurezza</translation>
+    </message>
+    <message>
+        <source>Backups cannot be stored there: {subject} ({detail}).</source>
+        <translation>Le copie di sicurezza non possono stare lì: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Before it was {detail}. Nothing was moved.</source>
+        <translation>Prima era {detail}. Non è stato spostato nulla.</translation>
+    </message>
+    <message>
+        <source>By its numbers the recording has {detail}, and Carpus reads it that way: {subject}.</source>
+        <translation>A giudicare dai numeri la registrazione ha {detail}, e Carpus la legge così: {subject}.</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera in the settings.</source>
+        <translation>Calibrare la telecamera nelle impostazioni.</translation>
+    </message>
+    <message>
+        <source>Carpus now uses another data folder: {subject}.</source>
+        <translation>Carpus usa ora un’altra cartella dei dati: {subject}.</translation>
+    </message>
+    <message>
+        <source>Carpus was not installed completely: a compiled part is missing ({subject}).</source>
+        <translation>Carpus non è stato installato completamente: manca una parte compilata ({subject}).</translation>
+    </message>
+    <message>
+        <source>Check that it is the same movement, and state which column or marker is which.</source>
+        <translation>Controllare che sia lo stesso movimento, e indicare a che cosa corrisponde ogni colonna o marcatore.</translation>
+    </message>
+    <message>
+        <source>Check that the folder exists and that you may write there, or choose another folder.</source>
+        <translation>Controllare che la cartella esista e che vi si possa scrivere, o sceglierne un’altra.</translation>
+    </message>
+    <message>
+        <source>Check that the network share is connected.</source>
+        <translation>Controllare che la condivisione di rete sia collegata.</translation>
+    </message>
+    <message>
+        <source>Check the address.</source>
+        <translation>Controllare l’indirizzo.</translation>
+    </message>
+    <message>
+        <source>Check the list, or restore a backup.</source>
+        <translation>Controllare l’elenco, o ripristinare una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Choose an existing patient.</source>
+        <translation>Scegliere un paziente esistente.</translation>
+    </message>
+    <message>
+        <source>Choose another backup, or update Carpus.</source>
+        <translation>Scegliere un’altra copia di sicurezza, o aggiornare Carpus.</translation>
+    </message>
+    <message>
+        <source>Choose the camera in the settings.</source>
+        <translation>Scegliere la telecamera nelle impostazioni.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that contains the backups.</source>
+        <translation>Scegliere la cartella che contiene le copie di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that contains the patients.</source>
+        <translation>Scegliere la cartella che contiene i pazienti.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that contains the sessions.</source>
+        <translation>Scegliere la cartella che contiene le sedute.</translation>
+    </message>
+    <message>
+        <source>Click closer to the marker, or check the light.</source>
+        <translation>Cliccare più vicino al marcatore, o controllare la luce.</translation>
+    </message>
+    <message>
+        <source>Click every marker again, in the order shown.</source>
+        <translation>Cliccare di nuovo tutti i marcatori, nell’ordine indicato.</translation>
+    </message>
+    <message>
+        <source>Click the marker in the first frame of this recording.</source>
+        <translation>Cliccare il marcatore nel primo fotogramma di questa registrazione.</translation>
+    </message>
+    <message>
+        <source>Click the markers again, or correct the file.</source>
+        <translation>Cliccare di nuovo i marcatori, o correggere il file.</translation>
+    </message>
+    <message>
+        <source>Close Carpus on other computers. If that does not help, ask your IT support for write access.</source>
+        <translation>Chiudere Carpus sugli altri computer. Se non basta, chiedere al supporto informatico l’accesso in scrittura.</translation>
+    </message>
+    <message>
+        <source>Close it there, then try again.</source>
+        <translation>Chiuderlo lì, poi riprovare.</translation>
+    </message>
+    <message>
+        <source>Close other programs that use them, then restart Carpus.</source>
+        <translation>Chiudere gli altri programmi che li usano, poi riavviare Carpus.</translation>
+    </message>
+    <message>
+        <source>Compare the log with a backup, and tell your data-protection officer.</source>
+        <translation>Confrontare il registro con una copia di sicurezza, e informare il responsabile della protezione dei dati.</translation>
+    </message>
+    <message>
+        <source>Comparison</source>
+        <translation>Confronto</translation>
+    </message>
+    <message>
+        <source>Connect the expected camera. What was begun then continues automatically.</source>
+        <translation>Collegare la telecamera attesa. Ciò che era iniziato riprende poi automaticamente.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. If the server stays away, ask your IT support.</source>
+        <translation>Continuare a misurare. Se il server non torna, chiedere al supporto informatico.</translation>
+    </message>
+    <message>
+        <source>Continue. The gap is marked in the session.</source>
+        <translation>Continuare. La lacuna è indicata nella seduta.</translation>
+    </message>
+    <message>
+        <source>Continue. When the disk or network is back, Carpus moves the session automatically.</source>
+        <translation>Continuare. Quando il disco o la rete tornano, Carpus sposta la seduta automaticamente.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from its source.</source>
+        <translation>Copiare di nuovo la registrazione dall’origine.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again, or correct its list of frames.</source>
+        <translation>Copiare di nuovo la registrazione, o correggere il suo elenco di fotogrammi.</translation>
+    </message>
+    <message>
+        <source>Correct the setting, or remove it to use the default.</source>
+        <translation>Correggere l’impostazione, o toglierla per usare quella predefinita.</translation>
+    </message>
+    <message>
+        <source>Damaged frames were excluded: {subject} ({detail}).</source>
+        <translation>I fotogrammi danneggiati sono stati esclusi: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Depth and colour are not aligned in {subject}, so depths are less accurate.</source>
+        <translation>Profondità e colore non sono allineati in {subject}, quindi le profondità sono meno precise.</translation>
+    </message>
+    <message>
+        <source>Everything is as it was.</source>
+        <translation>Tutto è come prima.</translation>
+    </message>
+    <message>
+        <source>Everything recorded before is safe.</source>
+        <translation>Tutto ciò che è stato registrato prima è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Everything recorded so far is saved on this computer.</source>
+        <translation>Tutto ciò che è stato registrato finora è salvato su questo computer.</translation>
+    </message>
+    <message>
+        <source>Everything saved before is safe. What was being written may be missing.</source>
+        <translation>Tutto ciò che era già salvato è al sicuro. Ciò che si stava scrivendo può mancare.</translation>
+    </message>
+    <message>
+        <source>Everything saved until then is safe.</source>
+        <translation>Tutto ciò che era stato salvato fino ad allora è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Exclude the repetitions that are wrong, or record again.</source>
+        <translation>Escludere le ripetizioni sbagliate, o registrare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Files</source>
+        <translation>File</translation>
+    </message>
+    <message>
+        <source>Frames with a repeated time were excluded: {subject} ({detail}).</source>
+        <translation>I fotogrammi con un tempo ripetuto sono stati esclusi: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Glue the board to something stiff and flat, light it well, and hold it still.</source>
+        <translation>Incollare la tavola su qualcosa di rigido e piano, illuminarla bene e tenerla ferma.</translation>
+    </message>
+    <message>
+        <source>Hold the whole printed board in the camera image, in good light.</source>
+        <translation>Tenere l’intera tavola stampata nell’immagine della telecamera, con buona luce.</translation>
+    </message>
+    <message>
+        <source>If another name is better, change it in the patient’s entry.</source>
+        <translation>Se un altro nome è migliore, cambiarlo nella scheda del paziente.</translation>
+    </message>
+    <message>
+        <source>If it was copied, copy it again. Otherwise restore it from a backup.</source>
+        <translation>Se è stata copiata, copiarla di nuovo. Altrimenti ripristinarla da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>If patients are missing here, choose the data folder in the settings.</source>
+        <translation>Se qui mancano pazienti, scegliere la cartella dei dati nelle impostazioni.</translation>
+    </message>
+    <message>
+        <source>If there are many, copy the recording again.</source>
+        <translation>Se sono molti, copiare di nuovo la registrazione.</translation>
+    </message>
+    <message>
+        <source>If there are many, record again.</source>
+        <translation>Se sono molti, registrare di nuovo.</translation>
+    </message>
+    <message>
+        <source>If this is wrong, correct the list of frames or state the unit of depth.</source>
+        <translation>Se non è così, correggere l’elenco dei fotogrammi o indicare l’unità della profondità.</translation>
+    </message>
+    <message>
+        <source>Install Carpus again.</source>
+        <translation>Installare di nuovo Carpus.</translation>
+    </message>
+    <message>
+        <source>Installation</source>
+        <translation>Installazione</translation>
+    </message>
+    <message>
+        <source>It can be opened, but its values may have been altered.</source>
+        <translation>Può essere aperta, ma i suoi valori possono essere stati alterati.</translation>
+    </message>
+    <message>
+        <source>It is complete.</source>
+        <translation>È completa.</translation>
+    </message>
+    <message>
+        <source>It is not stated whether depth and colour are aligned in {subject}; Carpus assumes that they are.</source>
+        <translation>Non è indicato se profondità e colore siano allineati in {subject}; Carpus presume di sì.</translation>
+    </message>
+    <message>
+        <source>It is safe on this computer.</source>
+        <translation>È al sicuro su questo computer.</translation>
+    </message>
+    <message>
+        <source>Its SHA-256 checksum does not match.</source>
+        <translation>La somma di controllo SHA-256 non corrisponde.</translation>
+    </message>
+    <message>
+        <source>Keep the light constant while you measure.</source>
+        <translation>Mantenere costante la luce durante la misurazione.</translation>
+    </message>
+    <message>
+        <source>Lay it flat under the camera, all of it in the image, about 60 cm away, in good light.</source>
+        <translation>Appoggiarla piana sotto la telecamera, tutta nell’immagine, a circa 60 cm, con buona luce.</translation>
+    </message>
+    <message>
+        <source>Measure at least 10 people twice within 14 days, with the markers placed anew each time.</source>
+        <translation>Misurare almeno 10 persone due volte entro 14 giorni, riposizionando ogni volta i marcatori.</translation>
+    </message>
+    <message>
+        <source>Measure one, or choose the folder that contains the sessions.</source>
+        <translation>Misurarne una, o scegliere la cartella che contiene le sedute.</translation>
+    </message>
+    <message>
+        <source>Move the hand a little. Keep sunlight and reflections off the markers.</source>
+        <translation>Spostare un poco la mano. Evitare sole e riflessi sui marcatori.</translation>
+    </message>
+    <message>
+        <source>No action is needed.</source>
+        <translation>Non occorre fare nulla.</translation>
+    </message>
+    <message>
+        <source>No camera calibration was found with {subject}: lengths may be several per cent off ({detail}).</source>
+        <translation>Con {subject} non è stata trovata una calibrazione della telecamera: le lunghezze possono scostarsi di alcuni punti percentuali ({detail}).</translation>
+    </message>
+    <message>
+        <source>No camera was found ({detail}).</source>
+        <translation>Non è stata trovata nessuna telecamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>No separate blue marker was found at a click: {subject}.</source>
+        <translation>Nel punto cliccato non è stato trovato un marcatore blu distinto: {subject}.</translation>
+    </message>
+    <message>
+        <source>Nothing else was changed.</source>
+        <translation>Nient’altro è stato modificato.</translation>
+    </message>
+    <message>
+        <source>Nothing has been recorded yet.</source>
+        <translation>Non è stato ancora registrato nulla.</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Everything stays hidden.</source>
+        <translation>Non è andato perso nulla. Tutto resta nascosto.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Non è stato modificato nulla.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. New recordings are kept on this computer.</source>
+        <translation>Non è stato modificato nulla. Le nuove registrazioni restano su questo computer.</translation>
+    </message>
+    <message>
+        <source>Nothing was deleted: {subject} is a link to another place.</source>
+        <translation>Non è stato eliminato nulla: {subject} è un collegamento a un altro luogo.</translation>
+    </message>
+    <message>
+        <source>On the command line, --camera names it.</source>
+        <translation>Dalla riga di comando la indica --camera.</translation>
+    </message>
+    <message>
+        <source>Open it again and enter your change once more.</source>
+        <translation>Riaprirla e inserire di nuovo la modifica.</translation>
+    </message>
+    <message>
+        <source>Or put the camera’s camera_info.yaml beside the recording.</source>
+        <translation>Oppure mettere il camera_info.yaml della telecamera accanto alla registrazione.</translation>
+    </message>
+    <message>
+        <source>Or track the recording again with “carpus track”.</source>
+        <translation>Oppure rianalizzare la registrazione con “carpus track”.</translation>
+    </message>
+    <message>
+        <source>Patients</source>
+        <translation>Pazienti</translation>
+    </message>
+    <message>
+        <source>Patients and sessions are safe. Entries of the log may have been altered.</source>
+        <translation>Pazienti e sedute sono al sicuro. Le voci del registro possono essere state alterate.</translation>
+    </message>
+    <message>
+        <source>Plug the camera directly into the computer.</source>
+        <translation>Collegare la telecamera direttamente al computer.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in again. Tracking and recording then continue automatically.</source>
+        <translation>Ricollegare la telecamera. Il tracciamento e la registrazione riprendono poi automaticamente.</translation>
+    </message>
+    <message>
+        <source>Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.</source>
+        <translation>Le ultime modifiche all’elenco dei pazienti non si possono leggere, perché la cartella è di sola lettura: {subject}.</translation>
+    </message>
+    <message>
+        <source>Reconnect the session folder or its disk, then back up again.</source>
+        <translation>Ricollegare la cartella delle sedute o il suo disco, poi ripetere la copia.</translation>
+    </message>
+    <message>
+        <source>Record again with colour and depth of the same size.</source>
+        <translation>Registrare di nuovo con colore e profondità della stessa dimensione.</translation>
+    </message>
+    <message>
+        <source>Record again, or correct the list of frames.</source>
+        <translation>Registrare di nuovo, o correggere l’elenco dei fotogrammi.</translation>
+    </message>
+    <message>
+        <source>Record to a disk in this computer, and close other programs.</source>
+        <translation>Registrare su un disco di questo computer, e chiudere gli altri programmi.</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>Registrazione</translation>
+    </message>
+    <message>
+        <source>Recording not found: {subject} ({detail}).</source>
+        <translation>Registrazione non trovata: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Restart Carpus. If that does not help, ask your IT support.</source>
+        <translation>Riavviare Carpus. Se non basta, chiedere al supporto informatico.</translation>
+    </message>
+    <message>
+        <source>Restart Carpus: it keeps what can still be read. If names are missing, restore a backup.</source>
+        <translation>Riavviare Carpus: conserva ciò che è ancora leggibile. Se mancano nomi, ripristinare una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Restore a backup, or enter the names again.</source>
+        <translation>Ripristinare una copia di sicurezza, o inserire di nuovo i nomi.</translation>
+    </message>
+    <message>
+        <source>Restore them from a backup.</source>
+        <translation>Ripristinarli da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Review it like any other session.</source>
+        <translation>Rivederla come ogni altra seduta.</translation>
+    </message>
+    <message>
+        <source>Session and reference were not changed.</source>
+        <translation>La seduta e il riferimento non sono stati modificati.</translation>
+    </message>
+    <message>
+        <source>Session files are safe. Keep this file: names and notes are stored in it alone.</source>
+        <translation>I file delle sedute sono al sicuro. Conservare questo file: nomi e note si trovano solo qui.</translation>
+    </message>
+    <message>
+        <source>Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.</source>
+        <translation>Mostrare la tavola in ogni parte dell’immagine, inclinata sui quattro lati, vicina e lontana. Tenerla ferma.</translation>
+    </message>
+    <message>
+        <source>Smoothing of this session failed: {subject} ({detail}).</source>
+        <translation>La lisciatura di questa seduta non è riuscita: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Some frames are smaller and were enlarged: {subject} ({detail}).</source>
+        <translation>Alcuni fotogrammi sono più piccoli e sono stati ingranditi: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Someone else changed this record, so your change was not saved.</source>
+        <translation>Qualcun altro ha modificato questa scheda, quindi la modifica non è stata salvata.</translation>
+    </message>
+    <message>
+        <source>State it in the camera file.</source>
+        <translation>Indicarlo nel file della telecamera.</translation>
+    </message>
+    <message>
+        <source>That file was not changed.</source>
+        <translation>Quel file non è stato modificato.</translation>
+    </message>
+    <message>
+        <source>The backup cannot be read: {subject} ({detail}).</source>
+        <translation>La copia di sicurezza non può essere letta: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The backup is incomplete: {subject} is missing or cannot be read; {detail} in all.</source>
+        <translation>La copia di sicurezza è incompleta: {subject} manca o non può essere letto; in tutto {detail}.</translation>
+    </message>
+    <message>
+        <source>The backup’s verification failed: a file read back differs from the original ({subject}, {detail}).</source>
+        <translation>La verifica della copia di sicurezza non è riuscita: un file riletto è diverso dall’originale ({subject}, {detail}).</translation>
+    </message>
+    <message>
+        <source>The calibration board is not visible: {subject} ({detail}).</source>
+        <translation>La tavola di calibrazione non è visibile: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera cannot keep its exposure constant: {subject}.</source>
+        <translation>La telecamera non riesce a mantenere costante l’esposizione: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera driver has stopped: {subject} ({detail}).</source>
+        <translation>Il driver della telecamera si è arrestato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera driver is not installed or cannot be loaded ({detail}).</source>
+        <translation>Il driver della telecamera non è installato o non può essere caricato ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera file cannot be used: {subject} ({detail}).</source>
+        <translation>Il file della telecamera non può essere usato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera has stopped sending images: {subject} ({detail}).</source>
+        <translation>La telecamera non invia più immagini: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera’s calibration was not changed.</source>
+        <translation>La calibrazione della telecamera non è stata modificata.</translation>
+    </message>
+    <message>
+        <source>The check card is not visible: {subject} ({detail}).</source>
+        <translation>La scheda di controllo non è visibile: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicked markers cannot be read: {subject} ({detail}).</source>
+        <translation>I marcatori cliccati non possono essere letti: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicked points do not form a hand ({subject}).</source>
+        <translation>I punti cliccati non formano una mano ({subject}).</translation>
+    </message>
+    <message>
+        <source>The clinic’s records server does not answer: {subject} ({detail}).</source>
+        <translation>Il server delle schede della clinica non risponde: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The data on this computer are intact.</source>
+        <translation>I dati su questo computer sono integri.</translation>
+    </message>
+    <message>
+        <source>The disk has no space left for {subject} ({detail}).</source>
+        <translation>Il disco non ha più spazio per {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The disk is too slow, so the recording has ended: {subject} ({detail}).</source>
+        <translation>Il disco è troppo lento, quindi la registrazione è terminata: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The file was not changed. All other sessions are safe.</source>
+        <translation>Il file non è stato modificato. Tutte le altre sedute sono al sicuro.</translation>
+    </message>
+    <message>
+        <source>The first frame of the recording is damaged: {subject} ({detail}).</source>
+        <translation>Il primo fotogramma della registrazione è danneggiato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The folder contains no Carpus data: {subject}.</source>
+        <translation>La cartella non contiene dati di Carpus: {subject}.</translation>
+    </message>
+    <message>
+        <source>The frame times are out of order: {subject} ({detail}).</source>
+        <translation>I tempi dei fotogrammi non sono in ordine: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The frames of the recording differ in size: {subject} ({detail}).</source>
+        <translation>I fotogrammi della registrazione hanno dimensioni diverse: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The image format of this recording is not supported: {subject} ({detail}).</source>
+        <translation>Il formato delle immagini di questa registrazione non è supportato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The images of the board are too few or too similar: {subject} ({detail}).</source>
+        <translation>Le immagini della tavola sono troppo poche o troppo simili: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The limits of change stay as they are.</source>
+        <translation>I limiti di cambiamento restano come sono.</translation>
+    </message>
+    <message>
+        <source>The live measurement is saved.</source>
+        <translation>La misurazione dal vivo è salvata.</translation>
+    </message>
+    <message>
+        <source>The measurement continues.</source>
+        <translation>La misurazione continua.</translation>
+    </message>
+    <message>
+        <source>The other change is saved.</source>
+        <translation>L’altra modifica è salvata.</translation>
+    </message>
+    <message>
+        <source>The patient list cannot be opened: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti non può essere aperto: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list is damaged: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti è danneggiato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list is open in another window of Carpus or another program: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti è aperto in un’altra finestra di Carpus o in un altro programma: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was damaged. It was rebuilt from the sessions and what could be read ({detail}).</source>
+        <translation>L’elenco dei pazienti era danneggiato. È stato ricostruito dalle sedute e da ciò che era leggibile ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was made by another version of Carpus: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti è di un’altra versione di Carpus: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was missing and was rebuilt from the sessions: {subject}.</source>
+        <translation>L’elenco dei pazienti mancava ed è stato ricostruito dalle sedute: {subject}.</translation>
+    </message>
+    <message>
+        <source>The previous result was not changed.</source>
+        <translation>Il risultato precedente non è stato modificato.</translation>
+    </message>
+    <message>
+        <source>The re-analysis failed: {subject} ({detail}).</source>
+        <translation>La nuova analisi non è riuscita: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording contains no frames: {subject} ({detail}).</source>
+        <translation>La registrazione non contiene fotogrammi: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The reference has nothing to compare: {subject} ({detail}).</source>
+        <translation>Il riferimento non contiene nulla di confrontabile: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session folder contains nothing from Carpus: {subject}.</source>
+        <translation>La cartella delle sedute non contiene nulla di Carpus: {subject}.</translation>
+    </message>
+    <message>
+        <source>The session folder is not available ({detail}). The session is saved in {subject}.</source>
+        <translation>La cartella delle sedute non è disponibile ({detail}). La seduta è salvata in {subject}.</translation>
+    </message>
+    <message>
+        <source>The session was not changed.</source>
+        <translation>La seduta non è stata modificata.</translation>
+    </message>
+    <message>
+        <source>The write protection of the audit log in {subject} had been removed. Carpus has restored it.</source>
+        <translation>La protezione da scrittura del registro delle operazioni in {subject} era stata rimossa. Carpus l’ha ripristinata.</translation>
+    </message>
+    <message>
+        <source>Their sessions are kept apart.</source>
+        <translation>Le loro sedute restano separate.</translation>
+    </message>
+    <message>
+        <source>There is no backup in {subject}.</source>
+        <translation>In {subject} non ci sono copie di sicurezza.</translation>
+    </message>
+    <message>
+        <source>There is no camera type called {subject} ({detail}).</source>
+        <translation>Non esiste un tipo di telecamera chiamato {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no marker set called {subject} ({detail}).</source>
+        <translation>Non esiste un insieme di marcatori chiamato {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no patient called {subject} ({detail}).</source>
+        <translation>Non esiste un paziente chiamato {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>These sessions are not a test-retest study: {subject} ({detail}).</source>
+        <translation>Queste sedute non sono uno studio test-retest: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>They are no longer listed. Carpus tries again at each start.</source>
+        <translation>Non sono più in elenco. Carpus riprova a ogni avvio.</translation>
+    </message>
+    <message>
+        <source>They were not changed. All other sessions are safe.</source>
+        <translation>Non sono stati modificati. Tutte le altre sedute sono al sicuro.</translation>
+    </message>
+    <message>
+        <source>This camera does not deliver the images that Carpus needs: {subject} ({detail}).</source>
+        <translation>Questa telecamera non fornisce le immagini di cui Carpus ha bisogno: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This cannot be used as a name: {detail} ({subject}).</source>
+        <translation>Questo non può essere un nome: {detail} ({subject}).</translation>
+    </message>
+    <message>
+        <source>This session cannot be opened: {subject} ({detail}).</source>
+        <translation>Questa seduta non può essere aperta: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This session was modified after it was completed: {subject}.</source>
+        <translation>Questa seduta è stata modificata dopo la sua conclusione: {subject}.</translation>
+    </message>
+    <message>
+        <source>Try again, or correct another frame first.</source>
+        <translation>Riprovare, o correggere prima un altro fotogramma.</translation>
+    </message>
+    <message>
+        <source>Turn on depth registration in the camera settings next time.</source>
+        <translation>La prossima volta attivare nella telecamera l’allineamento tra profondità e colore.</translation>
+    </message>
+    <message>
+        <source>Two patients had the name {subject}: the second one now has ({detail}) after it.</source>
+        <translation>Due pazienti avevano il nome {subject}: il secondo ora è seguito da ({detail}).</translation>
+    </message>
+    <message>
+        <source>Type the name instead of pasting it.</source>
+        <translation>Digitare il nome invece di incollarlo.</translation>
+    </message>
+    <message>
+        <source>Update Carpus on this computer.</source>
+        <translation>Aggiornare Carpus su questo computer.</translation>
+    </message>
+    <message>
+        <source>Use a recording whose frames all have the same size.</source>
+        <translation>Usare una registrazione i cui fotogrammi abbiano tutti la stessa dimensione.</translation>
+    </message>
+    <message>
+        <source>Use a recording with colour and depth.</source>
+        <translation>Usare una registrazione con colore e profondità.</translation>
+    </message>
+    <message>
+        <source>Use the copy in a backup.</source>
+        <translation>Usare la copia in una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Use the same size for colour and depth next time.</source>
+        <translation>La prossima volta usare la stessa dimensione per colore e profondità.</translation>
+    </message>
+    <message>
+        <source>Use the window that is already open, or choose another folder.</source>
+        <translation>Usare la finestra già aperta, o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>Wait until it has finished, or choose another folder.</source>
+        <translation>Attendere che abbia finito, o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>Wait until its recording has ended, or restart Carpus: it completes the session.</source>
+        <translation>Attendere la fine della registrazione, o riavviare Carpus: completa la seduta.</translation>
+    </message>
+    <message>
+        <source>What was recorded is safe.</source>
+        <translation>Ciò che è stato registrato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Without --scheduler this computer does the work.</source>
+        <translation>Senza --scheduler lavora questo computer.</translation>
+    </message>
+    <message>
+        <source>Write “registered: true” or “registered: false” into camera_info.yaml.</source>
+        <translation>Scrivere “registered: true” o “registered: false” in camera_info.yaml.</translation>
+    </message>
+    <message>
+        <source>You can use the session as it is.</source>
+        <translation>La seduta si può usare così com’è.</translation>
+    </message>
+    <message>
+        <source>You do not have permission to open the camera ({detail}).</source>
+        <translation>Mancano i permessi per aprire la telecamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>camera_info.yaml states it as depth_unit_m.</source>
+        <translation>In camera_info.yaml è indicata come depth_unit_m.</translation>
+    </message>
+    <message>
+        <source>{detail} among the sessions cannot be read and were ignored: {subject}.</source>
+        <translation>{detail} tra le sedute non possono essere letti e sono stati ignorati: {subject}.</translation>
+    </message>
+    <message>
+        <source>“carpus calibrate-camera --board” prints it.</source>
+        <translation>“carpus calibrate-camera --board” la stampa.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” says how to give it.</source>
+        <translation>“carpus doctor” indica come darlo.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” says what is missing and how to install it.</source>
+        <translation>“carpus doctor” indica che cosa manca e come installarlo.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” says which one it is.</source>
+        <translation>“carpus doctor” indica qual è.</translation>
+    </message>
+    <message>
+        <source>“carpus recover” completes it too.</source>
+        <translation>La completa anche “carpus recover”.</translation>
+    </message>
+    <message>
+        <source>“carpus track --leave-out-damaged” continues without it.</source>
+        <translation>“carpus track --leave-out-damaged” prosegue senza di esso.</translation>
+    </message>
+    <message>
+        <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
+        <translation>“carpus track SEDUTA.h5 --output NUOVA.h5” ripete la lisciatura.</translation>
+    </message>
+    <message>
+        <source>An unexpected error occurred.</source>
+        <translation>Si è verificato un errore imprevisto.</translation>
+    </message>
+    <message>
+        <source>Everything saved before is safe.</source>
+        <translation>Tutto ciò che era già salvato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Try again. If it happens again, restart Carpus and show the details to your IT support.</source>
+        <translation>Riprovare. Se succede ancora, riavviare Carpus e mostrare i dettagli al supporto informatico.</translation>
+    </message>
+    <message>
+        <source>Program</source>
+        <translation>Programma</translation>
     </message>
 </context>
 <context>
@@ -11190,6 +11278,17 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
+    </message>
+</context>
+<context>
+    <name>FaultDetails</name>
+    <message>
+        <source>Details</source>
+        <translation>Dettagli</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>Copia</translation>
     </message>
 </context>
 </TS>

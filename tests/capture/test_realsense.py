@@ -157,8 +157,8 @@ def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
             break
     assert [type(fault) for fault in told] == [CameraLost, OtherCamera, CameraReturned]
     assert one_sentence(told[1]).startswith(
-        "Carpus waits for its camera: Intel RealSense D435 815412070123. "
-        "Another one is there (Intel RealSense D435 815412070124)"
+        "A different camera is connected (Intel RealSense D435 815412070124). "
+        "Carpus expects Intel RealSense D435 815412070123."
     )
 
 
@@ -195,7 +195,7 @@ def test_a_camera_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(realsense, "find_spec", lambda _: None)
     with pytest.raises(ExtraMissing) as told:
         open_camera("realsense:815412070123")
-    assert one_sentence(told.value).endswith("-m pip install pyrealsense2”.")
+    assert one_sentence(told.value).endswith("-m pip install pyrealsense2”. (C-001)")
 
 
 @pytest.mark.parametrize("slope", [1.0 / 8000.0, -1.0 / 3000.0])
@@ -243,4 +243,4 @@ def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
     assert driver_finding(wanted=False) is None, "no obstacle, and nothing to tick"
     told = driver_finding(wanted=True)
     assert told is not None
-    assert (told.state, told.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")
+    assert (told.state, told.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”. (C-001)")

@@ -534,7 +534,7 @@ def test_each_command_calls_a_full_disk_full(tmp_path: Path, folder: Path) -> No
     said = subprocess.run(run, capture_output=True, text=True, timeout=300, check=False).stderr.splitlines()
     for name, *_ in commands:
         at = said.index(f"{name} 1")
-        assert "no room left" in said[at - 1], name
+        assert "no space left" in said[at - 1], name
     assert session.exists()
     assert sorted(path.name for path in tmp_path.iterdir() if path.is_file()) == []
     assert not (tmp_path / "new").exists()

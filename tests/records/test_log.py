@@ -89,8 +89,8 @@ def test_the_command_says_it_and_writes_a_table(tmp_path: Path, command: Command
 
 
 NOTHING_THERE = (
-    "carpus: There is nothing of Carpus in the folder {}. Nothing has been changed. "
-    "Name the folder that holds the patients; carpus doctor says which it is.\n"
+    "carpus: The folder contains no Carpus data: {}. Nothing was changed. "
+    "Choose the folder that contains the patients. “carpus doctor” says which one it is. (C-410)\n"
 )
 
 

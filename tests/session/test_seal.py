@@ -124,4 +124,4 @@ def test_the_command(tmp_path: Path, command: Command) -> None:
         CHANGES["an angle"](file)
     bad = command("verify", path)
     assert (bad.code, bad.out, bad.err.count("\n")) == (1, "", 1)
-    assert bad.err.startswith("carpus: This session was changed after it was finished")
+    assert bad.err.startswith("carpus: This session was modified after it was completed")

@@ -105,9 +105,12 @@ TODAY = date(2026, 11, 20)
 SAVED = "Saved 11:37"
 TICK_FRAMES = 30
 LOST = Words(
-    "The camera sends no more pictures.",
-    "Everything recorded so far is stored on this computer.",
-    "Plug the camera in again; tracking and recording then go on by themselves.",
+    "The camera has stopped sending images.",
+    "Everything recorded so far is saved on this computer.",
+    "Plug the camera in again. Tracking and recording then continue automatically.",
+    "Camera",
+    "C-209",
+    ("Xtion 1206", "no frame for 2 s"),
 )
 RECOVERED = Words(
     "A session of Heron 17 was cut short yesterday at 16:42. It has been recovered.",

@@ -12,7 +12,8 @@ from pytestqt.qtbot import QtBot
 from carpus.core.errors import DiskFull
 from carpus.core.records.new_sessions import Recovered
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.ui.fault_words import fault_words, shortened
+from carpus.core.words import shorten
+from carpus.ui.fault_words import fault_words
 from carpus.ui.language import speaking
 from carpus.ui.messages.messages import Messages
 from carpus.ui.theme import Theme
@@ -30,17 +31,17 @@ def test_a_long_path_is_told_by_its_end(root: str) -> None:
 
 def test_what_is_no_path_stays() -> None:
     assert "take 7" in fault_words(DiskFull("take 7", "1/2 full")).happened
-    assert "1/2 full" in fault_words(DiskFull("take 7", "1/2 full")).happened
+    assert "1/2 full" in fault_words(DiskFull("take 7", "1/2 full")).details
 
 
 @pytest.mark.parametrize("most", [8, 9, 30])
 def test_a_shortened_name_keeps_both_ends(most: int) -> None:
     name = "abcdefghijklmnopqrstuvwxyz0123456789"
-    short = shortened(name, most)
+    short = shorten(name, most)
     assert len(short) == most
     assert short[0] == "a"
     assert short[-1] == "9"
-    assert shortened("short", most) == "short"
+    assert shorten("short", most) == "short"
 
 
 def test_a_recovered_practice_session_names_the_patient_in_the_persons_language(qtbot: QtBot) -> None:

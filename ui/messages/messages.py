@@ -23,6 +23,7 @@ from carpus.ui.controls.layouts import empty, fill, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.fault_words import fault_words
+from carpus.ui.messages.details import BREAK, FaultDetails
 from carpus.ui.now_open import practice_name
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
@@ -81,11 +82,12 @@ class Messages(QObject):
         self, fault: Exception, answers: Sequence[Answer] = (), *, detail: str = "", safe_detail: str = ""
     ) -> None:
         """A card for a fault; without answers one that only goes on."""
-        log.warning("%s", type(fault).__name__, exc_info=fault)
+        words = fault_words(fault)
+        log.warning("%s %s", words.code, type(fault).__name__, exc_info=fault)
         self.told.emit(fault)
         icon = "unplug" if isinstance(fault, CameraLost) else ""
         answers = answers or (Answer(self.tr("Go on"), lambda: None),)
-        message = _Message(fault_words(fault), tuple(answers), icon, detail, safe_detail)
+        message = _Message(words, tuple(answers), icon, detail, safe_detail)
         known = [self._shown, *self._waiting]
         if any(other is not None and other.words == message.words for other in known):
             return
@@ -188,6 +190,9 @@ class NoticeStrip(Card):
         for line in (words.safe, words.do):
             if line:
                 texts.addWidget(Text(theme, line, 14, REGULAR, wrap=True))
+        self.details = FaultDetails(theme)
+        texts.addWidget(self.details)
+        self.details.show_words(words)
         self.button = Button(theme, button, "plain", height_px=40)
         self.button.setVisible(bool(button))
         self.later_button = Button(theme, later or self.tr("Later"), "quiet", hint=self.tr("Esc"), height_px=36)
@@ -216,8 +221,6 @@ def put_off_last(screen: QWidget) -> bool:
 
 MOST_NAMES = 3
 """On the card; a data set has dozens, and each name may need two lines."""
-BREAK = "\u200b"
-"""Where a long name may go on in the next line; it takes no room."""
 
 
 def shown(names: Sequence[str]) -> str:
@@ -297,7 +300,8 @@ class StopCard(Sheet):
             row = in_line((icon, 0, Qt.AlignmentFlag.AlignVCenter), gap=24)
             row.addLayout(in_column(*words, gap=2), 1)
             fill(body, row, Line(theme))
-        body.addLayout(in_line((self.waiting, 1), self._buttons))
+        self.details = FaultDetails(theme)
+        fill(body, self.details, in_line((self.waiting, 1), self._buttons))
 
     def show_words(
         self, words: Words, answers: Sequence[Answer], *, icon: str = "", detail: str = "", safe_detail: str = "",
@@ -307,6 +311,7 @@ class StopCard(Sheet):
         nothing went wrong: a question, or good news, and no red."""
         for head, text in ((self.what, words.happened.rstrip(".")), (self.safe, words.safe), (self.todo, words.do)):
             head.setText(text)
+        self.details.show_words(words)
         self.detail.say(detail)
         self.safe_detail.say(safe_detail)
         self._icon.show_sign(icon or ("bad" if alarm else "circle-help"), "bad" if alarm else "accent", 36)

@@ -71,7 +71,7 @@ def test_the_board_is_a_page_of_that_size(
     np.testing.assert_allclose([float(one) * 25.4 / 72.0 for one in box.groups()], size_mm, atol=0.4)
     assert "100 %" in capsys.readouterr().out
     assert main(["calibrate-camera", "--board", str(pdf)]) == 1
-    assert "There is a file already" in capsys.readouterr().err
+    assert "A file with this name already exists" in capsys.readouterr().err
 
 
 def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:

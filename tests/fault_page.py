@@ -1,0 +1,42 @@
+"""The page of all fault codes, made from the classes; ``python -m tests.fault_page`` writes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from carpus.core.errors import CarpusFault
+from carpus.core.words import words_of
+
+PAGE = Path(__file__).parents[1] / "resources" / "faults.md"
+HEAD = """# Fault codes
+
+Each message of Carpus has a code, in the window, on the command line and in the log. This page is made from the
+program: what happened, whether data are safe, what to do, and what IT support can do besides. `C-000` is a mistake of
+the program itself.
+
+| code | about | what happened | data | what to do | for IT support |
+|---|---|---|---|---|---|
+"""
+
+
+def all_faults(of: type[CarpusFault] = CarpusFault) -> Iterator[type[CarpusFault]]:
+    """Every kind of fault."""
+    for kind in of.__subclasses__():
+        yield kind
+        yield from all_faults(kind)
+
+
+def fault_page() -> str:
+    """Markdown text; kept in ``resources/faults.md``."""
+    rows = []
+    for kind in sorted(all_faults(), key=lambda kind: kind.code):
+        words = words_of(kind(), brief=True)
+        rows.append(
+            f"| `{kind.code}` | {words.title} | {words.happened} | {words.safe} | {words.do} | {kind.support} |"
+        )
+    return HEAD + "\n".join(rows) + "\n"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(fault_page(), encoding="utf-8")
