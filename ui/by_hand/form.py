@@ -20,6 +20,7 @@ from carpus.core.measures.by_hand import (
     Way,
     before,
     is_unusual,
+    measure_named,
     newest,
     on_day,
     replaced,
@@ -28,7 +29,7 @@ from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Line
-from carpus.ui.controls.field import lay_inside
+from carpus.ui.controls.field import NumberField, lay_inside
 from carpus.ui.controls.layouts import in_grid
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.theme import Theme
@@ -59,22 +60,26 @@ class MeasureRow(QObject):
         self.where = QLineEdit(maxLength=MOST_WHERE, placeholderText=self.tr("where"))
         self.where.setAccessibleName(self.tr("{name}: where it was taken").format(name=name))
         self.where.textChanged.connect(lambda _: self._changed())
+        self.widgets: list[QWidget] = []
         self.beside = Text(theme, "", 14, SEMIBOLD)
         self.other = Text(theme, "", 14, REGULAR, "text2")
         self.last = Text(theme, "", 14, REGULAR, "text2")
         self._of_carpus: RangeRow | None = None
 
     def place(self, theme: Theme, grid: QGridLayout, line: int) -> None:
-        grid.addWidget(self.name, line, 0)
-        for number, (_, field) in enumerate(self.fields):
-            grid.addWidget(field, line, 1 + number)
-        if self.measure.kind == "size":
-            grid.addWidget(self.where, line, 2, 1, 2)
-        elif self.measure.kind == "score":
-            grid.addWidget(Text(theme, direction_words(self.measure), 12, MEDIUM, "text2"), line, 2, 1, 2)
-        grid.addWidget(self.beside, line, CARPUS)
-        grid.addWidget(self.other, line, OTHER)
+        aside: dict[str, QWidget] = {
+            "size": self.where,
+            "score": Text(theme, direction_words(self.measure), 12, MEDIUM, "text2"),
+        }
+        shown = [(0, self.name), *((1 + number, field) for number, (_, field) in enumerate(self.fields))]
+        shown += [(CARPUS, self.beside), (OTHER, self.other)]
+        for column, widget in shown:
+            grid.addWidget(widget, line, column)
         grid.addWidget(self.last, line, LAST, Qt.AlignmentFlag.AlignRight)
+        self.widgets = [self.last, *(widget for _, widget in shown)]
+        if self.measure.kind in aside:
+            self.widgets.append(aside[self.measure.kind])
+            grid.addWidget(self.widgets[-1], line, 2, 1, 2)
 
     def keys(self, side: Side) -> list[Key]:
         return [(self.measure.id, way, side if self.measure.of_hand else "") for way in self.measure.ways]
@@ -162,73 +167,69 @@ class HandForm(QWidget):
         self._theme = theme
         self._grid = in_grid(12, 6, shares=(1,), margins=(0, 0, 0, 0), within=self)
         self.rows: dict[str, MeasureRow] = {}
+        """Those that are shown, from top to bottom."""
+        self._made: dict[str, MeasureRow] = {}
+        self._places: dict[str, int] = {}
+        """Of each measure, shown or not, the line of the grid."""
+        self._heads: dict[str, tuple[list[QWidget], int]] = {}
+        """Of each kind what stands above its rows, and the line below them."""
+        for kind, heading in group_names().items():
+            line = self._grid.rowCount()
+            measures = [one.id for one in MEASURES if one.kind == kind]
+            self._places |= {name: line + 2 + number for number, name in enumerate(measures)}
+            self._heads[kind] = self._head(kind, heading, line), line + 2 + len(measures)
+            self._grid.setRowMinimumHeight(self._heads[kind][1], 12)
+
+    def _head(self, kind: str, heading: str, line: int) -> list[QWidget]:
+        heads = [(0, heading, SEMIBOLD, "text")]
+        if kind == "angle":
+            heads += [(1, self.tr("Active"), MEDIUM, "text2"), (2, self.tr("Passive"), MEDIUM, "text2")]
+            heads += [(CARPUS, self.tr("Carpus"), MEDIUM, "text2")]
+        heads += [(LAST, self.tr("last time"), MEDIUM, "text2")] if not self._heads else []
+        shown: list[QWidget] = [Line(self._theme)]
+        self._grid.addWidget(shown[0], line + 1, 0, 1, LAST + 1)
+        for column, words, weight, token in heads:
+            place = Qt.AlignmentFlag.AlignRight if column == LAST else Qt.AlignmentFlag.AlignLeft
+            shown.append(Text(self._theme, words, 14 if weight == SEMIBOLD else 12, weight, token))
+            self._grid.addWidget(shown[-1], line, column, place)
+        return shown
 
     def set_measures(self, wanted: set[str]) -> None:
-        """Rows for these, in the order of the table of measures; what is written in rows that stay is kept."""
-        self.rows = {one.id: self.rows.get(one.id) or self._made(one) for one in MEASURES if one.id in wanted}
-        self._empty()
-        line = 0
-        for kind, heading in group_names().items():
-            rows = [row for row in self.rows.values() if row.measure.kind == kind]
-            if not rows:
-                continue
-            heads = [(0, heading, SEMIBOLD, "text")]
-            if kind == "angle":
-                heads += [(1, self.tr("Active"), MEDIUM, "text2"), (2, self.tr("Passive"), MEDIUM, "text2")]
-                heads += [(CARPUS, self.tr("Carpus"), MEDIUM, "text2")]
-            heads += [(LAST, self.tr("last time"), MEDIUM, "text2")] if line == 0 else []
-            for column, words, weight, token in heads:
-                place = Qt.AlignmentFlag.AlignRight if column == LAST else Qt.AlignmentFlag.AlignLeft
-                size = 14 if weight == SEMIBOLD else 12
-                self._grid.addWidget(Text(self._theme, words, size, weight, token), line, column, place)
-            self._grid.addWidget(Line(self._theme), line + 1, 0, 1, LAST + 1)
-            line += 2
-            for row in rows:
-                row.place(self._theme, self._grid, line)
-                line += 1
-            self._grid.setRowMinimumHeight(line, 12)
-            line += 1
-        self._chain()
+        """Show these; what is written in rows that stay is kept."""
+        self.rows = {name: self._made.get(name) or self._make(name) for name in self._places if name in wanted}
+        for name, row in self._made.items():
+            for widget in row.widgets:
+                widget.setVisible(name in wanted)
+        kinds = {row.measure.kind for row in self.rows.values()}
+        for kind, (heads, end) in self._heads.items():
+            self._grid.setRowMinimumHeight(end, 12 if kind in kinds else 0)
+            for head in heads:
+                head.setVisible(kind in kinds)
+        for one, following in itertools.pairwise(self._entries()):
+            QWidget.setTabOrder(one, following)
 
-    def _made(self, measure: HandMeasure) -> MeasureRow:
-        row = MeasureRow(self._theme, measure)
+    def _make(self, name: str) -> MeasureRow:
+        row = self._made[name] = MeasureRow(self._theme, measure_named(name))
+        row.place(self._theme, self._grid, self._places[name])
         row.edited.connect(self.edited)
         for _, field in row.fields:
             field.onward.connect(lambda field=field: self._go_on(field))
-            field.textEdited.connect(lambda _, name=measure.id: self.chosen.emit(name))
+            field.textEdited.connect(lambda _: self.chosen.emit(name))
         return row
 
-    def _empty(self) -> None:
-        """Take everything out of the grid; what belongs to no row any more goes."""
-        kept = {widget for row in self.rows.values() for widget in self._widgets(row)}
-        while (item := self._grid.takeAt(0)) is not None:
-            widget = item.widget()
-            if widget is not None and widget not in kept:
-                widget.hide()
-                widget.deleteLater()
-
-    @staticmethod
-    def _widgets(row: MeasureRow) -> list[QWidget]:
-        return [row.name, row.where, row.beside, row.other, row.last, *(field for _, field in row.fields)]
-
-    def _chain(self) -> None:
-        """Tab goes through the fields line by line."""
-        fields = [w for row in self.rows.values() for w in self._entries(row)]
-        for one in fields:
-            one.show()  # now, not when the layout comes to it: the keyboard may be wanted there at once
-        for one, following in itertools.pairwise(fields):
-            QWidget.setTabOrder(one, following)
+    def _entries(self) -> list[QWidget]:
+        """What is typed in, line by line."""
+        return [
+            entry
+            for row in self.rows.values()
+            for entry in (*(field for _, field in row.fields), *([row.where] if row.measure.kind == "size" else []))
+        ]
 
     def _go_on(self, field: ValueField) -> None:
         """Enter goes to the next field; after the last one it stays."""
-        fields = [w for row in self.rows.values() for w in self._entries(row)]
+        fields = self._entries()
         following = fields[min(fields.index(field) + 1, len(fields) - 1)]
         following.setFocus(Qt.FocusReason.TabFocusReason)
-
-    @staticmethod
-    def _entries(row: MeasureRow) -> list[QWidget]:
-        entries: list[QWidget] = [field for _, field in row.fields]
-        return [*entries, row.where] if row.measure.kind == "size" else entries
 
     def show_values(
         self, values: Sequence[HandValue], side: Side, day: date, of_carpus: Mapping[str, RangeRow]
@@ -258,53 +259,29 @@ class HandForm(QWidget):
         return found
 
 
-class ValueField(QLineEdit):
-    """A number with a decimal comma or point, empty for not measured. Enter goes to the next field.
-
-    ``problem`` says what cannot be kept, ``doubt`` what should be looked at again; both mark the edge and stand in the
-    tooltip."""
+class ValueField(NumberField):
+    """A value of a measure, empty for not measured. Enter goes to the next field."""
 
     onward = Signal()
 
     def __init__(self, theme: Theme, measure: HandMeasure, name: str, width_px: int) -> None:
-        super().__init__()
-        self._theme, self._measure, self._width_px = theme, measure, width_px
+        super().__init__(theme, width_px, letters=8)
+        self._measure = measure
         lay_inside(self, None, caption(theme, unit_name(measure)), edge_px=9)
         self.setAccessibleName(name)
-        self.setMaxLength(8)
-        self.textChanged.connect(lambda _: self._take_theme())
-        theme.changed.connect(self._take_theme)
         self._take_theme()
-
-    def value(self) -> float:
-        """In the measure's unit; NaN where nothing, or no number, is written."""
-        text = self.text().strip().removesuffix("°").strip().replace(",", ".").replace("−", "-")
-        try:
-            value = float(text)
-        except ValueError:
-            return math.nan
-        return value if math.isfinite(value) else math.nan
-
-    def set_value(self, value: float) -> None:
-        """Show a number; NaN empties the field."""
-        self.setText(numbers.figures(value, 6) if math.isfinite(value) else "")
-
-    @property
-    def is_empty(self) -> bool:
-        return not self.text().strip()
 
     @property
     def problem(self) -> str:
-        """Why it cannot be kept; empty when it can."""
-        of, value = self._measure, self.value()
-        if self.is_empty or of.least <= value <= of.most:
+        of = self._measure
+        if self.is_empty or of.least <= self.value() <= of.most:
             return ""
         pattern = self.tr("A number from {least} to {most}, or empty")
         return pattern.format(least=numbers.figures(of.least, 6), most=value_words(of, of.most))
 
     @property
     def doubt(self) -> str:
-        """``180°? Usual is up to 100°``; empty where nothing is unusual."""
+        """``180°? Usual is up to 100°``."""
         of, value = self._measure, self.value()
         if self.problem or not math.isfinite(value) or not is_unusual(of, value):
             return ""
@@ -319,11 +296,5 @@ class ValueField(QLineEdit):
             super().keyPressEvent(event)
 
     def _take_theme(self) -> None:
-        unit_px = 46 if self._measure.unit == "points" else 26
-        self.setTextMargins(0, 0, self._theme.px(unit_px), 0)
-        self.setFixedWidth(self._theme.px(self._width_px))
-        token = "bad" if self.problem else "warn" if self.doubt else ""
-        edge = getattr(self._theme.tokens, token) if token else ""
-        self.setStyleSheet(f"QLineEdit {{ border: 2px solid {edge}; }}" if edge else "")
-        self.setToolTip(self.problem or self.doubt)
-        self.setAccessibleDescription(self.problem or self.doubt)
+        self.setTextMargins(0, 0, self._theme.px(46 if self._measure.unit == "points" else 26), 0)
+        super()._take_theme()

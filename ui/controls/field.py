@@ -138,64 +138,82 @@ class DayField(QLineEdit):
         self.setText(numbers.day_of_year(day) if day is not None else "")
 
 
-class DegreesField(QLineEdit):
-    """An angle, whole or with a decimal comma or point; empty for none. What is refused stays, and is marked.
+class NumberField(QLineEdit):
+    """A number with a decimal comma or point, empty for none. What is refused stays; its edge is marked, as that of
+    what is in doubt, and the tooltip tells why."""
 
-    ``problem`` tells in words what is refused; ``checked`` is sent with them, empty words when all is well.
-    """
-
-    checked = Signal(str)
-
-    def __init__(self, theme: Theme, most: int, nothing: str) -> None:
-        super().__init__()
-        self._theme, self._least, self._most = theme, 0, most
-        self.setPlaceholderText(nothing)
-        self.setMaxLength(12)
-        self.textChanged.connect(self._check)
-        self.editingFinished.connect(self._tidy)
+    def __init__(self, theme: Theme, width_px: int = 110, letters: int = 12) -> None:
+        super().__init__(maxLength=letters)
+        self._theme, self._width_px = theme, width_px
+        self.textChanged.connect(lambda _: self._take_theme())
         theme.changed.connect(self._take_theme)
-        self._take_theme()
+
+    @property
+    def is_empty(self) -> bool:
+        return not self.text().strip().removesuffix("°").strip()
 
     def value(self) -> float:
-        """Degrees; NaN where nothing, or nothing usable, is written."""
+        """NaN where nothing, or no number, is written."""
         text = self.text().strip().removesuffix("°").strip().replace(",", ".").replace("\N{MINUS SIGN}", "-")
         try:
             value = float(text)
         except ValueError:
             return math.nan
-        above = value > 0.0 if self._least == 0 else value >= self._least
-        return value if above and value <= self._most else math.nan
+        return value if math.isfinite(value) else math.nan
+
+    def set_value(self, value: float) -> None:
+        """Show a number; NaN empties the field."""
+        self.setText(numbers.figures(value, 6).replace("-", "\N{MINUS SIGN}") if math.isfinite(value) else "")
+
+    @property
+    def problem(self) -> str:
+        """Why it cannot be kept; empty when it can."""
+        return ""
+
+    @property
+    def doubt(self) -> str:
+        """Why it should be looked at again; empty where nothing is unusual."""
+        return ""
+
+    def _take_theme(self) -> None:
+        self.setFixedWidth(self._theme.px(self._width_px))
+        token = "bad" if self.problem else "warn" if self.doubt else ""
+        edge = getattr(self._theme.tokens, token) if token else ""
+        self.setStyleSheet(f"QLineEdit {{ border: 2px solid {edge}; }}" if edge else "")
+        self.setToolTip(self.problem or self.doubt)
+        self.setAccessibleDescription(self.problem or self.doubt)
+
+
+class DegreesField(NumberField):
+    """An angle above 0, or from a lowest one, to the largest; ``nothing`` stands where it is empty."""
+
+    def __init__(self, theme: Theme, most: int, nothing: str) -> None:
+        super().__init__(theme)
+        self._least, self._most = 0, most
+        self.setPlaceholderText(nothing)
+        self.editingFinished.connect(lambda: self.set_value(self.value()) if math.isfinite(self.value()) else None)
+        self._take_theme()
+
+    def value(self) -> float:
+        value = super().value()
+        is_possible = (value >= self._least if self._least else value > 0.0) and value <= self._most
+        return value if is_possible else math.nan
 
     def set_least(self, least: int) -> None:
         """0, beyond which an angle must be, or the lowest that can be entered."""
         self._least = least
-        self._check()
+        self._take_theme()
 
-    def set_value(self, value_deg: float) -> None:
-        """Show an angle; NaN empties the field."""
-        shown = numbers.figures(value_deg, 6).replace("-", "\N{MINUS SIGN}")
-        self.setText(f"{shown}°" if math.isfinite(value_deg) else "")
+    def set_value(self, value: float) -> None:
+        super().set_value(value)
+        if not self.is_empty:
+            self.setText(f"{self.text()}°")
 
     @property
     def problem(self) -> str:
-        """What is wrong, empty when nothing is."""
-        empty = self.text().strip() in ("", "°")
-        return (
-            "" if empty or math.isfinite(self.value()) else self.tr("Up to {most}°, or empty").format(most=self._most)
-        )
-
-    def _check(self) -> None:
-        self._take_theme()
-        self.checked.emit(self.problem)
-
-    def _tidy(self) -> None:
-        if math.isfinite(self.value()):
-            self.set_value(self.value())
-
-    def _take_theme(self) -> None:
-        self.setFixedWidth(self._theme.px(110))
-        edge = self._theme.tokens.bad
-        self.setStyleSheet(f"QLineEdit {{ border: 2px solid {edge}; }}" if self.problem else "")
+        if self.is_empty or math.isfinite(self.value()):
+            return ""
+        return self.tr("Up to {most}°, or empty").format(most=self._most)
 
 
 class Choices(QWidget):

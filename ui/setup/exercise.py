@@ -71,7 +71,7 @@ class ExerciseScreen(QWidget):
         self.side.chosen.connect(lambda _: self._show_side())
         self.accept.clicked.connect(self._use_proposal)
         for field in self.targets:
-            field.checked.connect(lambda _: self._show_problem())
+            field.textChanged.connect(lambda _: self._show_problem())
         self.problem.hide()
         theme.changed.connect(self._fit)
         self._fit()
