@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import takewhile
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
@@ -13,7 +14,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, 
 
 from carpus.ui.controls.button import Tick
 from carpus.ui.controls.field import Choices, Combo, Labelled
-from carpus.ui.controls.layouts import fill, in_line
+from carpus.ui.controls.layouts import in_line
 from carpus.ui.theme import Theme
 
 Rule = Callable[[Any], str]
@@ -67,20 +68,19 @@ class Form(QObject):
         super().__init__()
         self._fields = {field.name: field for field in fields}
         self._ways: dict[str, tuple[Callable[[], Any], Callable[[Any], object]]] = {}
-        self.parts: dict[str, QWidget] = {}
-        """Each field under its label."""
-        for field in fields:
+        self.parts: dict[str, Any] = {}
+        """Each field under its label; the bare widget where it has none."""
+        for number, field in enumerate(fields):
             widget = field.widget
             read, show, tells = next(kind[1:] for kind in _KINDS if isinstance(widget, kind[0]))
             read, show = getattr(type(widget), "value", read), getattr(type(widget), "set_value", show)
             self._ways[field.name] = partial(read, widget), partial(show, widget)
             getattr(widget, field.tells or tells).connect(lambda *_: self.changed.emit())
-            labelled = self.parts[list(self.parts)[-1]] if field.follows and not field.label else None
-            if isinstance(labelled, Labelled):
-                fill(labelled.row, field.widget, *field.beside)
-            elif field.label:
-                self.parts[field.name] = Labelled(theme, field.label, field.widget, *field.beside)
-            else:
+            if field.label:
+                behind = takewhile(lambda one: one.follows and not one.label, fields[number + 1 :])
+                beside = [part for one in behind for part in (one.widget, *one.beside)]
+                self.parts[field.name] = Labelled(theme, field.label, field.widget, *field.beside, *beside)
+            elif not field.follows:
                 self.parts[field.name] = field.widget
 
     def lines(self) -> list[QHBoxLayout]:

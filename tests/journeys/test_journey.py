@@ -122,7 +122,7 @@ def test_the_whole_journey_by_mouse(
     click(qtbot, journey.patients.screen.card.start_button)
     at(qtbot, desktop.journey, "exercise")
     click(qtbot, journey.exercise.screen.exercises.option("WRIST_FE"))
-    journey.exercise.screen.pictures.choose(True)
+    journey.exercise.screen.asked["keep_pictures"].choose(True)
     click(qtbot, journey.exercise.screen.primary)
     at(qtbot, desktop.journey, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))

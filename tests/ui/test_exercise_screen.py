@@ -57,7 +57,7 @@ def test_a_target_that_cannot_be_stays_is_marked_and_stops_the_way(qtbot: QtBot,
 def test_the_last_targets_come_back_and_never_those_of_another_patient(screen: ExerciseScreen) -> None:
     last = replace(set_up(), target_positive_deg=37.5, target_negative_deg=-20.0)
     screen.begin(LINDEN, last, "right", False)
-    assert [field.value() for field in screen.targets] == [37.5, 20.0]
+    assert [field.value() for field in screen.targets] == [37.5, -20.0]
     screen.begin(Patient("Fir 12", "left", patient_id="fir"), None, "left", False)
     assert all(math.isnan(field.value()) for field in screen.targets)
 
@@ -66,7 +66,7 @@ def test_of_a_patient_with_two_hands_affected_one_must_be_chosen(qtbot: QtBot, s
     screen.begin(Patient("Ash 7", "both", patient_id="ash"), None, None, False)
     assert not screen.primary.isEnabled()
     assert "hand" in screen.primary.text()
-    qtbot.mouseClick(screen.side.buttons()[1], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(screen.asked["side"].buttons()[1], Qt.MouseButton.LeftButton)
     assert screen.primary.isEnabled()
     assert screen.set_up().side == "left"
 
@@ -77,7 +77,7 @@ def test_enter_goes_on_from_every_field_and_after_the_targets_were_taken(qtbot: 
     screen.accept.show()
     qtbot.mouseClick(screen.accept, Qt.MouseButton.LeftButton)
     assert screen.window().focusWidget() is screen.primary, "where Enter stands"
-    for field in (screen.primary, screen.targets[0], screen.repetitions, screen.side.buttons()[0]):
+    for field in (screen.primary, screen.targets[0], screen.asked["repetitions"], screen.asked["side"].buttons()[0]):
         before = len(sent)
         field.setFocus()
         qtbot.keyClick(field, Qt.Key.Key_Return)

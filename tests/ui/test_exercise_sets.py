@@ -126,7 +126,7 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
     assert mean_deg + 3.0 < goal_deg <= mean_deg + 5.0
     screen.choose(exercise_named("WRIST_RU"))
     assert screen.set_up().target_positive_deg == 15.0
-    screen.side.buttons()[1].click()
+    screen.asked["side"].buttons()[1].click()
     assert math.isnan(screen.set_up().target_positive_deg)
     shown = progress([replace(figures, targets_deg=(goal_deg, math.nan))])
     assert Goals(shown, ("", "flexion", 1)).newest_deg == goal_deg

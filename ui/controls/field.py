@@ -111,8 +111,11 @@ class Labelled(QWidget):
         self.name = name = Text(theme, label, 14, MEDIUM, "text2")
         name.setBuddy(field)
         field.setAccessibleName(label.replace("&", ""))
-        self.row = in_line((field, 1), *beside, gap=6)
-        in_column(name, self.row, gap=4, margins=(0, 0, 0, 0), within=self)
+        column = in_column(name, gap=4, margins=(0, 0, 0, 0), within=self)
+        if beside:
+            column.addLayout(in_line((field, 1), *beside, gap=6))
+        else:
+            column.addWidget(field)
 
 
 def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "", least: int = 0) -> QSpinBox:
@@ -185,11 +188,12 @@ class NumberField(QLineEdit):
 
 
 class DegreesField(NumberField):
-    """An angle above 0, or from a lowest one, to the largest; ``nothing`` stands where it is empty."""
+    """An angle above 0, or from a lowest one, to the largest; ``nothing`` stands where it is empty. ``direction`` is
+    the sign of the value, which the person never sees."""
 
-    def __init__(self, theme: Theme, most: int, nothing: str) -> None:
+    def __init__(self, theme: Theme, most: int, nothing: str, direction: float = 1.0) -> None:
         super().__init__(theme)
-        self._least, self._most = 0, most
+        self._least, self._most, self.direction = 0, most, direction
         self.setPlaceholderText(nothing)
         self.editingFinished.connect(lambda: self.set_value(self.value()) if math.isfinite(self.value()) else None)
         self._take_theme()
@@ -197,7 +201,7 @@ class DegreesField(NumberField):
     def value(self) -> float:
         value = super().value()
         is_possible = (value >= self._least if self._least else value > 0.0) and value <= self._most
-        return value if is_possible else math.nan
+        return self.direction * value if is_possible else math.nan
 
     def set_least(self, least: int) -> None:
         """0, beyond which an angle must be, or the lowest that can be entered."""
@@ -205,7 +209,7 @@ class DegreesField(NumberField):
         self._take_theme()
 
     def set_value(self, value: float) -> None:
-        super().set_value(value)
+        super().set_value(self.direction * value)
         if not self.is_empty:
             self.setText(f"{self.text()}°")
 

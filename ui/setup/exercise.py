@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
@@ -20,10 +21,11 @@ from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import ENTER, Button, is_enter, press
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.field import Choices, DegreesField, Labelled, number_field
+from carpus.ui.controls.field import Choices, DegreesField, number_field
 from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.figures import figure_of
+from carpus.ui.forms import Field, Form, must_be_chosen
 from carpus.ui.setup.option import Options
 from carpus.ui.setup.set_words import set_words
 from carpus.ui.theme import MARGIN_PX, Theme
@@ -31,6 +33,7 @@ from carpus.ui.translate import inside, say, tr
 
 MOST_REPETITIONS, MOST_TARGET_DEG = 50, 90
 _NONE = (math.nan, math.nan)
+_TARGETS = ("target_positive_deg", "target_negative_deg")
 
 
 class ExerciseScreen(QWidget):
@@ -51,30 +54,55 @@ class ExerciseScreen(QWidget):
         self._offered = QVBoxLayout()
         self._offer()
         self.sets_button = Button(theme, self.tr("Sets of exercises…"), "plain", height_px=40)
-        self.side = Choices(theme, [(side, terms.side_name(side)) for side in ("right", "left")])
-        self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
-        self.targets = tuple(DegreesField(theme, MOST_TARGET_DEG, self.tr("no target")) for _ in range(2))
         self.problem = Text(theme, "", 14, token="bad", wrap=True)
+        self.view = Text(theme, "", 14, token="text2", wrap=True)
         self.proposal = Text(theme, "", 14, token="text2", wrap=True)
         self.accept = Button(theme, self.tr("Use as targets"), "plain", height_px=36)
-        self._target_fields = tuple(Labelled(theme, "", field) for field in self.targets)
-        self._target_names = tuple(_caption(field) for field in self._target_fields)
-        self.ends = Choices(theme, [(False, self.tr("Inferred")), (True, self.tr("Measured"))])
-        self._ends_field = Labelled(theme, self.tr("End joints of the fingers"), self.ends)
-        self.view = Text(theme, "", 14, token="text2", wrap=True)
-        self.audience = Choices(theme, [(False, self.tr("Adult")), (True, self.tr("Child"))])
-        self.pictures = Choices(theme, [(False, self.tr("No")), (True, self.tr("Yes"))])
+        self.pictures_cost = caption(theme, wrap=True)
         self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=ENTER)
+        self.targets = tuple(
+            DegreesField(theme, MOST_TARGET_DEG, self.tr("no target"), direction) for direction in (1.0, -1.0)
+        )
+        self.asked = Form(theme, self._table(theme))
         self._lay_out()
         self.protocol.chosen.connect(self._show_protocol)
         self.primary.clicked.connect(self._go_on)
-        self.side.chosen.connect(lambda _: self._show_side())
+        self.asked["side"].chosen.connect(lambda _: self._show_goals())
         self.accept.clicked.connect(self._use_proposal)
-        for field in self.targets:
-            field.textChanged.connect(lambda _: self._show_problem())
-        self.problem.hide()
+        self.asked.changed.connect(self._judge)
         theme.changed.connect(self._fit)
         self._fit()
+
+    def _table(self, theme: Theme) -> list[Field]:
+        """What is chosen beside the exercise; each field an attribute of a :class:`SetUp`."""
+        up, down = self.targets
+        return [
+            Field(
+                "side", self.tr("Hand that is measured"),
+                Choices(theme, [(side, terms.side_name(side)) for side in ("right", "left")]),
+                must_be_chosen(self.tr("Which hand is measured?")),
+            ),
+            Field(
+                "repetitions", self.tr("Repetitions"), number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
+            ),
+            Field("target_positive_deg", " ", up, lambda _: up.problem if up.isVisibleTo(self) else ""),
+            Field(
+                "target_negative_deg", " ", down, lambda _: down.problem if down.isVisibleTo(self) else "",
+                follows=True,
+            ),
+            Field(
+                "ends_free", self.tr("End joints of the fingers"),
+                Choices(theme, [(False, self.tr("Inferred")), (True, self.tr("Measured"))]),
+            ),
+            Field(
+                "for_child", self.tr("The patient’s view is for"),
+                Choices(theme, [(False, self.tr("Adult")), (True, self.tr("Child"))]),
+            ),
+            Field(
+                "keep_pictures", self.tr("Keep the pictures too"),
+                Choices(theme, [(False, self.tr("No")), (True, self.tr("Yes"))]),
+            ),
+        ]  # fmt: skip
 
     def _lay_out(self) -> None:
         theme = self._theme
@@ -83,25 +111,11 @@ class ExerciseScreen(QWidget):
         self._card = Card(theme, 24)
         self._card.body.setSpacing(12)
         self._card.body.addWidget(Text(theme, self.tr("This set"), 20, SEMIBOLD))
-        body = in_column(Labelled(theme, self.tr("Hand that is measured"), self.side), gap=16)
-        self._repetition_field = Labelled(theme, self.tr("Repetitions"), self.repetitions)
-        body.addWidget(self._repetition_field)
-        row = in_line(gap=16)
-        for field in self._target_fields:
-            row.addWidget(field)
-        fill(
-            body,
-            row,
-            self.problem,
-            self.view,
-            self.proposal,
-            (self.accept, 0, Qt.AlignmentFlag.AlignLeft),
-            self._ends_field,
-        )
-        body.addWidget(Labelled(theme, self.tr("The patient’s view is for"), self.audience))
-        body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
-        self.pictures_cost = caption(theme, wrap=True)
-        fill(body, self.pictures_cost, STRETCH)
+        side, repetitions, targets, *others = self.asked.lines()
+        body = in_column(
+            side, repetitions, targets, self.problem, self.view, self.proposal,
+            (self.accept, 0, Qt.AlignmentFlag.AlignLeft), *others, self.pictures_cost, STRETCH, gap=16,
+        )  # fmt: skip
         fill(self._card.body, (scrolled(body), 1), self.primary)
         columns = in_line(
             (left, 1), gap=MARGIN_PX, margins=(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4), within=self
@@ -123,7 +137,7 @@ class ExerciseScreen(QWidget):
     def show_sets(self, sets: Sequence[ExerciseSet], chosen_id: str = "") -> None:
         """What is offered beside the single exercises, and which one is chosen from now on."""
         chosen = _set_id(chosen_id) if chosen_id else self.exercises.value()
-        count = self.repetitions.value()
+        count = self.asked["repetitions"].value()
         self._sets = tuple(sets)
         self._offer()
         known = [name for name, _, _ in _rows(protocol_named(str(self.protocol.value())), self._sets)]
@@ -131,7 +145,7 @@ class ExerciseScreen(QWidget):
             self.exercises.choose(chosen)
         self._show_protocol()
         if chosen == self.exercises.value() and self._set(chosen) is None:
-            self.repetitions.setValue(count)
+            self.asked["repetitions"].setValue(count)
 
     def _fit(self) -> None:
         self._card.setFixedWidth(self._theme.px(376))
@@ -149,26 +163,15 @@ class ExerciseScreen(QWidget):
                 pattern.format(size=written(mb_per_minute), time=numbers.room_left(room_minutes))
             )
         self._row, self._goals, self._history = row, goals or {}, ()
-        if last is not None:
-            self.choose(last.exercise, last.protocol)
-            if last.course is not None and self._set(_set_id(last.course.set_id)) is not None:
-                self.exercises.choose(_set_id(last.course.set_id))
-                self._show_protocol()
-        else:
-            self.choose(exercises_of(PROTOCOLS[0])[0])
-        if side is None:
-            self.side.choose(None)
-        else:
-            self.side.choose(side)
-        self.pictures.choose(keep_pictures)
-        self.audience.choose(last is not None and last.for_child)
-        if last is not None:
-            self.repetitions.setValue(last.repetitions)
-            self.ends.choose(last.ends_free)
-            self._show_targets((last.target_positive_deg, last.target_negative_deg))
-        else:
-            self._show_targets(_NONE)
-        self._show_problem()
+        first = exercises_of(PROTOCOLS[0])[0]
+        start = last or SetUp(row.patient_id, row.pseudonym, "right", first, first.repetitions, *_NONE)
+        self.choose(start.exercise, start.protocol)
+        if start.course is not None and self._set(_set_id(start.course.set_id)) is not None:
+            self.exercises.choose(_set_id(start.course.set_id))
+            self._show_protocol()
+        self.asked.fill(replace(start, keep_pictures=keep_pictures))
+        self.asked["side"].choose(side)
+        self._judge()
 
     @property
     def exercises(self) -> Options:
@@ -185,27 +188,14 @@ class ExerciseScreen(QWidget):
 
     def set_up(self) -> SetUp:
         assert self._row is not None
-        exercise = self._exercise()
-        side: Side = "left" if self.side.value() == "left" else "right"
-        positive, negative = (field.value() for field in self.targets)
-        negative = -negative  # the angle's sign, which the person never sees
+        exercise, now = self._exercise(), self.asked.values()
         if exercise.angle is None:
-            negative = math.nan
+            now["target_negative_deg"] = math.nan
         if not exercise.counts:
-            positive = math.nan
-        single = SetUp(
-            self._row.patient_id,
-            self._row.pseudonym,
-            side,
-            exercise,
-            self.repetitions.value() if exercise.counts else 0,
-            positive,
-            negative,
-            bool(self.pictures.value()),
-            self._discs().has_fingers and bool(self.ends.value()),
-            self._discs().name,
-            bool(self.audience.value()),
-        )
+            now |= {"repetitions": 0, "target_positive_deg": math.nan}
+        now["ends_free"] = now["ends_free"] and self._discs().has_fingers
+        now["side"] = now["side"] or "right"
+        single = SetUp(self._row.patient_id, self._row.pseudonym, exercise=exercise, discs=self._discs().name, **now)
         chosen = self._set(self.exercises.value())
         return begun(chosen, single, self._goals) if chosen is not None else single
 
@@ -225,40 +215,25 @@ class ExerciseScreen(QWidget):
         exercise = chosen.parts[0].exercise if chosen is not None else exercise_named(str(exercise_id))
         if not exercise.is_allowed_by(self._discs()):
             return  # the list that is not shown
-        if chosen is not None:
-            self._show_set(chosen)
-            return
-        self._repetition_field.setVisible(exercise.counts)
-        for number, (field, name) in enumerate(zip(self._target_fields, self._target_names, strict=True)):
-            field.setVisible(exercise.angle is not None or (bool(exercise.joint) and number == 0))
-            if exercise.joint and number == 0:
-                movement = figure_of(exercise.joint).long_name
-            elif exercise.angle is not None:
-                movement = terms.movement_name(SIDES[exercise.angle][number])
-            else:
-                continue
-            words = self.tr("Target, {movement}").format(movement=inside(movement))
-            name.setText(words)
-            self.targets[number].setAccessibleName(words)
-            self.targets[number].set_least(-MOST_TARGET_DEG if exercise.angle == PRONOSUPINATION else 0)
-        if exercise.counts:
-            self.repetitions.setValue(exercise.repetitions)
+        single, parts = chosen is None, self.asked.parts  # a set brings its own counts; targets come from the goals
+        parts["repetitions"].setVisible(single and exercise.counts)
+        names = [terms.movement_name(one) for one in SIDES[exercise.angle]] if exercise.angle is not None else []
+        names = names or ([figure_of(exercise.joint).long_name] if exercise.joint else [])
+        for number, (field, part) in enumerate(zip(self.targets, _TARGETS, strict=True)):
+            parts[part].setVisible(single and number < len(names))
+            if number < len(names):
+                words = self.tr("Target, {movement}").format(movement=inside(names[number]))
+                parts[part].name.setText(words)
+                field.setAccessibleName(words)
+                field.set_least(-MOST_TARGET_DEG if exercise.angle == PRONOSUPINATION else 0)
+        if single and exercise.counts:
+            self.asked["repetitions"].setValue(exercise.repetitions)
         self._show_goals()
-        self._ends_field.setVisible(self._discs().has_fingers)
-        self.ends.choose(exercise.ends_free)
-        words = say(exercise.unseen)
-        self.view.say(words)
-        self._show_problem()
-
-    def _show_set(self, chosen: ExerciseSet) -> None:
-        """A set brings its own counts; targets come from the goals."""
-        for field in (self._repetition_field, *self._target_fields):
-            field.hide()
-        self._show_proposal()
-        self._ends_field.setVisible(self._discs().has_fingers)
-        self.ends.choose(any(part.exercise.ends_free for part in chosen.parts))
-        self.view.hide()
-        self._show_problem()
+        parts["ends_free"].setVisible(self._discs().has_fingers)
+        exercises = [part.exercise for part in chosen.parts] if chosen is not None else [exercise]
+        self.asked["ends_free"].choose(any(one.ends_free for one in exercises))
+        self.view.say(say(exercise.unseen) if single else "")
+        self._judge()
 
     def show_history(self, patient_id: str, history: Sequence[SessionFigures]) -> None:
         """What was measured before, by which goals are proposed; of somebody else it is not shown."""
@@ -268,24 +243,17 @@ class ExerciseScreen(QWidget):
             self._show_proposal()
 
     def _side(self) -> Side | None:
-        value = self.side.value()
-        return None if value is None else "left" if value == "left" else "right"
-
-    def _show_side(self) -> None:
-        self._show_goals()
-        self._show_problem()
+        side: Side | None = self.asked["side"].value()
+        return side
 
     def _show_goals(self) -> None:
         """The targets that were last set for this exercise and hand; none leaves the fields empty."""
         side = self._side()
         if self._set(self.exercises.value()) is None and side is not None:
-            self._show_targets(self._goals.get((self._exercise().id, side), _NONE))
+            goals_deg = self._goals.get((self._exercise().id, side), _NONE)
+            for field, value in zip(self.targets, goals_deg, strict=True):
+                field.set_value(value)
         self._show_proposal()
-
-    def _show_targets(self, targets_deg: tuple[float, float]) -> None:
-        """Each in its own direction, of supination below 0 where it stops short of thumb up."""
-        for field, direction, value in zip(self.targets, (1.0, -1.0), targets_deg, strict=True):
-            field.set_value(direction * value)
 
     def _show_proposal(self) -> None:
         """What the last sessions speak for, in one sentence, and a button that takes it over."""
@@ -299,8 +267,8 @@ class ExerciseScreen(QWidget):
 
     def _use_proposal(self) -> None:
         for one in self._proposed:
-            self.targets[0 if one.direction > 0 else 1].set_value(one.goal_deg)
-        self._show_problem()
+            field = self.targets[0 if one.direction > 0 else 1]
+            field.set_value(field.direction * one.goal_deg)
         self.primary.setFocus(Qt.FocusReason.OtherFocusReason)  # where Enter stands
 
     def _show_protocol(self, *_: object) -> None:
@@ -308,12 +276,13 @@ class ExerciseScreen(QWidget):
             options.setVisible(name == self.protocol.value())
         self._show_exercise(self.exercises.value())
 
-    def _show_problem(self) -> None:
-        words = next((field.problem for field in self.targets if field.isVisibleTo(self) and field.problem), "")
-        self.problem.say(words)
-        to_choose = self.side.value() is None
-        self.primary.setEnabled(not words and not to_choose)
-        self.primary.set_face(self.tr("Which hand is measured?") if to_choose else self.tr("Next: the camera"))
+    def _judge(self) -> None:
+        """What is wrong with a target stands below them, and that a hand is to be chosen on the button."""
+        wrong, words = self.asked.fault()
+        of_side = wrong is self.asked["side"]
+        self.problem.say("" if of_side else words)
+        self.primary.setEnabled(not words)
+        self.primary.set_face(words if of_side else self.tr("Next: the camera"))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if not (is_enter(event) and press(self.primary)):
@@ -322,10 +291,6 @@ class ExerciseScreen(QWidget):
     def _go_on(self) -> None:
         if self.primary.isEnabled():
             self.ready.emit(self.set_up())
-
-
-def _caption(field: Labelled) -> Text:
-    return next(child for child in field.findChildren(Text))
 
 
 def _rows(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[str, str, str]]:
