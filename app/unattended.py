@@ -238,12 +238,12 @@ def lines_of(figures: SessionFigures) -> list[str]:
     shares = f"{written(100.0 * quality.measured_share, 1)} % measured, {quality.dropped} missing"
     lines = [f"Frames:  {quality.frames} in {written(figures.duration_s, 1)} s, {shares}"]
     lines.append(f"Repetitions: {figures.counted}")
-    for row in figures.rows:
-        name = terms.movement_long_name(row.movement)
-        lines.append(f"{name}: {terms.end_words(row.mean_deg, row.movement, row.sd_deg)}")
-    for row in figures.joint_rows:
-        if row.movement == "arc" and row.count:
-            value = numbers.with_spread(row.mean_deg, row.sd_deg)
-            value = f"at least {numbers.degrees(row.mean_deg)}" if row.limited else value
-            lines.append(f"{figure_of(row.joint).long_name}: {value}")
+    for row in figures.wrist_ranges:
+        name = terms.movement_long_name(row.what)
+        lines.append(f"{name}: {terms.end_words(row.mean, row.what, row.sd)}")
+    for row in figures.joint_ranges:
+        if row.what == "arc" and row.count:
+            value = numbers.with_spread(row.mean, row.sd)
+            value = f"at least {numbers.degrees(row.mean)}" if row.at_least else value
+            lines.append(f"{figure_of(row.of).long_name}: {value}")
     return lines

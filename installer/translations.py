@@ -55,9 +55,9 @@ def further_source() -> str:
 
 
 def phrase_texts() -> list[str]:
-    """The templates of ``phrase("...")`` in core and app, sorted; their context is always the empty one."""
+    """The templates of ``phrase("...")``, sorted; their context is always the empty one."""
     found = set()
-    for part in ("core", "app"):
+    for part in ("core", "app", "ui"):
         for path in (ROOT / part).rglob("*.py"):
             source = path.read_text(encoding="utf-8")
             if "phrase(" in source:

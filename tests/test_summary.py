@@ -79,8 +79,8 @@ def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
     made = fakes.session(seconds=20.0, exercise=exercise)
     figures = session_figures(made)
     lines = {line.split()[0]: line for line in range_lines(made, figures)}
-    flexion, extension, arc = (figures.row(name, 1) for name in ("flexion", "extension", "arc"))
-    ends = f"from {extension.mean_deg:.1f}° extension to {flexion.mean_deg:.1f}° flexion, arc {arc.mean_deg:.1f}°"
+    flexion, extension, arc = (figures.find("flexion", name) for name in ("flexion", "extension", "arc"))
+    ends = f"from {extension.mean:.1f}° extension to {flexion.mean:.1f}° flexion, arc {arc.mean:.1f}°"
     counted = f", mean of {figures.counted} repetitions" if exercise == "WRIST_FE" else ""
     assert lines["flexion"].split(maxsplit=1)[1] == ends + counted
     assert figures.counted >= 2 or exercise == "FREE"

@@ -11,24 +11,14 @@ from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.pipeline.live_values import StartMode
 from carpus.core.records.values import Patient
+from carpus.core.results.measure import Measure
+from carpus.core.results.progress import Comparison
 from carpus.core.session.values import AngleOrder
 from carpus.core.types import ByteImage, FloatArray, Frame, Side
 
-
 # --- patients ---------------------------------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class ResultLine:
-    """The last result of one movement; ``verdict`` as of :mod:`core.results.progress`."""
-
-    movement: str
-    mean_deg: float
-    sd_deg: float
-    change_deg: float
-    verdict: str
-    joint: str = ""
-    """The joint angle or ``TAM3`` of the whole hand, by its name in every file; empty for the wrist."""
-    at_least: bool = False
-    """Whether the joint went out of the camera's sight beyond this figure."""
+Result = tuple[Measure, Comparison | None]
+"""What the last session measured, and how it changed since the first one that compares."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +26,7 @@ class PatientCard:
     """What the therapist must recall before the next session."""
 
     patient: Patient
-    results: Sequence[ResultLine] = ()
+    results: Sequence[Result] = ()
     last_set: str = ""
     note: str = ""
     note_when: datetime | None = None

@@ -482,10 +482,10 @@ def _range_end(figures: SessionFigures | None, angle: str, movement: str) -> flo
     """Mean of the ranges that way, radians with its sign."""
     if figures is None:
         return math.nan
-    for row in (*figures.rows, *figures.joint_rows):
-        if row.movement == movement and (row.joint or WRIST_ANGLES[row.angle]) == angle:
-            away = movement in ("extension", "ulnar", "pronation") and not row.joint
-            end = math.radians(-row.mean_deg if away else row.mean_deg)
-            is_forearm = movement in ("supination", "pronation")  # which a range has from thumb up, and a pair not
-            return float(pronosupination_from_palm_down(np.array(end))) if is_forearm else end
-    return math.nan
+    row = figures.find(angle, movement)
+    if row is None:
+        return math.nan
+    away = movement in ("extension", "ulnar", "pronation") and row.angle >= 0
+    end = math.radians(-row.mean if away else row.mean)
+    is_forearm = movement in ("supination", "pronation")  # which a range has from thumb up, and a pair not
+    return float(pronosupination_from_palm_down(np.array(end))) if is_forearm else end

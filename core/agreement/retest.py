@@ -17,7 +17,6 @@ import scipy
 
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
 from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, cell, new_table
-from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import FEWEST_PEOPLE, MDC95_FACTOR, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import newest_results, unfair_reasons
@@ -196,11 +195,7 @@ def _study(group: Sequence[SessionFigures], raters: Mapping[str, str]) -> StudyF
 
 def _readings(figures: SessionFigures) -> dict[tuple[str, str], float]:
     """Mean of every movement that was seen whole, degrees, by angle or joint and movement."""
-    return {
-        (row.joint or WRIST_ANGLES[row.angle], row.movement): row.mean_deg
-        for row in (*figures.rows, *figures.joint_rows)
-        if row.count and not (row.joint and row.limited)
-    }
+    return {row.key: row.mean for row in figures.group("range") if row.count and not (row.angle < 0 and row.at_least)}
 
 
 HEAD = (

@@ -73,6 +73,6 @@ def norms_of(figures: SessionFigures) -> list[dict[str, Any]]:
     if angle is not None:
         ways: tuple[Movement, ...] = ("arc", *SIDES[angle])
         wrist = [(movement, wrist_norm(movement, angle, figures.exercise)) for movement in ways]
-    fingers = sorted({grade.finger for grade in figures.grades})
-    both = [*wrist, *((f"TAM{finger}", total_norm(finger, figures.exercise)) for finger in fingers)]
+    totals = sorted({share.of for share in figures.group("share")})
+    both = [*wrist, *((of, total_norm(int(of[3:]), figures.exercise)) for of in totals)]
     return [{"of": of} | asdict(norm) for of, norm in both if norm is not None]

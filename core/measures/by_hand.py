@@ -33,8 +33,8 @@ class HandMeasure:
 
     ``least`` and ``most`` can be entered at all; outside ``usual`` the person is asked to look again. ``tries`` are
     averaged. ``of_hand``: it is of one hand, else of the person. ``name`` is empty of angles: it follows from the id.
-    ``figure`` is what Carpus measures of the same: joint (empty for the wrist), movement, column of the wrist's
-    angle. ``usual_form``: on the form without being asked for.
+    ``figure`` is what Carpus measures of the same: angle or joint, and movement. ``usual_form``: on the form without
+    being asked for.
     """
 
     id: str
@@ -49,13 +49,13 @@ class HandMeasure:
     ways: tuple[Way, ...] = ("",)
     tries: int = 1
     of_hand: bool = True
-    figure: tuple[str, str, int] | None = None
+    figure: tuple[str, str] | None = None
     usual_form: bool = False
     decimals: int = 0
     name: str = ""
 
 
-def _angle(name: str, most: float, figure: tuple[str, str, int] | None, *, usual_form: bool = False) -> HandMeasure:
+def _angle(name: str, most: float, figure: tuple[str, str] | None, *, usual_form: bool = False) -> HandMeasure:
     return HandMeasure(
         name, "angle", "deg", -90.0, 180.0, (-20.0, most), "more", GONIOMETER_DEG, ANGLE_SOURCE,
         ways=("active", "passive"), figure=figure, usual_form=usual_form,
@@ -89,12 +89,12 @@ def _score(
 
 
 _WRIST = (
-    _angle("FLEXION", 100.0, ("", "flexion", 1), usual_form=True),
-    _angle("EXTENSION", 95.0, ("", "extension", 1), usual_form=True),
-    _angle("RADIAL", 40.0, ("", "radial", 0), usual_form=True),
-    _angle("ULNAR", 55.0, ("", "ulnar", 0), usual_form=True),
-    _angle("PRONATION", 100.0, ("", "pronation", 2)),
-    _angle("SUPINATION", 105.0, ("", "supination", 2)),
+    _angle("FLEXION", 100.0, ("flexion", "flexion"), usual_form=True),
+    _angle("EXTENSION", 95.0, ("flexion", "extension"), usual_form=True),
+    _angle("RADIAL", 40.0, ("deviation", "radial"), usual_form=True),
+    _angle("ULNAR", 55.0, ("deviation", "ulnar"), usual_form=True),
+    _angle("PRONATION", 100.0, ("pronosupination", "pronation")),
+    _angle("SUPINATION", 105.0, ("pronosupination", "supination")),
 )
 _THUMB_MOST = {"MCP": 80.0, "IP": 100.0}
 _FINGER_MOST = {"MCP": 100.0, "PIP": 125.0, "DIP": 100.0}
@@ -103,7 +103,7 @@ _JOINTS = tuple(
     for finger in (1, 2, 3, 4, 5)
     for joint, most in (_THUMB_MOST if finger == 1 else _FINGER_MOST).items()
     for measure in (
-        _angle(f"{joint}{finger}_FLEXION", most, (f"{joint}{finger}_flexion", "flexion", -1)),
+        _angle(f"{joint}{finger}_FLEXION", most, (f"{joint}{finger}_flexion", "flexion")),
         # Carpus's least bent angle is no extension of the joint by itself: the two do not stand beside each other.
         _angle(f"{joint}{finger}_EXTENSION", 45.0, None),
     )

@@ -1,9 +1,10 @@
 """What review, progress and report say of a session, as figures; the words and the page are the screen's.
 
-Here they are put together, with how sure they are and the strokes' speed. The rest is made in the file of its topic, on
-a session as :mod:`core.results.seen` has it, by the bare mathematics of :mod:`core.measures`, which knows no session:
-``ranges``, ``repetition_rows``, ``further_measures``, ``norms``; what changed between sessions in ``progress`` and
-``side_by_side``. Degrees, degrees per second, millimetres and seconds, since people read them. NaN is unknown.
+Here they are put together to one table of measures (``measure``), with how sure they are and the strokes' speed. The
+rest is made in the file of its topic, on a session as :mod:`core.results.seen` has it, by the bare mathematics of
+:mod:`core.measures`, which knows no session: ``ranges``, ``repetition_rows``, ``further_measures``, ``norms``; what
+changed between sessions in ``progress`` and ``side_by_side``. Degrees, degrees per second, millimetres and seconds,
+since people read them. NaN is unknown.
 """
 
 from __future__ import annotations
@@ -17,19 +18,20 @@ from datetime import datetime
 import numpy as np
 
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.hand.exercises import STILL_RADIUS_MM, Exercise, Movement
+from carpus.core.hand.exercises import STILL_RADIUS_MM, Exercise
 from carpus.core.hand.forearm_rotation import read_targets_deg
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits, RetestStudy
 from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import WristCentre, rotation_in_place, wrist_centre
-from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.measures.repetitions import Uncounted, what_was_not_counted
 from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
-from carpus.core.results.further_measures import Attempts, FurtherMeasure, further_measures
-from carpus.core.results.norms import GradedTotal, graded_totals
-from carpus.core.results.ranges import RangeRow, joint_rows, trick_deg, wrist_rows
+from carpus.core.results.further_measures import Attempts, further_measures
+from carpus.core.results.measure import Group, Measure, Unknown, measure_values
+from carpus.core.results.norms import total_shares
+from carpus.core.results.ranges import joint_ranges, still_measures, wrist_ranges
 from carpus.core.results.repetition_rows import (
     ACTIVE,
     PASSIVE,
@@ -47,73 +49,30 @@ from carpus.core.session.marker_doubts import CorrectedFrom, corrected_from
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.types import FloatArray, Side, TrackStatus
 
-
-@dataclass(frozen=True, slots=True)
-class StrokeSpread:
-    """A quantity over strokes or repetitions; ``best`` the quickest or smoothest, NaN where neither way is better;
-    ``measurement_sd`` of one of them by the tracker's noise, NaN unknown."""
-
-    mean: float
-    sd: float
-    best: float
-    count: int
-    measurement_sd: float = math.nan
+Best = Callable[[Sequence[float]], float] | None
+SPEEDS: tuple[tuple[str, str, str, Best], ...] = (
+    ("peak speed", "deg/s", "peak_speed_rad_s", max), ("smoothness", "SPARC", "sparc", max),
+    ("mean speed", "deg/s", "mean_speed_rad_s", max), ("movement time", "s", "movement_time_s", min),
+    ("time to peak", "share", "time_to_peak_share", None), ("movement units", "1", "peaks", min),
+    ("jerk", "LDLJ", "ldlj", max), ("pauses", "1", "pauses", min), ("pause time", "s", "pause_s", min),
+)  # fmt: skip
+"""Name, unit and attribute of what is measured of every stroke, and which is its best."""
 
 
-@dataclass(frozen=True, slots=True)
-class SpeedFigures:
-    """Strokes in figures: degrees per second, seconds, shares, dimensionless; ``smoothness`` is SPARC.
-
-    ``too_slow`` strokes of ``count`` whose speed is lost in the tracker's noise, ``too_slow_to_be_smooth`` those whose
-    smoothness is: of them nothing is said.
-    """
-
-    count: int
-    too_slow: int
-    too_slow_to_be_smooth: int
-    peak_speed: StrokeSpread
-    smoothness: StrokeSpread
-    mean_speed: StrokeSpread
-    movement_time: StrokeSpread
-    time_to_peak: StrokeSpread
-    peaks: StrokeSpread
-    ldlj: StrokeSpread
-    pauses: StrokeSpread
-    pause_time: StrokeSpread
-
-    @classmethod
-    def of(cls, strokes: Sequence[StrokeMeasures]) -> SpeedFigures:
-        """Of the strokes that count."""
-        return cls(
-            len(strokes),
-            sum(stroke.too_slow for stroke in strokes),
-            sum(stroke.too_slow_to_be_smooth for stroke in strokes),
-            _spread(
-                [math.degrees(stroke.peak_speed_rad_s) for stroke in strokes],
-                [math.degrees(stroke.peak_speed_sd_rad_s) for stroke in strokes],
-            ),
-            _spread([stroke.sparc for stroke in strokes]),
-            _spread([math.degrees(stroke.mean_speed_rad_s) for stroke in strokes]),
-            _spread([stroke.movement_time_s for stroke in strokes], best=min),
-            _spread([stroke.time_to_peak_share for stroke in strokes], best=None),
-            _spread([stroke.peaks for stroke in strokes], best=min),
-            _spread([stroke.ldlj for stroke in strokes]),
-            _spread([stroke.pauses for stroke in strokes], best=min),
-            _spread([stroke.pause_s for stroke in strokes], best=min),
-        )
-
-
-def _spread(
-    values: Sequence[float], sds: Sequence[float] = (), best: Callable[[Sequence[float]], float] | None = max
-) -> StrokeSpread:
-    known = np.array([value for value in values if math.isfinite(value)])
-    if not len(known):
-        return StrokeSpread(math.nan, math.nan, math.nan, 0)
-    stated = np.array([sd for value, sd in zip(values, sds, strict=False) if math.isfinite(value + sd)])
-    sd = float(known.std(ddof=1)) if len(known) >= FEWEST_FOR_SPREAD else math.nan
-    measurement_sd = float(np.sqrt(np.mean(stated**2))) if len(stated) else math.nan
-    the_best = math.nan if best is None else float(best(known.tolist()))
-    return StrokeSpread(float(known.mean()), sd, the_best, len(known), measurement_sd)
+def speed_measures(of: str, strokes: Sequence[StrokeMeasures]) -> tuple[Measure, ...]:
+    """Summarise the strokes that count; of those whose speed or smoothness the tracker's noise hides nothing is
+    known."""
+    slow: dict[str, Unknown] = {
+        "peak speed": "too_slow" if any(one.too_slow for one in strokes) else "",
+        "smoothness": "too_slow" if any(one.too_slow_to_be_smooth for one in strokes) else "",
+    }
+    out = []
+    for what, unit, name, best in SPEEDS:
+        read = math.degrees if unit == "deg/s" else float
+        sds = [math.degrees(one.peak_speed_sd_rad_s) for one in strokes] if what == "peak speed" else ()
+        values = [read(getattr(one, name)) for one in strokes]
+        out.append(measure_values("speed", of, what, unit, values, sds=sds, best=best, unknown=slow.get(what, "")))
+    return tuple(out) if strokes else ()
 
 
 STILLNESS_CUTOFF_HZ = 3.0
@@ -201,7 +160,7 @@ def _typical_joint_sd(tracks: Mapping[str, JointTrack]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class SessionFigures:
-    """One session in figures. ``trick_deg`` (3,) largest other angles, NaN for the trained one and without a limit."""
+    """What is said of one session: its ``measures``, and what makes them comparable or doubtful."""
 
     session_id: str
     subject_id: str
@@ -215,14 +174,10 @@ class SessionFigures:
     software_version: str
     start_angles_deg: FloatArray
     repetitions: tuple[ShownRepetition, ...]
-    rows: tuple[RangeRow, ...]
-    trick_deg: FloatArray
-    speed: SpeedFigures
+    measures: tuple[Measure, ...]
     quality: Quality
     pain: tuple[int, ...]
     notes: tuple[tuple[float, str], ...]
-    joint_rows: tuple[RangeRow, ...] = ()
-    """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
     findings: tuple[CalibrationFinding, ...] = ()
     """What was doubtful at the calibration, and measured all the same."""
     simulated: bool = False
@@ -235,9 +190,6 @@ class SessionFigures:
     """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
     pain_s: tuple[float, ...] = ()
     """When each of ``pain`` was said, after the first frame."""
-    further: tuple[FurtherMeasure, ...] = ()
-    """Reaches, finger tips, moving together, tremor: what the exercise has beside its ranges."""
-    grades: tuple[GradedTotal, ...] = ()
     uncounted: Uncounted | None = None
     """Why there is no repetition, None where there are some or none are counted."""
     unseen_s: float = 0.0
@@ -254,8 +206,6 @@ class SessionFigures:
     """Which camera it was measured with, and its calibration."""
     corrected: CorrectedFrom | None = None
     """Since when it stands with markers that a person put right; None as measured."""
-    passive: SessionFigures | None = None
-    """The same of the repetitions in which somebody else moved the hand; None without any. Never in the others."""
     without_passive: bool = False
     """Whether ranges over the whole recording leave out stretches in which somebody else moved the hand."""
 
@@ -268,10 +218,45 @@ class SessionFigures:
     def counted(self) -> int:
         return sum(repetition.counts for repetition in self.repetitions)
 
-    def row(self, movement: Movement, angle: int, joint: str = "") -> RangeRow | None:
-        """The row of one movement of one angle of the wrist, or of a joint (``angle`` is -1 then)."""
-        rows = self.joint_rows if joint else self.rows
-        return next((row for row in rows if row.key == (joint, movement, angle)), None)
+    @property
+    def trained(self) -> str:
+        """The joint or the wrist's angle that the exercise trains; empty where it trains none."""
+        exercise = self.exercise
+        return exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
+
+    @property
+    def has_passive(self) -> bool:
+        """Whether there are repetitions in which somebody else moved the hand."""
+        return any(repetition.helped for repetition in self.repetitions)
+
+    def find(self, of: str, what: str) -> Measure | None:
+        """The measure of an angle, joint or way, without what was passive."""
+        return next((one for one in self.measures if one.key == (of, what) and not one.passive), None)
+
+    def group(self, group: Group) -> tuple[Measure, ...]:
+        """All measures of a group, without what was passive."""
+        return tuple(one for one in self.measures if one.group == group and not one.passive)
+
+    @property
+    def wrist_ranges(self) -> tuple[Measure, ...]:
+        return tuple(one for one in self.group("range") if one.angle >= 0)
+
+    @property
+    def joint_ranges(self) -> tuple[Measure, ...]:
+        """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
+        return tuple(one for one in self.group("range") if one.angle < 0)
+
+    def speed(self, what: str) -> Measure | None:
+        """One of :data:`SPEEDS`; None where no stroke was measured."""
+        return next((one for one in self.group("speed") if one.what == what), None)
+
+    def as_passive(self) -> SessionFigures | None:
+        """The session as if the repetitions in which somebody else moved the hand were all of it; None without any."""
+        if not self.has_passive:
+            return None
+        repetitions = (replace(one, reason="" if one.helped else one.reason or ACTIVE) for one in self.repetitions)
+        measures = (replace(one, passive=False) for one in self.measures if one.passive)
+        return replace(self, repetitions=tuple(repetitions), measures=tuple(measures))
 
 
 def session_figures(
@@ -286,18 +271,27 @@ def session_figures(
         measured = attempts.compute("repetitions", lambda: measured_repetitions(trained, choices), ())
     repetitions = shown_repetitions(measured)
     counted = tuple(one.window for one in measured if one.row.counted)
+    helped = tuple(one.window for one in measured if one.left_out == PASSIVE and not one.unmeasured)
     active = without_passive(session, measured)
     own = seen if active is session else SeenSession.of(active)
     over = seen if counted else own
-    rows = attempts.compute("ranges", lambda: wrist_rows(over, counted), ())
-    joints = attempts.compute("ranges of joints", lambda: joint_rows(over.tracks, counted, over.exercise), ())
+    rows = attempts.compute("ranges", lambda: wrist_ranges(over, counted), ())
+    rows += attempts.compute("ranges of joints", lambda: joint_ranges(over.tracks, counted, over.exercise), ())
     if not counted and any(one.is_whole for one in repetitions):
-        rows, joints = (), ()  # all were left out: nothing is measured, least of all the whole recording
+        rows = ()  # all were left out: nothing is measured, least of all the whole recording
+    passive: tuple[Measure, ...] = ()
+    if helped:
+        passive = attempts.compute("ranges", lambda: wrist_ranges(seen, helped), ())
+        passive += attempts.compute("ranges of joints", lambda: joint_ranges(seen.tracks, helped, seen.exercise), ())
     strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.half]
-    trick = attempts.compute("other movements", lambda: trick_deg(own), np.full(3, math.nan))
-    speed = attempts.compute("speed", lambda: SpeedFigures.of(strokes), SpeedFigures.of(()))
+    still = attempts.compute("other movements", lambda: still_measures(own), ())
+    speeds: tuple[Measure, ...] = ()
+    if trained is not None:
+        speeds = attempts.compute("speed", lambda: speed_measures(trained.name, strokes), ())
     quality = attempts.compute("quality", lambda: quality_of(seen, repetitions), Quality.unknown(len(session)))
-    grades = attempts.compute("grades", lambda: graded_totals(joints, seen.exercise), ())
+    shares = attempts.compute("grades", lambda: total_shares(rows, seen.exercise), ())
+    uncounted = attempts.compute("repetitions", lambda: _why_none(seen, trained), None)
+    task = (*further_measures(own), *attempts.as_measures())
     pains = [(time_s, int(text)) for time_s, text in _told(session, "pain") if text.isdigit()]
     return SessionFigures(
         session_id=header.session_id,
@@ -312,14 +306,9 @@ def session_figures(
         software_version=header.software_version,
         start_angles_deg=np.degrees(session.calibration.start_angles_rad),
         repetitions=repetitions,
-        rows=rows,
-        joint_rows=joints,
-        trick_deg=trick,
-        speed=speed,
+        measures=(*rows, *(replace(one, passive=True) for one in passive), *task, *shares, *speeds, *still),
         quality=quality,
-        further=(*further_measures(own), *attempts.as_measures()),
-        grades=grades,
-        uncounted=attempts.compute("repetitions", lambda: _why_none(seen, trained), None),
+        uncounted=uncounted,
         unseen_s=sum(end - start for start, end in trained.found.unseen_s) if trained is not None else 0.0,
         pain=tuple(score for _, score in pains),
         pain_s=tuple(time_s for time_s, _ in pains),
@@ -334,19 +323,8 @@ def session_figures(
         error_limits=error_limits,
         camera=camera_said(header.parameters),
         corrected=corrected_from(session),
-        passive=_of_passive(session, choices, measured, error_limits),
         without_passive=not counted and own is not seen,
     )
-
-
-def _of_passive(
-    session: Session, choices: RepetitionChoices, measured: Sequence[Measured], error_limits: ErrorLimits
-) -> SessionFigures | None:
-    """The figures of what was helped alone: all else is left out of them."""
-    if not any(one.left_out == PASSIVE and not one.unmeasured for one in measured):
-        return None
-    others = {n: "" if one.left_out == PASSIVE else one.left_out or ACTIVE for n, one in enumerate(measured)}
-    return session_figures(session, replace(choices, left_out=others), error_limits)
 
 
 def data_digest(session: Session) -> str:

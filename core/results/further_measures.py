@@ -6,7 +6,7 @@ import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from carpus.core.measures.forearm import rotation_in_place
 from carpus.core.measures.reach import TIP_NOISE, WRIST_NOISE, Reach, distance_m, find_reaches
 from carpus.core.measures.signals import BoolArray, even_signal, stretches
 from carpus.core.measures.together import co_flexion, digit_coherence, enslaving_share, synergy_share, tremor
+from carpus.core.phrase import Phrase, phrase
+from carpus.core.results.measure import Measure, Unknown, measure_values
 from carpus.core.results.seen import SeenSession, best_motion
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
@@ -34,32 +36,49 @@ _THUMB = ("CMC1", "MCP1", "IP1")
 
 
 @dataclass(frozen=True, slots=True)
-class FurtherMeasure:
-    """One figure: ``name`` of the measure, what it is ``of``, its ``unit``, and its ``values``, one each time."""
+class Quantity:
+    """What a measure is called, with ``{one}`` and ``{other}`` of two digits, its unit, and its decimals for people."""
 
-    name: str
-    of: str
+    name: Phrase
     unit: str
-    values: tuple[float, ...]
-    unknown: Literal["", "too_slow", "hidden", "few_frames", "failed"] = ""
-    """Why nothing is known: every movement was so slow that the tracker's noise hides it, the camera did not see what
-    decides it or gave too few frames a second for it, or it could not be computed."""
+    decimals: int = 0
 
-    @property
-    def count(self) -> int:
-        return sum(math.isfinite(value) for value in self.values)
 
-    @property
-    def mean(self) -> float:
-        """NaN where nothing is known."""
-        known = [value for value in self.values if math.isfinite(value)]
-        return float(np.mean(known)) if known else math.nan
-
-    @property
-    def sd(self) -> float:
-        """Between the times; NaN below three."""
-        known = [value for value in self.values if math.isfinite(value)]
-        return float(np.std(known, ddof=1)) if len(known) >= 3 else math.nan
+QUANTITIES: Mapping[str, Quantity] = {
+    "movement time": Quantity(phrase("Movement time"), "s", 2),
+    "peak speed": Quantity(phrase("Peak speed"), "mm/s"),
+    "time to peak": Quantity(phrase("Peak reached after"), "share"),
+    "path length": Quantity(phrase("Length of the way"), "mm"),
+    "straightness": Quantity(phrase("Way / straight line"), "length/chord", 2),
+    "movement units": Quantity(phrase("Peaks of speed"), "1", 1),
+    "smoothness": Quantity(phrase("Smoothness (SPARC)"), "SPARC", 2),
+    "largest aperture": Quantity(phrase("Widest opening, thumb–index"), "mm"),
+    "wrist extension at grasp": Quantity(phrase("Wrist at the grasp"), "deg"),
+    "hand span": Quantity(phrase("Hand span, thumb–little"), "mm"),
+    "tip span": Quantity(phrase("Widest span, {one}–{other}"), "mm"),
+    "least distance": Quantity(phrase("Nearest, {one}–{other}"), "mm"),
+    "touches": Quantity(phrase("Touches, {one}–{other}"), "1"),
+    "thumb hidden": Quantity(phrase("Thumb hidden"), "share"),
+    "coherent though hidden": Quantity(phrase("Its pose coherent meanwhile"), "share"),
+    "known though hidden": Quantity(phrase("Its pose known to 15° meanwhile"), "share"),
+    "jump when seen again": Quantity(phrase("Jump when seen again"), "mm"),
+    "co-flexion": Quantity(phrase("Bend together, {one}–{other} (r)"), "r", 2),
+    "lag": Quantity(phrase("Lag of {other} after {one}"), "s", 2),
+    "enslaving": Quantity(phrase("How far {other} moves with {one}"), "share"),
+    "synergy": Quantity(phrase("All fingers as one movement"), "share"),
+    "tremor 3-12 Hz": Quantity(phrase("Tremor, 3 to 12 Hz (rms)"), "deg", 1),
+    # What could not be computed has a row with nothing in it.
+    "repetitions": Quantity(phrase("Repetitions"), ""),
+    "ranges": Quantity(phrase("Range of motion"), ""),
+    "ranges of joints": Quantity(phrase("Range of motion, fingers"), ""),
+    "other movements": Quantity(phrase("Movement of the other angles"), ""),
+    "speed": Quantity(phrase("Speed and smoothness"), ""),
+    "quality": Quantity(phrase("Quality of the recording"), ""),
+    "grades": Quantity(phrase("Grades"), ""),
+    "reaches": Quantity(phrase("Reaching movements"), ""),
+    "opposition": Quantity(phrase("Thumb opposition"), ""),
+}
+"""Everything that stands beside ranges, by its name in every file."""
 
 
 T = TypeVar("T")
@@ -81,18 +100,24 @@ class Attempts:
             self.failed.append(name)
             return otherwise
 
-    def as_measures(self) -> tuple[FurtherMeasure, ...]:
+    def as_measures(self) -> tuple[Measure, ...]:
         """A line for each that failed."""
-        return tuple(FurtherMeasure(name, "session", "", (math.nan,), "failed") for name in self.failed)
+        return tuple(
+            Measure("task", "session", name, "", (math.nan,), math.nan, unknown="failed") for name in self.failed
+        )
 
 
-def further_measures(seen: SeenSession) -> tuple[FurtherMeasure, ...]:
+def _task(what: str, of: str, values: Sequence[float], unknown: Unknown = "") -> Measure:
+    return measure_values("task", of, what, QUANTITIES[what].unit, values, unknown=unknown)
+
+
+def further_measures(seen: SeenSession) -> tuple[Measure, ...]:
     """What an exercise has beside its ranges, a held angle's tremor last; nothing that its discs do not show."""
     session, wanted, attempts = seen.session, seen.exercise.further, Attempts()
     reaches: tuple[Reach, ...] = ()
     if "reaches" in wanted:
         reaches = attempts.compute("reaches", lambda: session_reaches(session, seen.view), ())
-    groups: list[tuple[str, Callable[[], Sequence[FurtherMeasure]]]] = [("reaches", lambda: reach_measures(reaches))]
+    groups: list[tuple[str, Callable[[], Sequence[Measure]]]] = [("reaches", lambda: reach_measures(reaches))]
     if seen.tracks:
         tips = _tips_m(session, best_motion(session))
         has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
@@ -124,28 +149,27 @@ def session_reaches(session: Session, view: BoolArray) -> tuple[Reach, ...]:
     return find_reaches(place, noise=WRIST_NOISE[session.smoothed is not None])
 
 
-def reach_measures(reaches: Sequence[Reach], ways: tuple[str, str] = ("reach", "return")) -> list[FurtherMeasure]:
+def reach_measures(reaches: Sequence[Reach], ways: tuple[str, str] = ("reach", "return")) -> list[Measure]:
     """Time, speed, straightness and smoothness of the ways out, and of those back."""
     out = []
     for outward, way in zip((True, False), ways, strict=True):
         some = [reach for reach in reaches if reach.outward is outward]
         if not some:
             continue
-        for name, unit, values in (
-            ("movement time", "s", [reach.movement_time_s for reach in some]),
-            ("peak speed", "mm/s", [1e3 * reach.path.peak_speed_m_s for reach in some]),
-            ("time to peak", "share", [reach.path.time_to_peak_share for reach in some]),
-            ("path length", "mm", [1e3 * reach.path.length_m for reach in some]),
-            ("straightness", "length/chord", [reach.path.straightness for reach in some]),
-            ("movement units", "1", [reach.path.peaks for reach in some]),
-            ("smoothness", "SPARC", [reach.path.sparc for reach in some]),
+        for name, values in (
+            ("movement time", [reach.movement_time_s for reach in some]),
+            ("peak speed", [1e3 * reach.path.peak_speed_m_s for reach in some]),
+            ("time to peak", [reach.path.time_to_peak_share for reach in some]),
+            ("path length", [1e3 * reach.path.length_m for reach in some]),
+            ("straightness", [reach.path.straightness for reach in some]),
+            ("movement units", [reach.path.peaks for reach in some]),
+            ("smoothness", [reach.path.sparc for reach in some]),
         ):
-            why = "" if any(map(math.isfinite, values)) else _why_unknown(name, some)
-            out.append(FurtherMeasure(name, way, unit, tuple(values), why))
+            out.append(_task(name, way, values, _why_unknown(name, some)))
     return out
 
 
-def _why_unknown(name: str, reaches: Sequence[Reach]) -> Literal["", "too_slow", "hidden"]:
+def _why_unknown(name: str, reaches: Sequence[Reach]) -> Unknown:
     seen = [reach for reach in reaches if not reach.hidden]
     if not seen:
         return "hidden"
@@ -153,7 +177,7 @@ def _why_unknown(name: str, reaches: Sequence[Reach]) -> Literal["", "too_slow",
     return "too_slow" if slow else ""
 
 
-def opposition_measures(session: Session, tips_m: FloatArray) -> list[FurtherMeasure]:
+def opposition_measures(session: Session, tips_m: FloatArray) -> list[Measure]:
     """How near the thumb's tip (N, 5, 3) comes to each finger's and how often they touch, and its ways across the palm
     and back, seen from the hand: what the hand itself moves is no movement of the thumb.
 
@@ -175,10 +199,10 @@ def opposition_measures(session: Session, tips_m: FloatArray) -> list[FurtherMea
             nearer = not seen.any() or bool((~seen & (nearest < least)).any())
         if np.isfinite(distance).any():
             of = f"TIP1-TIP{k + 1}"
-            away = FurtherMeasure("least distance", of, "mm", (math.nan,), "hidden")
-            out.append(away if nearer else FurtherMeasure("least distance", of, "mm", (1e3 * least,)))
-            unsure = FurtherMeasure("touches", of, "1", (math.nan,), "hidden")
-            out.append(unsure if maybe else FurtherMeasure("touches", of, "1", (float(len(near)),)))
+            away = _task("least distance", of, (math.nan,), "hidden")
+            out.append(away if nearer else _task("least distance", of, (1e3 * least,)))
+            unsure = _task("touches", of, (math.nan,), "hidden")
+            out.append(unsure if maybe else _task("touches", of, (float(len(near)),)))
     place = _in_the_hand(best_motion(session), _row(session, "TIP1"))
     known = np.isfinite(place).all(axis=1) & (np.asarray(session.status) != 2)
     if int(known.sum()) >= 2:
@@ -227,7 +251,7 @@ def _distance_sd_m(session: Session, tip: int) -> FloatArray:
     return np.asarray(np.sqrt(variance))
 
 
-def thumb_coherence(session: Session) -> list[FurtherMeasure]:
+def thumb_coherence(session: Session) -> list[Measure]:
     """How much of the time the thumb was hidden, and whether what was said of it meanwhile holds together.
 
     ``thumb hidden``: share of the frames without a blob at one of its outer discs; ``coherent`` and ``known though
@@ -249,12 +273,12 @@ def thumb_coherence(session: Session) -> list[FurtherMeasure]:
     )
     if not math.isfinite(found.hidden_share):
         return []
-    out = [FurtherMeasure("thumb hidden", "thumb", "share", (found.hidden_share,))]
+    out = [_task("thumb hidden", "thumb", (found.hidden_share,))]
     if math.isfinite(found.coherent_share):
-        out.append(FurtherMeasure("coherent though hidden", "thumb", "share", (found.coherent_share,)))
-        out.append(FurtherMeasure("known though hidden", "thumb", "share", (found.known_share,)))
+        out.append(_task("coherent though hidden", "thumb", (found.coherent_share,)))
+        out.append(_task("known though hidden", "thumb", (found.known_share,)))
     if found.jumps_m:
-        out.append(FurtherMeasure("jump when seen again", "TIP1", "mm", tuple(1e3 * jump for jump in found.jumps_m)))
+        out.append(_task("jump when seen again", "TIP1", [1e3 * jump for jump in found.jumps_m]))
     return out
 
 
@@ -267,7 +291,7 @@ def _in_the_hand(motion: Motion, joint: int) -> FloatArray:
 TREMOR = "tremor 3-12 Hz"
 
 
-def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[FurtherMeasure]:
+def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[Measure]:
     """Tremor of a wrist angle that was held; nothing where none was held for six seconds."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     if len(time_s) < 2:
@@ -276,11 +300,11 @@ def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[
         even_signal(time_s, best_motion(session).angles_rad[:, angle], np.asarray(session.status) == 0), noise_rms_rad
     )
     if found.has_few_frames:
-        return (FurtherMeasure(TREMOR, "rms", "deg", (math.nan,), "few_frames"),)
-    return (FurtherMeasure(TREMOR, "rms", "deg", (math.degrees(found.rms_rad),)),) if found.is_tremor else ()
+        return (_task(TREMOR, "rms", (math.nan,), "few_frames"),)
+    return (_task(TREMOR, "rms", (math.degrees(found.rms_rad),)),) if found.is_tremor else ()
 
 
-def _aperture_measures(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[FurtherMeasure]:
+def _aperture_measures(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[Measure]:
     """NaN of a reach of which a part was not seen, and of an aperture that is a guess."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     sure = (_tip_seen(session, 0) & _tip_seen(session, 1)) | (_distance_sd_m(session, 1) <= LARGEST_APERTURE_SD_M)
@@ -296,24 +320,23 @@ def _aperture_measures(session: Session, aperture_m: FloatArray, reaches: Sequen
             bent.append(math.nan if reach.hidden else -math.degrees(angle))
     if not largest:
         return []
-    hidden: Literal["", "hidden"] = "" if any(map(math.isfinite, largest)) else "hidden"
     return [
-        FurtherMeasure("largest aperture", "TIP1-TIP2", "mm", tuple(largest), hidden),
-        FurtherMeasure("wrist extension at grasp", "wrist", "deg", tuple(bent)),
+        _task("largest aperture", "TIP1-TIP2", largest, "hidden"),
+        _task("wrist extension at grasp", "wrist", bent),
     ]
 
 
-def _span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> FurtherMeasure:
+def _span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> Measure:
     """The largest distance of two tips in the frames that show both."""
     values_m = distance_m(tips_m[:, one], tips_m[:, other])
     known = values_m[np.isfinite(values_m) & _tip_seen(session, one) & _tip_seen(session, other)]
     of = f"TIP{one + 1}-TIP{other + 1}"
     if not len(known):
-        return FurtherMeasure(name, of, "mm", (math.nan,), "hidden")
-    return FurtherMeasure(name, of, "mm", (1e3 * float(np.percentile(known, 99.0)),))
+        return _task(name, of, (math.nan,), "hidden")
+    return _task(name, of, (1e3 * float(np.percentile(known, 99.0)),))
 
 
-def _together(tracks: Mapping[str, JointTrack]) -> list[FurtherMeasure]:
+def _together(tracks: Mapping[str, JointTrack]) -> list[Measure]:
     """Co-flexion of neighbouring middle joints, of index and middle finger's knuckles, and their synergy."""
     out = []
     pairs = [(f"PIP{k}_flexion", f"PIP{k + 1}_flexion") for k in range(2, 5)]
@@ -322,12 +345,12 @@ def _together(tracks: Mapping[str, JointTrack]) -> list[FurtherMeasure]:
         if len(a.value) != len(b.value) or not len(a.value):
             continue
         found = co_flexion(a.value, b.value, a.rate_hz)
-        out.append(FurtherMeasure("co-flexion", f"{one}, {other}", "r", (found.correlation,)))
-        out.append(FurtherMeasure("lag", f"{one}, {other}", "s", (found.lag_s,)))
-        out.append(FurtherMeasure("enslaving", f"{one}, {other}", "share", (enslaving_share(a.value, b.value),)))
+        out.append(_task("co-flexion", f"{one}, {other}", (found.correlation,)))
+        out.append(_task("lag", f"{one}, {other}", (found.lag_s,)))
+        out.append(_task("enslaving", f"{one}, {other}", (enslaving_share(a.value, b.value),)))
     bending = [track.tracked.value for name, track in tracks.items() if name.endswith("_flexion") and name[3] in "2345"]
     if bending and len({len(values) for values in bending}) == 1 and len(bending[0]):
-        out.append(FurtherMeasure("synergy", "fingers", "share", (synergy_share(np.column_stack(bending)),)))
+        out.append(_task("synergy", "fingers", (synergy_share(np.column_stack(bending)),)))
     return out
 
 

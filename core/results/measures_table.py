@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.ranges import RangeRow, is_total
+from carpus.core.results.measure import Measure, is_total
+from carpus.core.results.norms import grade_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,10 +106,13 @@ def _positive(row: SessionFigure) -> str:
     return words.get(row.measure, "more")
 
 
-def _measure(row: RangeRow) -> str:
-    if not row.joint:
-        return row.movement
-    return (_TOTAL_MEASURES if is_total(row.joint) else _JOINT_MEASURES).get(row.movement, row.movement)
+def _named(row: Measure) -> str:
+    """A measure by its name in the table: of a joint and of a total, an end is no movement."""
+    if row.group == "share":
+        return ", ".join(filter(None, (row.what, grade_of(row))))
+    if row.group != "range" or row.angle >= 0:
+        return row.what
+    return (_TOTAL_MEASURES if is_total(row.of) else _JOINT_MEASURES).get(row.what, row.what)
 
 
 def _rows(figures: SessionFigures, session: str) -> Iterator[SessionFigure]:
@@ -118,26 +122,10 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[SessionFigure]:
         figures.when.isoformat(timespec="seconds"), figures.simulated, figures.side, figures.protocol,
         figures.exercise.id, figures.duration_s, quality.frames, quality.measured_share, figures.counted,
     )  # fmt: skip
-    for own, aside in ((figures, ""), (figures.passive, ", passive")):
-        for row in () if own is None else (*own.rows, *own.joint_rows):
-            of = f"{row.joint or WRIST_ANGLES[row.angle]}{aside}"
-            yield SessionFigure(
-                *common, _measure(row), of, "deg", row.mean_deg, row.sd_deg, row.best_deg, row.measurement_sd_deg,
-                row.count, row.limited, row.seen_share, row.inferred,
-            )  # fmt: skip
-    for item in figures.further:
-        yield SessionFigure(*common, item.name, item.of, item.unit, item.mean, item.sd, count=item.count)
-    for grade in figures.grades:
-        measure = f"share of the usual TAM{f', {grade.grade}' if grade.grade else ''}"
-        yield SessionFigure(*common, measure, f"TAM{grade.finger}", "share", grade.share, at_least=grade.grade is None)
-    speed, exercise = figures.speed, figures.exercise
-    name = exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
-    for measure, unit, spread in (
-        ("peak speed", "deg/s", speed.peak_speed), ("smoothness", "SPARC", speed.smoothness),
-        ("mean speed", "deg/s", speed.mean_speed), ("movement time", "s", speed.movement_time),
-        ("time to peak", "share", speed.time_to_peak), ("movement units", "1", speed.peaks),
-        ("jerk", "LDLJ", speed.ldlj), ("pauses", "1", speed.pauses), ("pause time", "s", speed.pause_time),
-    ):  # fmt: skip
-        if spread.count:
-            values = spread.mean, spread.sd, spread.best, spread.measurement_sd, spread.count
-            yield SessionFigure(*common, measure, name, unit, *values)
+    for row in figures.measures:
+        if row.group == "still" or (row.group == "speed" and not row.count):
+            continue
+        yield SessionFigure(
+            *common, _named(row), f"{row.of}, passive" if row.passive else row.of, row.unit, row.mean, row.sd,
+            row.best, row.measurement_sd, row.count, row.at_least, row.seen_share, row.inferred,
+        )  # fmt: skip

@@ -17,7 +17,8 @@ from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.fingers import bending_weights
 from carpus.core.measures.forearm import rotation_in_place
 from carpus.core.measures.signals import BoolArray, valid_wrist_angles
-from carpus.core.results.ranges import bending_joints, is_total
+from carpus.core.results.measure import is_total, wrist_column
+from carpus.core.results.ranges import bending_joints
 from carpus.core.results.seen import JointCurves, best_motion, joint_curves, read_angles_rad, seen_well
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray, Side, TrackStatus
@@ -97,20 +98,20 @@ def motion_columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
             yield CurveColumn(f"joint_{marker}_{letter}_mm", 1e3 * motion.joint_position_m[:, m, axis])
 
 
-def seen_angle(session: Session, joint: str, angle: int) -> FloatArray:
-    """One angle (N,) in degrees: a joint's or ``TAM3`` by its name in every file, or without one the wrist's column.
+def seen_angle(session: Session, of: str) -> FloatArray:
+    """One angle (N,) in degrees: the wrist's, a joint's or ``TAM3``, by its name in every file.
     NaN where it was not seen well enough to be measured by the rules of its ranges, or the session does not have it."""
-    if not joint:
+    if (angle := wrist_column(of)) >= 0:
         motion = best_motion(session)
         angles_rad = read_angles_rad(session)
         valid = valid_wrist_angles(seen_well(session), angles_rad, motion.angles_sd_rad)
         return np.degrees(np.where(valid, angles_rad, np.nan))[:, angle]
     joints = joint_curves(session)
-    if joints is not None and is_total(joint):
-        return _total_bending(joints, int(joint.removeprefix("TAM")))
-    if joints is None or joint not in joints.names:
+    if joints is not None and is_total(of):
+        return _total_bending(joints, int(of.removeprefix("TAM")))
+    if joints is None or of not in joints.names:
         return np.full(len(session), np.nan)
-    column = joints.names.index(joint)
+    column = joints.names.index(of)
     return np.where(joints.seen[:, column], joints.angles_deg[:, column], np.nan)
 
 

@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from carpus.core.hand.exercises import SIDES, Exercise, Movement
+from carpus.core.hand.exercises import SIDES, Exercise
 from carpus.core.phrase import phrase
-from carpus.core.results.ranges import RangeRow, is_total
+from carpus.core.results.measure import Measure, is_total
 
 Grade = Literal["excellent", "good", "fair", "poor"]
 USUAL_TOTAL_DEG = {1: 140.0, 2: 260.0, 3: 260.0, 4: 260.0, 5: 260.0}
@@ -60,14 +60,14 @@ class Norm:
 _ADULTS, _BOTH = phrase("adults, ages not told"), phrase("women and men together")
 _WRIST_SOURCE = phrase("AMA Guides; AAOS 1965 (goniometer)")
 _TOTAL_SOURCE = phrase("ASSH, sum of active bending in a fist")
-_WRIST_DEG: Mapping[Movement, tuple[float, float]] = {
+_WRIST_DEG: Mapping[str, tuple[float, float]] = {
     "flexion": (60.0, 80.0), "extension": (60.0, 70.0), "radial": (20.0, 20.0), "ulnar": (30.0, 30.0),
     "pronation": (80.0, 80.0), "supination": (80.0, 80.0),
 }  # fmt: skip
 """The lower of the two sources (AMA), and the higher (AAOS) (clinical reference 4.1)."""
 
 
-def wrist_norm(movement: Movement, angle: int, exercise: Exercise) -> Norm | None:
+def wrist_norm(movement: str, angle: int, exercise: Exercise) -> Norm | None:
     """Of one direction, or the sum of both for an arc, where the exercise trains this angle.
 
     >>> from carpus.core.hand.exercises import exercise_named
@@ -90,29 +90,27 @@ def total_norm(finger: int, exercise: Exercise) -> Norm | None:
     return Norm(total, total, _TOTAL_SOURCE, _ADULTS, _BOTH)
 
 
-@dataclass(frozen=True, slots=True)
-class GradedTotal:
-    """Share of the usual TAM of one finger, or of the other hand's, and its grade."""
-
-    finger: int
-    share: float
-    grade: Grade | None
-    of_other_hand: bool = False
+SHARE_OF_USUAL, SHARE_OF_OTHER = "share of the usual TAM", "share of the other hand's TAM"
 
 
-def graded_totals(
-    rows: Sequence[RangeRow], exercise: Exercise, other_hand: Sequence[RangeRow] = ()
-) -> tuple[GradedTotal, ...]:
-    """Share and grade of every finger's TAM, of the other hand's where that was seen whole, else of the usual one in
-    the exercise that its source speaks of. A lower bound is not graded."""
+def total_shares(
+    rows: Sequence[Measure], exercise: Exercise, other_hand: Sequence[Measure] = ()
+) -> tuple[Measure, ...]:
+    """Every finger's TAM as a share of the other hand's where that was seen whole, else of the usual one in the
+    exercise that its source speaks of. That of a lower bound is one too."""
     out = []
-    beside = {row.joint: row.mean_deg for row in other_hand if row.movement == "arc" and row.count and not row.limited}
+    beside = {row.of: row.mean for row in other_hand if row.what == "arc" and row.count and not row.at_least}
     for row in rows:
-        if is_total(row.joint) and row.movement == "arc" and row.count:
-            finger, own = int(row.joint[3:]), beside.get(row.joint, math.nan)
+        if is_total(row.of) and row.what == "arc" and row.count:
+            finger, own = int(row.of[3:]), beside.get(row.of, math.nan)
             if not own > 0.0 and total_norm(finger, exercise) is None:
                 continue
-            share = total_share(row.mean_deg, finger, own)
-            grade = None if row.limited else total_grade(share)
-            out.append(GradedTotal(finger, share, grade, of_other_hand=own > 0.0))
+            share = total_share(row.mean, finger, own)
+            what = SHARE_OF_OTHER if own > 0.0 else SHARE_OF_USUAL
+            out.append(Measure("share", row.of, what, "share", (share,), share, at_least=row.at_least))
     return tuple(out)
+
+
+def grade_of(share: Measure) -> Grade | None:
+    """Grade a share of a finger's total; None for one that was not seen whole."""
+    return None if share.at_least else total_grade(share.mean)

@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, Movement
+from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import (
@@ -26,7 +26,7 @@ from carpus.core.measures.change import (
 )
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.ranges import RangeRow, RowKey, is_total
+from carpus.core.results.measure import Measure, MeasureKey, is_total
 from carpus.core.rounding import rounded
 from carpus.core.types import Side
 
@@ -52,20 +52,37 @@ LARGEST_START_ANGLE_STEP_DEG = 5.0
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """One movement in two sessions; ``difference_deg`` after - before of the means, against ``limit_deg``."""
+    """One range in two sessions, ``after`` against ``before``: the means differ by more than ``limit_deg``, or not."""
 
-    movement: Movement
-    angle: int
-    before_deg: float
-    after_deg: float
-    difference_deg: float
+    before: Measure
+    after: Measure
     limit_deg: float
     verdict: Verdict
-    joint: str = ""
-    limited: tuple[bool, bool] = (False, False)
-    """Whether the figure before and the one after are lower bounds, since the joint was hidden in part."""
     reasons: tuple[Unfairness, ...] = ()
     """Why the two are not judged; empty when they are."""
+
+    @property
+    def key(self) -> MeasureKey:
+        """What is compared."""
+        return self.after.key
+
+    @property
+    def of_joint(self) -> bool:
+        return self.after.angle < 0
+
+    @property
+    def difference_deg(self) -> float:
+        return self.after.mean - self.before.mean
+
+    @property
+    def is_beyond(self) -> bool:
+        """Whether the two differ by more than error."""
+        return self.verdict in ("improved", "worse")
+
+    @property
+    def limited(self) -> tuple[bool, bool]:
+        """Whether the value before and the one after are lower bounds, since the joint was hidden in part."""
+        return (self.before.at_least, self.after.at_least) if self.of_joint else (False, False)
 
     @property
     def at_least(self) -> bool:
@@ -77,7 +94,7 @@ class Comparison:
         """Difference of the rounded means, so that the figures on a page agree with each other."""
         if not math.isfinite(self.difference_deg):
             return math.nan
-        return float(rounded(self.after_deg) - rounded(self.before_deg))
+        return float(rounded(self.after.mean) - rounded(self.before.mean))
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +121,7 @@ class Progress:
     points: tuple[ProgressPoint, ...]
     comparisons: tuple[Comparison, ...]
     other_hand: SessionFigures | None
-    keys: tuple[RowKey, ...] = ()
+    keys: tuple[MeasureKey, ...] = ()
     replaced: tuple[SessionFigures, ...] = ()
     by_hand: tuple[HandValue, ...] = ()
     """What counts of what was measured by hand, of this hand and of the person, by day; beside ours, never in it."""
@@ -134,61 +151,54 @@ class Progress:
     @property
     def headline(self) -> Comparison | None:
         """The comparison that answers the question: of the trained arc, or the largest change beyond error."""
-        beyond = [item for item in self.comparisons if item.verdict in ("improved", "worse")]
-        arcs = [item for item in self.comparisons if item.movement == "arc"]
+        beyond = [item for item in self.comparisons if item.is_beyond]
+        arcs = [item for item in self.comparisons if item.after.what == "arc"]
         best: list[Comparison | None] = [*(item for item in arcs if item in beyond), *beyond, *arcs, None]
         return best[0]
 
 
-def compare(before: SessionFigures, after: SessionFigures) -> tuple[Comparison, ...]:
-    """Means of the movements that both sessions have, arc first; nothing is a change within measurement error."""
-    return compare_rows(before, after, after.rows)
+def compare(
+    before: SessionFigures, after: SessionFigures, rows: Sequence[Measure] | None = None
+) -> tuple[Comparison, ...]:
+    """Compare the means of ranges that both sessions have: some ``rows`` of the later one, or those of its wrist.
 
-
-def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[RangeRow]) -> tuple[Comparison, ...]:
-    """As :func:`compare`, of some rows of the later session. A hidden joint is not judged, but for a sure gain.
-
-    Sessions that the progress leaves out are not judged here either: there is one judgement, wherever it is shown.
+    Nothing is a change within measurement error. A hidden joint is not judged, but for a sure gain. Sessions that the
+    progress leaves out are not judged here either: there is one judgement, wherever it is shown.
     """
     unfair = tuple(dict.fromkeys((*unfair_reasons(before, before), *unfair_reasons(before, after))))
-    study = after.study
     out = []
-    for row in rows:
-        other = before.row(row.movement, row.angle, row.joint)
+    for row in after.wrist_ranges if rows is None else rows:
+        other = before.find(*row.key)
         if other is None:
             continue
-        name = TOTAL_ACTIVE_MOTION if is_total(row.joint) else row.joint or WRIST_ANGLES[row.angle]
-        change = change_between(_mean(before, other), _mean(after, row), name)
-        factor = ARC_LIMIT_FACTOR if row.movement == "arc" and not is_total(row.joint) else 1.0
-        own = study.limit_deg(row.joint or name, row.movement) if study is not None else None
-        limit = math.degrees(change.limit_rad) * factor if own is None else own
-        difference = row.mean_deg - other.mean_deg
-        verdict: Verdict = "not_judged"
-        limited = (other.limited, row.limited) if row.joint else (False, False)
+        obstacles = change_between(_mean(before, other), _mean(after, row), _limit_name(row)).obstacles
+        limit = limit_deg(after, row, of_arcs=True)
+        difference = row.mean - other.mean
+        limited = (other.at_least, row.at_least) if row.angle < 0 else (False, False)
         # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
-        sure_gain = row.movement == "arc" and limited == (False, True) and difference > limit
-        reasons: tuple[Unfairness, ...] = tuple(dict.fromkeys((*unfair, *change.obstacles)))
+        sure_gain = row.what == "arc" and limited == (False, True) and difference > limit
+        reasons: tuple[Unfairness, ...] = tuple(dict.fromkeys((*unfair, *obstacles)))
         if not reasons and any(limited) and not sure_gain:
             reasons = ("hidden",)
+        verdict: Verdict = "not_judged"
         if not reasons:
-            beyond = abs(difference) > limit
-            better = difference > 0 if row.joint == "" or row.movement != "extension" else difference < 0
-            verdict = "no_change" if not beyond else "improved" if better else "worse"
-        out.append(
-            Comparison(
-                row.movement,
-                row.angle,
-                other.mean_deg,
-                row.mean_deg,
-                difference,
-                limit,
-                verdict,
-                row.joint,
-                limited,
-                reasons,
-            )
-        )
+            better = difference > 0 if row.angle >= 0 or row.what != "extension" else difference < 0
+            verdict = "no_change" if not abs(difference) > limit else "improved" if better else "worse"
+        out.append(Comparison(other, row, limit, verdict, reasons))
     return tuple(out)
+
+
+def limit_deg(figures: SessionFigures, row: Measure, *, of_arcs: bool = False) -> float:
+    """Return what a change of a range must exceed: the clinic's own limit where it has one, else the default, which is
+    that of one end unless it is ``of_arcs``, whose two ends may both be off."""
+    own = figures.study.limit_deg(row.of, row.what) if figures.study is not None else None
+    both_ends = of_arcs and row.what == "arc" and not is_total(row.of)
+    default = math.degrees(change_limit_rad(_limit_name(row))) * (ARC_LIMIT_FACTOR if both_ends else 1.0)
+    return default if own is None else own
+
+
+def _limit_name(row: Measure) -> str:
+    return TOTAL_ACTIVE_MOTION if is_total(row.of) else row.of
 
 
 def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfairness, ...]:
@@ -208,7 +218,7 @@ def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfair
         reasons.append("start_angle")
     if other.exercise.pure_wrist and other.quality.forearm_moved:
         reasons.append("forearm_moved")
-    if other.passive is not None and not other.counted:
+    if other.has_passive and not other.counted:
         reasons.append("only_passive")
     elif 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.counts and not other.counted):
         reasons.append("few_repetitions_after")
@@ -216,7 +226,7 @@ def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfair
 
 
 def progress(
-    sessions: Sequence[SessionFigures], other_hand: SessionFigures | None = None, keys: Sequence[RowKey] = ()
+    sessions: Sequence[SessionFigures], other_hand: SessionFigures | None = None, keys: Sequence[MeasureKey] = ()
 ) -> Progress:
     """Sessions of one hand, protocol and exercise over time, compared with the first one that is fair in itself.
 
@@ -229,8 +239,8 @@ def progress(
     fair = [point.figures for point in points if point.fair]
     comparisons: tuple[Comparison, ...] = ()
     if len(fair) > 1:
-        wanted = [row for key in keys for row in fair[-1].joint_rows if row.key == key]
-        comparisons = compare_rows(fair[0], fair[-1], wanted if keys else fair[-1].rows)
+        wanted = [row for row in (fair[-1].find(*key) for key in keys) if row is not None] if keys else None
+        comparisons = compare(fair[0], fair[-1], wanted)
     replaced = tuple(figures for figures in sessions if all(figures is not kept for kept in ordered))
     return Progress(points, comparisons, other_hand, tuple(keys), replaced)
 
@@ -262,17 +272,17 @@ def other_hand_of(history: Sequence[SessionFigures], figures: SessionFigures) ->
 
 def _alike(one: SessionFigures, other: SessionFigures) -> bool:
     same_kind = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
-    return same_kind and bool(one.rows or one.joint_rows) and not one.not_counted and not _same_recording(one, other)
+    return same_kind and bool(one.group("range")) and not one.not_counted and not _same_recording(one, other)
 
 
 def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
     return bool(one.recording_id) and one.recording_id == other.recording_id
 
 
-def _mean(figures: SessionFigures, row: RangeRow) -> MeasuredMean:
+def _mean(figures: SessionFigures, row: Measure) -> MeasuredMean:
     """A session without repetitions (free movement) has one range; it is never judged."""
     count = row.count if figures.counted else 0
-    return MeasuredMean(math.radians(row.mean_deg), count, figures.side, figures.protocol, figures.exercise.id)
+    return MeasuredMean(math.radians(row.mean), count, figures.side, figures.protocol, figures.exercise.id)
 
 
 Goals = Mapping[tuple[str, Side], tuple[float, float]]
@@ -311,31 +321,24 @@ def proposals(
     return tuple(one for one in found if one is not None)
 
 
-def row_aimed_at(figures: SessionFigures, exercise: Exercise, direction: int) -> RangeRow | None:
+def row_aimed_at(figures: SessionFigures, exercise: Exercise, direction: int) -> Measure | None:
     """The range whose end a target of a direction is, None where there is none."""
     if exercise.angle is not None:
-        return figures.row(SIDES[exercise.angle][0 if direction > 0 else 1], exercise.angle)
-    return figures.row("flexion", -1, exercise.joint) if exercise.joint and direction > 0 else None
+        return figures.find(WRIST_ANGLES[exercise.angle], SIDES[exercise.angle][0 if direction > 0 else 1])
+    return figures.find(exercise.joint, "flexion") if exercise.joint and direction > 0 else None
 
 
 def _proposal(recent: Sequence[SessionFigures], exercise: Exercise, direction: int) -> GoalProposal | None:
     rows = [(one, row_aimed_at(one, exercise, direction)) for one in recent]
-    known = [(one, row) for one, row in rows if row is not None and row.count and not row.limited]
-    means = [row.mean_deg for _, row in known if math.isfinite(row.mean_deg)]
+    known = [(one, row) for one, row in rows if row is not None and row.count and not row.at_least]
+    means = [row.mean for _, row in known if math.isfinite(row.mean)]
     if not means:
         return None
     basis = sum(means) / len(means)
-    limit = _limit_deg(known[0][0], known[0][1])
+    limit = limit_deg(*known[0])
     told_from = math.ceil(basis + limit)
     goal = min(math.floor(basis + min(STEP_DEG, limit)), MOST_DEG)
     least = 1.0 if exercise.angle != PRONOSUPINATION else -MOST_DEG  # a palm turns up from 90 degrees of pronation
     if goal < least or (goal == MOST_DEG and goal < basis):  # no step up is left
         return None
     return GoalProposal(direction, basis, len(means), float(goal), float(told_from))
-
-
-def _limit_deg(newest: SessionFigures, row: RangeRow) -> float:
-    """What a gain must exceed: the clinic's own limit where it has one, else the default."""
-    name = row.joint or WRIST_ANGLES[row.angle]
-    own = newest.study.limit_deg(name, row.movement) if newest.study is not None else None
-    return math.degrees(change_limit_rad(name)) if own is None else own

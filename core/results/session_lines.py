@@ -21,7 +21,7 @@ from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.provenance import said_in
 from carpus.core.results.camera_said import camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.ranges import is_total
+from carpus.core.results.measure import is_total
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.rounding import written
 from carpus.core.session.reader import has_raw
@@ -191,22 +191,22 @@ def range_lines(session: Session, figures: SessionFigures) -> list[str]:
         if angle == PRONOSUPINATION:  # whose 0 in the files is palm down
             name = "rotation" if only_arc else "forearm, thumb up"
         of = figures if figures.exercise.angle == angle else whole
-        rows = {row.movement: row for row in of.rows if row.angle == angle}
+        rows = {row.what: row for row in of.wrist_ranges if row.angle == angle}
         if "arc" not in rows:
             lines.append(f"  {name:<18} not measured")
             continue
         positive, negative = SIDES[angle]
-        arc = rows["arc"].mean_deg
+        arc = rows["arc"].mean
         # Without repetitions a side that was never reached has no row: it lies as far back as the arc says.
-        low = -rows[negative].mean_deg if negative in rows else None
-        high = rows[positive].mean_deg if positive in rows else arc + (low or 0.0)
+        low = -rows[negative].mean if negative in rows else None
+        high = rows[positive].mean if positive in rows else arc + (low or 0.0)
         low = high - arc if low is None else low
         text = f"arc {written(arc, 1)}°"
         if not only_arc:
             text = f"from {_side(angle, low)} to {_side(angle, high)}, {text}"
         if of.counted:
             text += ", of 1 repetition" if of.counted == 1 else f", mean of {of.counted} repetitions"
-        lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].limited else ""))
+        lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].at_least else ""))
     return lines
 
 
@@ -236,23 +236,23 @@ def _joint_ranges(session: Session, figures: SessionFigures) -> list[str]:
     """Of the whole hand: every joint over the frames in which it was seen, and the total of every finger."""
     if not session.header.joint_names:
         return []
-    ends = {(row.joint, row.movement): row.mean_deg for row in figures.joint_rows}
+    ends = {row.key: row.mean for row in figures.joint_ranges}
     over = "mean of the repetitions, " if figures.counted else ""
     lines = [f"Joints of the fingers, {over}while they were seen (TAM: total active motion)"]
-    for row in figures.joint_rows:
-        if row.movement != "arc":
+    for row in figures.joint_ranges:
+        if row.what != "arc":
             continue
         if not row.count:
-            lines.append(f"  {row.joint:<18} never seen")
+            lines.append(f"  {row.of:<18} never seen")
             continue
-        low, high = ends[row.joint, "extension"], ends[row.joint, "flexion"]
-        text = f"arc {written(row.mean_deg, 1)}°, seen {written(100.0 * row.seen_share)} %"
-        if is_total(row.joint):
-            text = f"{written(row.mean_deg, 1)}°: bending {written(high, 1)}° less {written(low, 1)}° to straight"
+        low, high = ends[row.of, "extension"], ends[row.of, "flexion"]
+        text = f"arc {written(row.mean, 1)}°, seen {written(100.0 * row.seen_share)} %"
+        if is_total(row.of):
+            text = f"{written(row.mean, 1)}°: bending {written(high, 1)}° less {written(low, 1)}° to straight"
         else:
             text = f"from {written(low, 1)}° to {written(high, 1)}°, {text}"
         text += ", end joint not measured" if row.inferred else ""
-        lines.append(f"  {row.joint:<18} {text}" + (LIMITED if row.limited else ""))
+        lines.append(f"  {row.of:<18} {text}" + (LIMITED if row.at_least else ""))
     return lines
 
 

@@ -14,15 +14,16 @@ import numpy as np
 
 from carpus.core.measures.change import Obstacle
 from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measure import Measure, MeasureKey
 from carpus.core.results.progress import (
     Comparison,
     Unfairness,
-    compare_rows,
+    Verdict,
+    compare,
     newest_results,
     other_hand_of,
     unfair_reasons,
 )
-from carpus.core.results.ranges import RangeRow, RowKey
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.types import FloatArray, Side
 
@@ -30,37 +31,18 @@ Relation = Literal["hands", "dates"]
 
 
 @dataclass(frozen=True, slots=True)
-class ComparedRange:
-    """One movement of both sessions. ``comparison`` is of the first against the second; its verdict says of two dates
-    whether it improved, of two hands only whether the difference is beyond error."""
-
-    first: RangeRow
-    second: RangeRow
-    comparison: Comparison
-
-    @property
-    def beyond(self) -> bool:
-        """Whether the two differ by more than error."""
-        return self.comparison.verdict in ("improved", "worse")
-
-    @property
-    def at_least(self) -> bool:
-        """Whether that difference is a lower bound, since one of the two was hidden in part."""
-        return self.beyond and bool(self.first.joint) and self.first.limited != self.second.limited
-
-
-@dataclass(frozen=True, slots=True)
 class SideBySide:
     """The ``first`` session is the one in question, the ``second`` what it is held against: the healthy hand, or the
-    earlier date. ``alone`` what only one of the two has, with whether that is the first. ``reasons`` why nothing is
-    judged; empty where the pair is fair."""
+    earlier date. ``ranges`` of the first against the second: a verdict says of two dates whether it improved, of two
+    hands only whether the difference is beyond error. ``alone`` what only one of the two has, with whether that is the
+    first. ``reasons`` why nothing is judged; empty where the pair is fair."""
 
     first: SessionFigures
     second: SessionFigures
     relation: Relation
-    ranges: tuple[ComparedRange, ...]
+    ranges: tuple[Comparison, ...]
     reasons: tuple[Unfairness, ...]
-    alone: tuple[tuple[RangeRow, bool], ...] = ()
+    alone: tuple[tuple[Measure, bool], ...] = ()
 
     @property
     def fair(self) -> bool:
@@ -68,13 +50,12 @@ class SideBySide:
         return not self.reasons
 
     @property
-    def main(self) -> ComparedRange | None:
+    def main(self) -> Comparison | None:
         """What answers the question: the trained arc where it differs, the largest other difference, else the arc."""
-        beyond = [one for one in self.ranges if one.beyond]
-        arcs = [one for one in self.ranges if one.first.movement == "arc"]
-        trained = [one for one in arcs if one.first.joint == self.first.exercise.joint]
-        largest = sorted(beyond, key=lambda one: -abs(one.comparison.difference_deg))
-        best: list[ComparedRange | None] = [*(one for one in trained if one in beyond), *largest, *trained, *arcs, None]
+        arcs = [one for one in self.ranges if one.after.what == "arc"]
+        trained = [one for one in arcs if (one.after.of if one.of_joint else "") == self.first.exercise.joint]
+        largest = sorted((one for one in self.ranges if one.is_beyond), key=lambda one: -abs(one.difference_deg))
+        best: list[Comparison | None] = [*(one for one in trained if one.is_beyond), *largest, *trained, *arcs, None]
         return best[0]
 
 
@@ -88,36 +69,26 @@ def ordered(
     return (one, other) if (one.when, one.session_id) >= (other.when, other.session_id) else (other, one)
 
 
-def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[RowKey] = ()) -> SideBySide:
+def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[MeasureKey] = ()) -> SideBySide:
     """Compare two sessions; ``keys`` choose what of the whole hand is looked at, without them it is the wrist."""
     relation: Relation = "hands" if first.side != second.side else "dates"
     # That it is the other hand is the question here, no obstacle to an answer.
     alike = replace(second, side=first.side)
-    rows = [row for key in keys for row in first.joint_rows if row.key == key] if keys else list(first.rows)
-    found = {item_key(item): item for item in compare_rows(alike, first, rows)}
-    reverse = {}
+    rows, others = (
+        [row for row in (one.find(*key) for key in keys) if row is not None] if keys else list(one.wrist_ranges)
+        for one in (first, alike)
+    )
+    ranges = list(compare(alike, first, rows))
     if relation == "hands":  # neither hand comes first: what is sure of the one way is sure of the other
-        beside_them = [other for row in rows if (other := alike.row(row.movement, row.angle, row.joint)) is not None]
-        reverse = {item_key(item): item for item in compare_rows(first, alike, beside_them)}
-    ranges = []
-    for row in rows:
-        item, beside = found.get(row.key), alike.row(row.movement, row.angle, row.joint)
-        if item is None or beside is None:
-            continue
-        turned = reverse.get(row.key)
-        if item.verdict == "not_judged" and turned is not None and turned.verdict in ("improved", "worse"):
-            item = replace(item, verdict="worse" if turned.verdict == "improved" else "improved", reasons=())
-        ranges.append(ComparedRange(row, beside, item))
-    shared = {one.first.key for one in ranges}
-    others = [row for key in keys for row in second.joint_rows if row.key == key] if keys else list(second.rows)
+        turned = {item.key: item.verdict for item in compare(first, alike, [one.before for one in ranges])}
+        opposite: dict[str, Verdict] = {"improved": "worse", "worse": "improved"}
+        for number, item in enumerate(ranges):
+            if item.verdict == "not_judged" and turned.get(item.key) in opposite:
+                ranges[number] = replace(item, verdict=opposite[turned[item.key]], reasons=())
+    shared = {one.key for one in ranges}
     alone = [(row, True) for row in rows if row.key not in shared]
     alone += [(row, False) for row in others if row.key not in shared]
     return SideBySide(first, second, relation, tuple(ranges), pair_reasons(first, second), tuple(alone))
-
-
-def item_key(item: Comparison) -> RowKey:
-    """What a comparison is of."""
-    return item.joint, item.movement, item.angle
 
 
 def pair_reasons(first: SessionFigures, second: SessionFigures) -> tuple[Unfairness, ...]:
@@ -127,7 +98,7 @@ def pair_reasons(first: SessionFigures, second: SessionFigures) -> tuple[Unfairn
         obstacles.append("protocol")
     if first.exercise.id != second.exercise.id:
         obstacles.append("exercise")
-    if any(not one.counted and one.passive is None for one in (first, second)):
+    if any(not one.counted and not one.has_passive for one in (first, second)):
         obstacles.append("few_repetitions_after")
     return tuple(dict.fromkeys((*obstacles, *unfair_reasons(second, second), *unfair_reasons(second, first))))
 

@@ -196,9 +196,9 @@ def test_a_goniometer_on_the_forearm_is_read_from_thumb_up(session: Session, tmp
 
 def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
     figures = session_figures(session)
-    row = figures.row("flexion", 1)
+    row = figures.find("flexion", "flexion")
     readings = tuple(
-        GoniometerReading("flexion", "flexion", math.radians(row.mean_deg + d), math.nan) for d in (1.0, 2.0, 3.0)
+        GoniometerReading("flexion", "flexion", math.radians(row.mean + d), math.nan) for d in (1.0, 2.0, 3.0)
     )
     found = compare(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
     assert found.pairs[0].figures_deg.bias == pytest.approx(-2.0)

@@ -33,6 +33,7 @@ from carpus.core.types import TrackStatus
 from carpus.ui.controls.text import Text
 from tests.commands import Command
 from tests.moments import with_moment
+from tests.results.days import with_ranges
 from tests.session.samples import begun, make_calibration, make_frame
 
 if TYPE_CHECKING:
@@ -145,8 +146,8 @@ def test_sessions_make_a_study(measured: list[SessionFigures]) -> None:
     assert sorted(left.reason for left in one.left_out) == ["once", "too_late"]
     by_hand: dict[str, list[float]] = {}
     for figures in measured:
-        row = figures.row("flexion", 1)
-        by_hand.setdefault(figures.subject_id, []).append(row.mean_deg)
+        row = figures.find("flexion", "flexion")
+        by_hand.setdefault(figures.subject_id, []).append(row.mean)
     pairs = np.array([values[:2] for values in by_hand.values() if len(values) > 1])
     expected = math.sqrt(float(((pairs[:, 1] - pairs[:, 0]) ** 2).mean()) / 2.0)
     assert one.found[("flexion", "flexion")].sem == pytest.approx(expected)
@@ -194,11 +195,11 @@ def limits(mdc_deg: float, people: int = 12) -> ErrorLimits:
 
 def test_a_change_is_judged_by_the_clinics_limit(measured: list[SessionFigures]) -> None:
     before = measured[0]
-    rows = tuple(replace(row, mean_deg=row.mean_deg + 9.0) for row in before.rows)
-    after = replace(before, when=before.when + timedelta(days=1), rows=rows, recording_id="other")
+    after = with_ranges(before, lambda row: {"mean": row.mean + 9.0})
+    after = replace(after, when=before.when + timedelta(days=1), recording_id="other")
 
     def arc(measured: ErrorLimits) -> tuple[str, float]:
-        found = {item.movement: item for item in compare(before, replace(after, error_limits=measured))}
+        found = {item.after.what: item for item in compare(before, replace(after, error_limits=measured))}
         assert found["flexion"].limit_deg == pytest.approx(10.0), "what the study has not keeps the default"
         return found["arc"].verdict, round(found["arc"].limit_deg, 1)
 

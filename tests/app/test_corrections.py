@@ -601,7 +601,7 @@ def test_what_was_said_of_a_repetition_is_as_true_of_the_new_result(kept: Kept, 
     (said,) = [one for one in again.repetitions if (one.helped if why == PASSIVE else not one.counts)]
     assert why == PASSIVE or said.reason == why
     assert said.start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
-    assert (again.passive is not None) == (why == PASSIVE)
+    assert again.has_passive == (why == PASSIVE)
 
 
 @pytest.mark.parametrize(

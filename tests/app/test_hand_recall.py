@@ -23,17 +23,15 @@ def test_the_card_of_the_hand_has_every_fingers_total_with_its_change_and_at_lea
     sessions = FakeHandSessions(pictures=False)
     first, last = (session_figures(sessions.session(key)) for key in ("hand-3", "hand-7"))
     lines = _results(first, last)
-    assert [line.joint for line in lines] == [f"TAM{k}" for k in (2, 3, 4, 5)]
-    for line in lines:
-        row = last.row("arc", -1, line.joint)
-        assert (line.mean_deg, line.at_least) == (row.mean_deg, row.limited)
-    assert any(line.at_least for line in lines)
-    assert any(line.verdict == "improved" for line in lines)
+    assert [line.of for line, _ in lines] == [f"TAM{k}" for k in (2, 3, 4, 5)]
+    assert all(line is last.find(line.of, "arc") for line, _ in lines)
+    assert any(line.at_least for line, _ in lines)
+    assert any(change.verdict == "improved" for _, change in lines)
 
 
 def test_the_card_of_a_hook_fist_has_the_middle_joints() -> None:
     lines = _results(None, session_figures(hand_session(exercise="FIST_HOOK", motion="hook")))
-    assert {line.joint for line in lines} <= {f"PIP{k}_flexion" for k in (2, 3, 4, 5)} | {"CMC1_abduction"}
+    assert {line.of for line, _ in lines} <= {f"PIP{k}_flexion" for k in (2, 3, 4, 5)} | {"CMC1_abduction"}
     assert len(lines) >= 4
 
 

@@ -65,9 +65,9 @@ def test_faults_are_gathered_and_what_is_done_is_left(made: Path, tmp_path: Path
     measures = rows(out / MEASURES_FILE)
     assert {row["session"] for row in measures} == {"anna/first.h5", "second.h5"}
     arc = next(row for row in measures if row["session"] == "anna/first.h5" and row["measure"] == "arc")
-    wanted = session_figures(session).rows[0]
+    wanted = session_figures(session).wrist_ranges[0]
     assert (arc["of"], arc["unit"]) == ("deviation", "deg")
-    assert float(arc["mean"]) == pytest.approx(wanted.mean_deg, rel=1e-5)
+    assert float(arc["mean"]) == pytest.approx(wanted.mean, rel=1e-5)
     assert arc["session_id"] == session.header.session_id
     assert arc["at_least"] in ("yes", "no")
     assert [(row["session"], row["measure"], row["of"]) for row in parquet.read_table(table).to_pylist()] == [

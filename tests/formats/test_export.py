@@ -41,9 +41,9 @@ def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bo
         seen = move_pixels(seen, old.camera, new.camera)
     assert np.allclose(read_detections(copy).blobs.pixel, seen, atol=1e-3)
     mine, theirs = session_figures(old), session_figures(new)
-    for one, other in zip((*mine.rows, *mine.joint_rows), (*theirs.rows, *theirs.joint_rows), strict=True):
+    for one, other in zip(mine.group("range"), theirs.group("range"), strict=True):
         assert (one.key, one.count) == (other.key, other.count)
-        assert np.allclose(one.mean_deg, other.mean_deg, atol=1e-4, equal_nan=True)
+        assert np.allclose(one.mean, other.mean, atol=1e-4, equal_nan=True)
 
 
 def test_each_session_of_an_export_to_a_disk_that_can_only_be_read_is_told(

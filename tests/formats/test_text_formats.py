@@ -141,7 +141,7 @@ def test_the_measures_are_json_that_every_reader_takes(tmp_path: Path) -> None:
     assert content["session"]["subject_id"] == take.session.header.subject_id
     (arc,) = [row for row in content["measures"] if (row["measure"], row["of"]) == ("arc", "flexion")]
     assert arc["unit"] == "deg"
-    assert arc["mean"] == take.figures.row("arc", 1).mean_deg  # type: ignore[union-attr]
+    assert arc["mean"] == take.figures.find("flexion", "arc").mean  # type: ignore[union-attr]
     assert len(content["provenance"]["tracked_by"]["settings_sha256"]) in (0, 64)
     assert content["provenance"]["camera"]["fx_px"] == take.session.camera.fx_px
 

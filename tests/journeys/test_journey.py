@@ -186,7 +186,7 @@ def test_the_whole_journey_by_mouse(
     (entry,) = again.library.sessions(row.patient_id)
     stored = again.library.figures(entry)
     assert stored.counted == counted - 1
-    assert stored.counted == 0 or math.isfinite(stored.rows[0].mean_deg)
+    assert stored.counted == 0 or math.isfinite(stored.wrist_ranges[0].mean)
 
 
 def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time(

@@ -18,7 +18,7 @@ from carpus.core.results.progress import compare, other_hand_of, previous_of, pr
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event
 from carpus.ui.words.further import measure_name, value_words
-from tests.results.days import days_ago
+from tests.results.days import days_ago, with_ranges
 from tests.ui.fakes import NOW, figures_once, session
 
 
@@ -33,33 +33,33 @@ def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigu
     time = stored.timestamp_s - stored.timestamp_s[0]
     inside = [(time >= rep.start_s) & (time <= rep.end_s) for rep in figures.repetitions]
     tops, bottoms = [angle[part].max() for part in inside], [angle[part].min() for part in inside]
-    flexion, extension, arc = (figures.row(name, 1) for name in ("flexion", "extension", "arc"))  # type: ignore[arg-type]
+    flexion, extension, arc = (figures.find("flexion", name) for name in ("flexion", "extension", "arc"))  # type: ignore[arg-type]
     # A repetition begins where the hand leaves its turning place: the extreme itself may lie just before.
-    assert flexion.mean_deg == pytest.approx(np.mean(tops), abs=0.5)
-    assert extension.mean_deg == pytest.approx(-np.mean(bottoms), abs=0.3)
-    assert arc.mean_deg == pytest.approx(flexion.mean_deg + extension.mean_deg, abs=1e-9)
-    assert flexion.sd_deg == pytest.approx(np.std(tops, ddof=1), abs=0.3)
+    assert flexion.mean == pytest.approx(np.mean(tops), abs=0.5)
+    assert extension.mean == pytest.approx(-np.mean(bottoms), abs=0.3)
+    assert arc.mean == pytest.approx(flexion.mean + extension.mean, abs=1e-9)
+    assert flexion.sd == pytest.approx(np.std(tops, ddof=1), abs=0.3)
     assert flexion.count == figures.counted == 9
 
 
 def test_a_repetition_left_out_leaves_the_mean(figures: SessionFigures) -> None:
-    arc = figures.row("arc", 1)
+    arc = figures.find("flexion", "arc")
     without = figures_once(session(), RepetitionChoices({6: "pain"}))
     assert without.counted == 8
     assert without.repetitions[6].reason == "pain"
-    assert without.row("arc", 1).mean_deg == pytest.approx((sum(arc.values_deg) - arc.values_deg[6]) / 8)
+    assert without.find("flexion", "arc").mean == pytest.approx((sum(arc.values) - arc.values[6]) / 8)
     nothing = figures_once(session(), RepetitionChoices(dict.fromkeys(range(9), "trial")))
-    assert nothing.rows == ()
-    assert nothing.speed.peak_speed.count == 0
+    assert nothing.wrist_ranges == ()
+    assert nothing.speed("peak speed") is None
 
 
 def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: SessionFigures) -> None:
     rep = figures.repetitions[3]
     middle = 0.5 * (rep.start_s + rep.end_s)
     moved = figures_once(session(), RepetitionChoices({}, {3: (rep.start_s, middle - 1.5)}))
-    before, after = figures.row("arc", 1), moved.row("arc", 1)
-    assert after.values_deg[3] < before.values_deg[3] - 10
-    assert after.values_deg[:3] == pytest.approx(before.values_deg[:3])
+    before, after = figures.find("flexion", "arc"), moved.find("flexion", "arc")
+    assert after.values[3] < before.values[3] - 10
+    assert after.values[:3] == pytest.approx(before.values[:3])
 
 
 def test_hidden_stretches_do_not_count(figures: SessionFigures) -> None:
@@ -74,15 +74,15 @@ def test_hidden_stretches_do_not_count(figures: SessionFigures) -> None:
 
 def test_free_movement_reports_every_angle_and_is_never_judged() -> None:
     free = figures_once(session(exercise="FREE", motion="mixed"))
-    assert [row.angle for row in free.rows if row.movement == "arc"] == [1, 0, 2]
+    assert [row.angle for row in free.wrist_ranges if row.what == "arc"] == [1, 0, 2]
     assert {item.verdict for item in compare(free, replace(free, when=NOW + timedelta(days=1)))} == {"not_judged"}
 
 
 @pytest.mark.parametrize("difference_deg", [0.0, 9.9, 10.1, -9.9, -10.1, 40.0])
 def test_a_change_is_one_only_beyond_its_limit(figures: SessionFigures, difference_deg: float) -> None:
     before = replace(figures, when=NOW - timedelta(days=7))
-    rows = tuple(replace(row, mean_deg=row.mean_deg + difference_deg) for row in figures.rows)
-    verdicts = {item.movement: item.verdict for item in compare(before, replace(figures, rows=rows))}
+    after = with_ranges(figures, lambda row: {"mean": row.mean + difference_deg})
+    verdicts = {item.after.what: item.verdict for item in compare(before, after)}
     sign = "improved" if difference_deg > 0 else "worse"
     assert verdicts["flexion"] == ("no_change" if abs(difference_deg) <= 10 else sign)
     assert verdicts["arc"] == ("no_change" if abs(difference_deg) <= 10 * math.sqrt(2) else sign)
@@ -121,11 +121,10 @@ def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures,
         "simulated": {"simulated": True},
         "distance": {"quality": replace(quality, distance_m=quality.distance_m + 0.2)},
     }[reason]
-    better = tuple(replace(row, mean_deg=row.mean_deg + 30) for row in figures.rows)
-    before, after = figures, days_ago(figures, -1, rows=better)
+    before, after = figures, days_ago(with_ranges(figures, lambda row: {"mean": row.mean + 30}), -1)
     assert {item.verdict for item in compare(before, after)} == {"improved"}
     headline = progress([before, after]).headline
-    assert (headline.movement, headline.verdict) == ("arc", "improved"), "the answer is about the arc first"
+    assert (headline.after.what, headline.verdict) == ("arc", "improved"), "the answer is about the arc first"
     spoilt = (replace(before, **unfair), after) if which == "before" else (before, replace(after, **unfair))
     changes = compare(*spoilt)
     assert {item.verdict for item in changes} == {"not_judged"}
@@ -209,20 +208,20 @@ def test_the_digest_tells_two_measurements_apart() -> None:
 
 def test_shown_differences_agree_with_the_shown_means(figures: SessionFigures) -> None:
     for step in np.linspace(-20, 20, 81):
-        rows = tuple(replace(row, mean_deg=row.mean_deg + float(step)) for row in figures.rows)
-        for item in compare(figures, replace(figures, rows=rows)):
-            assert item.shown_difference_deg == math.floor(item.after_deg + 0.5) - math.floor(item.before_deg + 0.5)
+        after = with_ranges(figures, lambda row, step=float(step): {"mean": row.mean + step})  # type: ignore[misc]
+        for item in compare(figures, after):
+            assert item.shown_difference_deg == math.floor(item.after.mean + 0.5) - math.floor(item.before.mean + 0.5)
 
 
 def test_the_best_is_the_quickest_and_the_smoothest() -> None:
     figures = figures_once(session())
-    speed = figures.speed
-    assert speed.movement_time.count >= 3
-    assert speed.movement_time.best < speed.movement_time.mean
-    assert speed.mean_speed.best > speed.mean_speed.mean
-    assert speed.peaks.best == 1.0
-    assert speed.ldlj.best >= speed.ldlj.mean
-    assert math.isnan(speed.time_to_peak.best), "neither way is better"
+    speed = {row.what: row for row in figures.group("speed")}
+    assert speed["movement time"].count >= 3
+    assert speed["movement time"].best < speed["movement time"].mean
+    assert speed["mean speed"].best > speed["mean speed"].mean
+    assert speed["movement units"].best == 1.0
+    assert speed["jerk"].best >= speed["jerk"].mean
+    assert math.isnan(speed["time to peak"].best), "neither way is better"
 
 
 def test_of_the_other_hand_too_a_recording_counts_by_its_newest_result() -> None:
@@ -239,12 +238,12 @@ def test_a_session_of_few_frames_a_second_has_its_figures(fps: float) -> None:
     stored = session()
     few = replace(stored, timestamp_s=stored.timestamp_s[0] + np.arange(len(stored)) / fps, repetitions=())
     found = session_figures(few)
-    assert {row.movement for row in found.rows} >= {"flexion", "extension", "arc"}
+    assert {row.what for row in found.wrist_ranges} >= {"flexion", "extension", "arc"}
     assert found.quality.frames == len(stored)
-    assert not [one.name for one in found.further if one.unknown == "failed"]
+    assert not [one.what for one in found.group("task") if one.unknown == "failed"]
 
 
-@pytest.mark.parametrize("broken", ["further_measures.held_tremor", "figures.trick_deg", "figures.quality_of"])
+@pytest.mark.parametrize("broken", ["further_measures.held_tremor", "figures.still_measures", "figures.quality_of"])
 def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
     broken: str, figures: SessionFigures, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -253,8 +252,8 @@ def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
 
     monkeypatch.setattr(f"carpus.core.results.{broken}", fail)
     found = session_figures(session())
-    assert repr(found.rows) == repr(figures.rows), "by repr: a NaN equals no NaN"
-    assert repr(found.speed) == repr(figures.speed)
-    (missing,) = (one for one in found.further if one.unknown == "failed")
+    assert repr(found.wrist_ranges) == repr(figures.wrist_ranges), "by repr: a NaN equals no NaN"
+    assert repr(found.group("speed")) == repr(figures.group("speed"))
+    (missing,) = (one for one in found.group("task") if one.unknown == "failed")
     assert value_words(missing) == "not available: it could not be computed"
     assert measure_name(missing)[0].isupper()

@@ -15,6 +15,7 @@ from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.motion_curves import seen_angle
 from carpus.core.results.norms import wrist_norm
+from carpus.core.results.ranges import STILL
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.results.seen import session_curves
 from carpus.core.session.values import Session
@@ -29,25 +30,24 @@ def turned(side: str) -> Session:
 def test_ranges_of_a_forearm_count_from_thumb_up_on_both_hands(side: str) -> None:
     stored = turned(side)
     lowest, highest = np.degrees([stored.motion.angles_rad[:, 2].min(), stored.motion.angles_rad[:, 2].max()])
-    rows = {row.movement: row for row in figures_once(stored).rows}
-    assert rows["pronation"].mean_deg == pytest.approx(90.0 - lowest, abs=4.0)
-    assert rows["supination"].mean_deg == pytest.approx(highest - 90.0, abs=4.0)
-    assert rows["arc"].mean_deg == pytest.approx(highest - lowest, abs=4.0)
-    assert 90.0 < rows["pronation"].mean_deg < 100.0
+    rows = {row.what: row for row in figures_once(stored).wrist_ranges}
+    assert rows["pronation"].mean == pytest.approx(90.0 - lowest, abs=4.0)
+    assert rows["supination"].mean == pytest.approx(highest - 90.0, abs=4.0)
+    assert rows["arc"].mean == pytest.approx(highest - lowest, abs=4.0)
+    assert 90.0 < rows["pronation"].mean < 100.0
     drawn = session_curves(stored).angles_deg[:, 2]
     assert drawn == pytest.approx(np.degrees(stored.motion.angles_rad[:, 2]) - 90.0)
-    assert np.nanmax(seen_angle(stored, "", 2)) == pytest.approx(highest - 90.0, abs=4.0)
+    assert np.nanmax(seen_angle(stored, "pronosupination")) == pytest.approx(highest - 90.0, abs=4.0)
 
 
 def test_what_is_measured_by_hand_stands_beside_the_same_angle() -> None:
     """A therapist who reads 94 degrees of pronation and Carpus mean the same pose."""
     figures = figures_once(turned("right"))
-    joint, movement, angle = measure_named("PRONATION").figure or ("", "", -1)
-    row = figures.row(movement, angle, joint)  # type: ignore[arg-type]
+    row = figures.find(*(measure_named("PRONATION").figure or ("", "")))
     assert row is not None
     norm = wrist_norm("pronation", 2, figures.exercise)
     assert norm is not None
-    assert norm.low_deg <= row.mean_deg <= measure_named("PRONATION").most
+    assert norm.low_deg <= row.mean <= measure_named("PRONATION").most
 
 
 def test_the_table_of_repetitions_keeps_the_angle_of_the_file() -> None:
@@ -71,9 +71,10 @@ def test_beside_another_movement_a_rotation_is_none_of_the_forearm() -> None:
         stored, motion=replace(stored.motion, angles_rad=angles),
         calibration=replace(stored.calibration, start_angles_rad=start),
     )  # fmt: skip
-    assert session_figures(began).trick_deg[2] == pytest.approx(figures_once(stored).trick_deg[2])
+    still, other = (one.find("pronosupination", STILL) for one in (session_figures(began), figures_once(stored)))
+    assert still.mean == pytest.approx(other.mean)
     free = replace(stored, header=replace(stored.header, exercise="FIST_COMPOSITE"))
-    assert {row.movement for row in session_figures(free).rows if row.angle == 2} == {"arc"}
+    assert {row.what for row in session_figures(free).wrist_ranges if row.angle == 2} == {"arc"}
 
 
 def test_targets_of_an_older_session_are_those_of_palm_down_converted() -> None:

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.further_measures import FurtherMeasure, _distance_sd_m, session_reaches
+from carpus.core.results.further_measures import _distance_sd_m, session_reaches
+from carpus.core.results.measure import Measure, measure_values
 from carpus.core.results.measures_table import measure_rows
-from carpus.core.results.norms import graded_totals
+from carpus.core.results.norms import SHARE_OF_OTHER, grade_of, total_shares
 from carpus.ui.words.further import further_rows, main_words, measure_name, short_words
 from carpus.ui.words.ranges import table_rows
 from carpus.ui.words.session import method
@@ -19,13 +20,13 @@ from tests.ui.fakes import figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 
-def named(figures: SessionFigures, name: str, of: str) -> FurtherMeasure:
-    return next(item for item in figures.further if (item.name, item.of) == (name, of))
+def named(figures: SessionFigures, name: str, of: str) -> Measure:
+    return next(item for item in figures.group("task") if item.key == (of, name))
 
 
 def without_words(figures: SessionFigures) -> set[str]:
     """Measures that the report calls by the name they have in files."""
-    return {item.name for item in figures.further if item.name in measure_name(item)}
+    return {item.what for item in figures.group("task") if item.what in measure_name(item)}
 
 
 def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_fist() -> None:
@@ -39,7 +40,7 @@ def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_f
     assert named(figures, "peak speed", "reach").mean > 200.0
     aperture = np.linalg.norm(np.diff(made.motion.joint_position_m[:, [4, 8]], axis=1)[:, 0], axis=1)
     assert named(figures, "largest aperture", "TIP1-TIP2").mean <= 1e3 * float(np.nanmax(aperture)) + 1e-6
-    assert not any(row.joint.startswith("TAM") for row in figures.joint_rows)
+    assert not any(row.of.startswith("TAM") for row in figures.joint_ranges)
     assert "TAM" not in method(figures, 21, compared=False)
     assert {row.measure for row in measure_rows(figures, "s")} >= {"straightness", "largest aperture", "movement time"}
     assert "trained angle" not in {row.of for row in measure_rows(figures, "s")}, "by its name, as in every table"
@@ -98,15 +99,16 @@ def test_a_hidden_thumb_is_coherent_until_its_pose_falls_apart() -> None:
 def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
     figures = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist"))
     assert without_words(figures) == set()
-    assert {grade.finger for grade in figures.grades} <= {1, 2, 3, 4, 5}
-    for grade in figures.grades:
-        row = figures.row("arc", -1, f"TAM{grade.finger}")
-        assert grade.share == row.mean_deg / (140.0 if grade.finger == 1 else 260.0)
-        assert (grade.grade is None) == row.limited
+    shares = figures.group("share")
+    assert {share.of for share in shares} <= {f"TAM{finger}" for finger in (1, 2, 3, 4, 5)}
+    for share in shares:
+        row = figures.find(share.of, "arc")
+        assert share.mean == row.mean / (140.0 if share.of == "TAM1" else 260.0)
+        assert (grade_of(share) is None) == row.at_least
     other = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
-    beside = graded_totals(figures.joint_rows, figures.exercise, other.joint_rows)
-    assert all(grade.of_other_hand for grade in beside)
-    assert all(grade.share > 1.0 for grade in beside if grade.finger > 1), "of a hand that bends less"
+    beside = total_shares(figures.joint_ranges, figures.exercise, other.joint_ranges)
+    assert all(share.what == SHARE_OF_OTHER for share in beside)
+    assert all(share.mean > 1.0 for share in beside if share.of != "TAM1"), "of a hand that bends less"
     assert named(figures, "co-flexion", "PIP2_flexion, PIP3_flexion").mean > 0.5
 
 
@@ -119,8 +121,8 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
     low, high = np.nanpercentile(flexion, (2, 98))
     angles[:, 1] = np.radians(20.0) + (flexion - low) / (high - low) * np.radians(40.0)
     figures = figures_once(replace(made, motion=replace(motion, angles_rad=angles)))
-    row = figures.row("extension", 1)
-    assert -24.0 < row.mean_deg < -12.0
+    row = figures.find("flexion", "extension")
+    assert -24.0 < row.mean < -12.0
     shown = {line.movement: line.today for line in table_rows(figures, None, None)}
     assert "Extension deficit" in shown
     assert "-" not in shown["Extension deficit"]
@@ -128,10 +130,10 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
 
 
 def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -> None:
-    lost = FurtherMeasure("smoothness", "reach", "SPARC", (math.nan, math.nan), "too_slow")
-    gone = FurtherMeasure("smoothness", "return", "SPARC", (math.nan,))
+    lost = measure_values("task", "reach", "smoothness", "SPARC", (math.nan, math.nan), unknown="too_slow")
+    gone = measure_values("task", "return", "smoothness", "SPARC", (math.nan,))
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    figures = replace(figures, further=(lost, gone))
+    figures = replace(figures, measures=(lost, gone))
     assert [(row.name, row.today) for row in further_rows(figures)] == [
         ("Smoothness (SPARC), out", "too slow to judge")
     ]
@@ -152,7 +154,9 @@ def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
             assert named(plain, name, f"TIP1-TIP{k}").unknown == ""
     assert main_words(figures) == "Whether the thumb touched the finger tips was hidden from the camera"
     assert short_words(figures) == "Touches hidden"
-    assert not any(math.isfinite(item.mean) for item in figures.further if item.of in ("thumb across", "thumb back"))
+    assert not any(
+        math.isfinite(item.mean) for item in figures.group("task") if item.of in ("thumb across", "thumb back")
+    )
     said = [row.today for row in further_rows(figures) if "across" in row.name]
     assert said == ["hidden from the camera"], "one line for all that is not known of the ways"
 

@@ -13,6 +13,7 @@ from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import proposals
+from tests.results.days import with_ranges
 from tests.ui.fakes import NOW, figures_once, session
 
 FLEXION = exercise_named("WRIST_FE")
@@ -25,8 +26,8 @@ def base() -> SessionFigures:
 
 def of_day(day: int, mean_deg: float, **changes: object) -> SessionFigures:
     """The same session on another day, with another mean of flexion."""
-    rows = tuple(replace(row, mean_deg=mean_deg) if row.movement == "flexion" else row for row in base().rows)
-    return replace(base(), when=NOW + timedelta(days=day), rows=rows, **changes)  # type: ignore[arg-type]
+    shown = with_ranges(base(), lambda row: {"mean": mean_deg} if row.what == "flexion" else {})
+    return replace(shown, when=NOW + timedelta(days=day), **changes)  # type: ignore[arg-type]
 
 
 def flexion(history: Sequence[SessionFigures]) -> tuple[float, float, int, float]:
@@ -53,5 +54,5 @@ def test_it_is_never_above_what_the_clinic_own_measurement_error_can_tell() -> N
 
 def test_what_the_camera_did_not_see_to_its_end_proposes_nothing() -> None:
     one = of_day(0, 40.0)
-    hidden = replace(one, rows=tuple(replace(row, limited=True) for row in one.rows))
+    hidden = with_ranges(one, lambda _: {"at_least": True})
     assert proposals([hidden], FLEXION, "right", "wrist6") == ()

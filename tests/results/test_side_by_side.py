@@ -96,9 +96,9 @@ def test_a_session_beside_itself_shows_no_difference(figures: SessionFigures) ->
     assert both.fair
     assert both.ranges
     for one in both.ranges:
-        assert one.comparison.difference_deg == 0.0
-        assert one.comparison.verdict == "no_change"
-        assert not one.beyond
+        assert one.difference_deg == 0.0
+        assert one.verdict == "no_change"
+        assert not one.is_beyond
 
 
 def test_a_mirrored_hand_equals_the_other() -> None:
@@ -107,33 +107,35 @@ def test_a_mirrored_hand_equals_the_other() -> None:
     assert both.relation == "hands"
     assert both.fair
     for one in both.ranges:
-        assert one.comparison.difference_deg == pytest.approx(0.0, abs=1.0)
+        assert one.difference_deg == pytest.approx(0.0, abs=1.0)
 
 
 def test_two_hands_differ_only_beyond_error_and_neither_way_round_matters(
     figures: SessionFigures, left: SessionFigures
 ) -> None:
     both, turned = side_by_side(figures, left), side_by_side(left, figures)
-    arc = next(one for one in both.ranges if one.first.movement == "arc")
+    arc = next(one for one in both.ranges if one.after.what == "arc")
     assert both.main is arc
-    assert arc.beyond
-    assert arc.comparison.difference_deg < -arc.comparison.limit_deg
+    assert arc.is_beyond
+    assert arc.difference_deg < -arc.limit_deg
     for one, other in zip(both.ranges, turned.ranges, strict=True):
-        assert one.comparison.difference_deg == pytest.approx(-other.comparison.difference_deg)
-        assert one.beyond == other.beyond
-        assert one.comparison.limit_deg == other.comparison.limit_deg
+        assert one.difference_deg == pytest.approx(-other.difference_deg)
+        assert one.is_beyond == other.is_beyond
+        assert one.limit_deg == other.limit_deg
 
 
 def test_an_unfair_pair_is_not_judged_and_says_why(figures: SessionFigures, left: SessionFigures) -> None:
     far = replace(left, quality=replace(left.quality, distance_m=0.95))
     both = side_by_side(figures, far)
     assert both.reasons == ("distance",)
-    assert {one.comparison.verdict for one in both.ranges} == {"not_judged"}
+    assert {one.verdict for one in both.ranges} == {"not_judged"}
     other = figures_once(session(exercise="WRIST_RU", motion="deviation", session_id="other"))
     assert "exercise" in side_by_side(figures, other).reasons
     apart = side_by_side(figures, other)
     assert apart.main is None, "they have no movement in common"
-    assert len(apart.alone) == len(figures.rows) + len(other.rows), "what each has is shown all the same"
+    assert len(apart.alone) == len(figures.wrist_ranges) + len(other.wrist_ranges), (
+        "what each has is shown all the same"
+    )
     few = figures_once(session(session_id="few"), RepetitionChoices(dict.fromkeys(range(7), "pain")))
     assert pair_reasons(figures, few) == pair_reasons(few, figures) == ("few_repetitions_after",)
     assert "angle_order" in pair_reasons(figures, replace(left, angle_order="isb"))
@@ -168,12 +170,12 @@ def test_of_the_whole_hand_the_fingers_compare() -> None:
     )
     first, second = figures_once(other), figures_once(stored)
     both = side_by_side(first, second, finger_keys(0))
-    assert [one.first.joint for one in both.ranges] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
-    assert both.main.beyond
-    assert both.main.comparison.difference_deg < 0.0
-    assert np.nanmax(seen_angle(stored, "TAM3", -1)) == pytest.approx(second.row("arc", -1, "TAM3").best_deg, abs=12.0)
-    assert np.isnan(seen_angle(stored, "no such joint", -1)).all()
-    assert np.isnan(seen_angle(session(), "TAM3", -1)).all()
+    assert [one.after.of for one in both.ranges] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
+    assert both.main.is_beyond
+    assert both.main.difference_deg < 0.0
+    assert np.nanmax(seen_angle(stored, "TAM3")) == pytest.approx(second.find("TAM3", "arc").best, abs=12.0)
+    assert np.isnan(seen_angle(stored, "no such joint")).all()
+    assert np.isnan(seen_angle(session(), "TAM3")).all()
 
 
 def test_a_hidden_end_of_either_hand_is_judged_only_where_it_is_sure() -> None:
@@ -182,8 +184,8 @@ def test_a_hidden_end_of_either_hand_is_judged_only_where_it_is_sure() -> None:
     small = figures_once(hand_session(share=0.3, session_id="left", side="left", hides_beyond_deg=200.0))
     for pair in ((hidden, small), (small, hidden)):
         both = side_by_side(*pair, finger_keys(3))
-        middle = next(one for one in both.ranges if one.first.joint == "PIP3_flexion")
-        sides = {one.limited for one in (middle.first, middle.second)}
+        middle = next(one for one in both.ranges if one.after.of == "PIP3_flexion")
+        sides = {one.at_least for one in (middle.before, middle.after)}
         assert sides == {True, False}
-        assert middle.beyond
-        assert (middle.comparison.difference_deg > 0.0) == (middle.comparison.verdict == "improved")
+        assert middle.is_beyond
+        assert (middle.difference_deg > 0.0) == (middle.verdict == "improved")

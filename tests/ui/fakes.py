@@ -22,6 +22,8 @@ from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import Onset, Patient, SessionEntry
 from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.measure import Measure
+from carpus.core.results.progress import Comparison
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
@@ -43,7 +45,7 @@ from carpus.ui.ports import (
     Judged,
     PatientCard,
     ProposedMarker,
-    ResultLine,
+    Result,
     VerdictLimits,
 )
 from carpus.ui.report.gather import session_report
@@ -453,7 +455,7 @@ class FakeStore:
         row = next(row for row in self.rows if row.patient_id == patient_id)
         if row.last_session is None:
             return PatientCard(row)
-        results = [ResultLine("flexion", 55, 3, 21, "improved"), ResultLine("extension", 43, 3, 5, "no_change")]
+        results = [_result("flexion", 55, 21, "improved"), _result("extension", 43, 5, "no_change")]
         note = "Splint off since Monday. Forearm strapped, 10 cm wedge."
         return PatientCard(row, results, "10 repetitions", note, row.last_session, picture())
 
@@ -474,6 +476,11 @@ class FakeStore:
 
     def list_diagnosis(self, words: str, *, listed: bool) -> None:
         self.listed = [*(one for one in self.listed if one != words), *([words] if listed else [])]
+
+
+def _result(movement: str, mean_deg: float, change_deg: float, verdict: str) -> Result:
+    row = Measure("range", "flexion", movement, "deg", (mean_deg,) * 10, mean_deg, 3.0)
+    return row, Comparison(replace(row, mean=mean_deg - change_deg), row, 10.0, verdict)  # type: ignore[arg-type]
 
 
 class FakeCalibrator:

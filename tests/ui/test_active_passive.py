@@ -19,6 +19,7 @@ from carpus.ui.report.gather import write_session_report
 from carpus.ui.words.active_passive import BY_HAND, active_passive
 from carpus.ui.words.progress import unfair_words
 from carpus.ui.words.ranges import repetition_words
+from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.printed import words_of
@@ -38,16 +39,16 @@ def helped_session(*events: tuple[float, str]) -> Session:
 
 
 def mean_of(figures: SessionFigures | None) -> float:
-    return figures.row("flexion", 1).mean_deg
+    return figures.find("flexion", "flexion").mean
 
 
 def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     helped = [number for number, one in enumerate(figures.repetitions) if one.helped]
     assert figures.counted >= 3
-    assert figures.passive.counted == len(helped) >= 3
+    assert figures.as_passive().counted == len(helped) >= 3
     assert figures.counted + len(helped) == len([one for one in figures.repetitions if not one.unmeasured])
-    assert mean_of(figures) < 0.75 * mean_of(figures.passive)
+    assert mean_of(figures) < 0.75 * mean_of(figures.as_passive())
     left_out = RepetitionChoices(dict.fromkeys(helped, "pain"))
     assert mean_of(figures) == mean_of(figures_once(helped_session(), left_out)), "as if it had been left out"
     rows = {row.of for row in measure_rows(figures, "s")}
@@ -60,8 +61,8 @@ def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exerci
         made = helped_session(*events)
         return figures_once(replace(made, header=replace(made.header, exercise=exercise)))
 
-    assert free((HELPED_S, PASSIVE)).row("flexion", 1).best_deg < 0.75 * free().row("flexion", 1).best_deg
-    assert not free((0.0, PASSIVE)).rows, "nothing was active"
+    assert free((HELPED_S, PASSIVE)).find("flexion", "flexion").best < 0.75 * free().find("flexion", "flexion").best
+    assert not free((0.0, PASSIVE)).wrist_ranges, "nothing was active"
     assert repetition_words(free((HELPED_S, PASSIVE))).endswith("without what was passive")
     assert "passive" not in repetition_words(free())
 
@@ -91,12 +92,12 @@ def test_a_passive_repetition_that_was_hidden_says_that() -> None:
 
 def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> None:
     made = FakeHandSessions().session("hand-7")
-    assert figures_once(made).further
+    assert figures_once(made).group("task")
     helped = replace(made, events=(Event(float(made.timestamp_s[0]), PASSIVE, ""),))
     everything = figures_once(helped)
-    assert everything.passive is not None
-    assert not everything.further, "nothing was active"
-    assert figures_once(helped, RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))).further
+    assert everything.has_passive
+    assert not everything.group("task"), "nothing was active"
+    assert figures_once(helped, RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))).group("task")
 
 
 def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
@@ -104,11 +105,11 @@ def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
     helped = [number for number, one in enumerate(figures_once(made).repetitions) if one.helped]
     taken_back = figures_once(made, RepetitionChoices({helped[0]: ""}))
     assert taken_back.repetitions[helped[0]].counts
-    assert figures_once(helped_session((0.0, PASSIVE), (0.5, ACTIVE))).passive is None
+    assert not figures_once(helped_session((0.0, PASSIVE), (0.5, ACTIVE))).has_passive
     everything = figures_once(helped_session((0.0, PASSIVE)))
     assert everything.counted == 0
-    assert not everything.rows, "nothing was active"
-    assert everything.passive is not None
+    assert not everything.wrist_ranges, "nothing was active"
+    assert everything.has_passive
     assert active_passive(everything, ()) is not None
 
 
@@ -118,7 +119,7 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     flexion = next(row for row in found.rows if row[0] == "Flexion")
     assert flexion[4] == f"{BY_HAND} 48° / 60°"
     assert f"{mean_of(figures):.0f}°" in flexion[1]
-    assert f"{mean_of(figures.passive):.0f}°" in flexion[2]
+    assert f"{mean_of(figures.as_passive()):.0f}°" in flexion[2]
     assert "error" in flexion[3]
     assert "when helped" in found.said
     assert active_passive(figures_once(session()), ()) is None, "one way alone has no table"
@@ -130,9 +131,7 @@ def test_where_passive_went_less_far_the_table_says_so_and_the_sentence_keeps_th
     assert arc[3].startswith("\N{MINUS SIGN}")
     assert "error" in arc[3]
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    row = figures.row("flexion", 1)
-    assert row is not None
-    made = replace(figures, rows=tuple(replace(one, mean_deg=-12.0) if one is row else one for one in figures.rows))
+    made = with_ranges(figures, lambda row: {"mean": -12.0} if row.what == "flexion" and not row.passive else {})
     assert "\N{MINUS SIGN}12° by itself" in active_passive(made, ()).said, "it does not reach neutral"
 
 

@@ -68,7 +68,7 @@ def test_of_a_hook_the_middle_joints_of_all_fingers_come_first() -> None:
     offered = [value for value, _ in kinds(first, second)]
     assert offered[:2] == ["middle", "1"]
     both = side_by_side(first, second, keys_of(offered[0]))
-    assert [one.first.joint for one in both.ranges] == [f"PIP{finger}_flexion" for finger in (2, 3, 4, 5)]
+    assert [one.after.of for one in both.ranges] == [f"PIP{finger}_flexion" for finger in (2, 3, 4, 5)]
 
 
 def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionFigures, left: SessionFigures) -> None:

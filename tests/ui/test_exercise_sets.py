@@ -119,7 +119,7 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
     screen.show_history(row.patient_id, [replace(figures, simulated=True)])
     assert not screen.accept.isVisible(), "what a simulated hand did is no measure of this patient"
     screen.show_history(row.patient_id, [figures])
-    mean_deg = figures.row("flexion", 1).mean_deg  # type: ignore[union-attr]
+    mean_deg = figures.find("flexion", "flexion").mean  # type: ignore[union-attr]
     assert "from the last session" in screen.proposal.text()
     screen.accept.click()
     goal_deg = screen.set_up().target_positive_deg
@@ -129,9 +129,9 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
     screen.asked["side"].buttons()[1].click()
     assert math.isnan(screen.set_up().target_positive_deg)
     shown = progress([replace(figures, targets_deg=(goal_deg, math.nan))])
-    assert Goals(shown, ("", "flexion", 1)).newest_deg == goal_deg
-    assert math.isnan(Goals(shown, ("", "extension", 1)).newest_deg)
-    assert any(isinstance(mark, Goals) for mark in still(shown, ("", "flexion", 1)))
+    assert Goals(shown, ("flexion", "flexion")).newest_deg == goal_deg
+    assert math.isnan(Goals(shown, ("flexion", "extension")).newest_deg)
+    assert any(isinstance(mark, Goals) for mark in still(shown, ("flexion", "flexion")))
 
 
 def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:

@@ -23,7 +23,8 @@ from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.measures.repetitions import Uncounted
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover
-from carpus.core.results.figures import SessionFigures, StrokeSpread
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measure import measure_values
 from carpus.core.results.progress import progress
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.types import TrackedFrame
@@ -36,7 +37,7 @@ from carpus.ui.plot.course import place_panels
 from carpus.ui.plot.history import History
 from carpus.ui.plot.session import HandPlot
 from carpus.ui.plot.style import screen_style
-from carpus.ui.ports import PatientCard, Preferences, ResultLine
+from carpus.ui.ports import PatientCard, Preferences
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.report.gather import session_report
 from carpus.ui.report.screen import suggested_name
@@ -49,6 +50,7 @@ from carpus.ui.words.progress import before_after
 from carpus.ui.words.ranges import repetition_words, table_rows
 from carpus.ui.words.session import method, other_lines
 from tests.moments import with_moment
+from tests.results.days import with_ranges
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import hand_session
@@ -177,14 +179,14 @@ def test_the_lamp_judges_the_forearm_by_the_point_that_the_wrist_turns_about(mov
 def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme: Theme) -> None:
     before = not_reaching((30.0, 60.0), when=NOW - timedelta(days=20), session_id="before")
     course = progress([before, not_reaching((10.0, 60.0), session_id="after")])
-    item = next(item for item in course.comparisons if item.movement == "extension")
+    item = next(item for item in course.comparisons if item.after.what == "extension")
     assert item.verdict == "improved"
     assert before_after(item).count("lacks") == 2
     panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, None) if key[1] == "extension")
-    assert panel.scale.low < item.before_deg + 5.0
+    assert panel.scale.low < item.before.mean + 5.0
     card = PatientCardView(theme, NOW.date)
-    line = ResultLine("extension", -20.0, 1.0, math.nan, "not_judged")
-    card.show_card(PatientCard(FakeStore().rows[5], (line,), has_sessions=True), camera_ready=True)
+    row = replace(item.after, mean=-20.0)
+    card.show_card(PatientCard(FakeStore().rows[5], ((row, None),), has_sessions=True), camera_ready=True)
     assert "lacks 20°" in said(card)
 
 
@@ -193,12 +195,10 @@ def test_the_footnote_names_the_sd_that_is_printed() -> None:
     many = figures_once(session())
     assert "spread between repetitions" in method(many, 6, compared=False)
     assert "tracker’s own" not in method(many, 6, compared=False)
-    single = replace(
-        many, rows=tuple(replace(row, sd_deg=math.nan, values_deg=row.values_deg[:1]) for row in many.rows)
-    )
+    single = with_ranges(many, lambda row: {"sd": math.nan, "values": row.values[:1]})
     assert "tracker’s own" in method(single, 6, compared=False)
     assert "spread between repetitions" not in method(single, 6, compared=False)
-    mixed = replace(many, rows=(many.rows[0], *single.rows[1:]))
+    mixed = with_ranges(many, lambda row: {} if row.what == "arc" else {"sd": math.nan, "values": row.values[:1]})
     assert "of fewer than 3 the tracker’s own" in method(mixed, 6, compared=False)
 
 
@@ -257,8 +257,8 @@ def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is
     made = figures_once(session())
     assert repetition_words(replace(made, unseen_s=6.2)).endswith("6 s not seen and not counted")
     assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
-    unknown = StrokeSpread(math.nan, math.nan, math.nan, 0)
-    slow = replace(made, speed=replace(made.speed, peak_speed=unknown, too_slow=made.speed.count))
+    lost = measure_values("speed", made.trained, "peak speed", "deg/s", (math.nan,), unknown="too_slow")
+    slow = replace(made, measures=tuple(lost if row.key == lost.key else row for row in made.measures))
     assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (
         "too slow to judge"
     )
@@ -289,11 +289,11 @@ def test_a_still_hand_has_no_speed(speed: float, words: str) -> None:
 def test_the_list_s_figure_is_of_the_joint_that_is_trained_and_says_at_least() -> None:
     figures = figures_once(hand_session())
     trained = figure_of(figures.exercise.joint).finger
-    rows = {figure.finger: figures.row("arc", -1, figure.joint) for figure in compared_figures(figures)}
+    rows = {figure.finger: figures.find(figure.joint, "arc") for figure in compared_figures(figures)}
     row = rows[trained]
     words = main_figure(figures)
     assert words.startswith(next(one.long_name for one in compared_figures(figures) if one.finger == trained))
-    assert ("≥" in words) == row.limited
+    assert ("≥" in words) == row.at_least
     assert exercise_named(figures.exercise.id).joint == figures.exercise.joint
 
 

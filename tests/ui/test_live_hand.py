@@ -256,9 +256,9 @@ def test_what_is_counted_live_is_what_the_review_counts_though_the_joint_hides(e
     count.append(frames_of(session))
     found = session_figures(session, RepetitionChoices({}))
     assert count.count() == len(found.repetitions) >= 5
-    row = found.row("flexion", -1, chosen.joint)
-    assert count.best_positive_deg == pytest.approx(row.best_deg, abs=3.0)
-    assert count.best_at_least == row.limited
+    row = found.find(chosen.joint, "flexion")
+    assert count.best_positive_deg == pytest.approx(row.best, abs=3.0)
+    assert count.best_at_least == row.at_least
 
 
 def test_light_map_cells_and_large_number_say_the_same_at_every_moment(live: Live) -> None:

@@ -175,8 +175,8 @@ def test_totals_are_graded_beside_their_share() -> None:
     assert column_heads(whole, None)[5] == "Of usual"
     rows = finger_rows(whole, None)
     assert all(row.share.main.endswith("%") for row in rows)
-    index = whole.row("arc", -1, "TAM2")
-    assert rows[1].share.main.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean_deg / 260.0:.0f}"
+    index = whole.find("TAM2", "arc")
+    assert rows[1].share.main.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean / 260.0:.0f}"
     assert rows[1].share.small in ("good", "fair")
     hidden = finger_rows(figures_once(hand_session()), None)
     assert hidden[1].share.main.startswith("≥")

@@ -34,6 +34,7 @@ from carpus.ui.settings.report_card import LogoRefused, logo_png
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
 from carpus.ui.words.session import warnings
+from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.printed import pages_of, reach_of, tool, words_of
@@ -210,13 +211,13 @@ def test_the_sheet_for_home_has_no_bad_news() -> None:
     assert len(way.days) == len(way.values_deg) >= 2
     assert own_way(last, [last], {}) is None, "one session is no way"
     fair = [one for one in history if one.when.date() in way.days[1:-1]]
-    fallen = [replace(one, rows=tuple(replace(row, mean_deg=2.0 * row.mean_deg) for row in one.rows)) for one in fair]
+    fallen = [with_ranges(one, lambda row: {"mean": 2.0 * row.mean}) for one in fair]
     first = next(one for one in history if one.when.date() == way.days[0])
-    as_at_first = replace(last, rows=first.rows)
+    as_at_first = replace(last, measures=first.measures)
     held = own_way(as_at_first, [first], {})
     assert not held.further
     assert own_way(as_at_first, [first, *fallen], {}) is None, "what was reached in between is not held"
-    worse = replace(last, rows=tuple(replace(row, mean_deg=0.3 * row.mean_deg) for row in last.rows))
+    worse = with_ranges(last, lambda row: {"mean": 0.3 * row.mean})
     assert own_way(worse, history, {}) is None
 
 

@@ -356,7 +356,7 @@ def test_an_angle_that_no_joint_can_have_is_a_gap_in_review_and_figures() -> Non
     assert not curves.seen[600:602].any()
     assert np.nanmin(curves.angles_deg) > -60.0
     for row in session_figures(broken, RepetitionChoices({})).rows:
-        for value in (row.mean_deg, row.sd_deg, row.best_deg):
+        for value in (row.mean, row.sd, row.best):
             assert not abs(value) > 400.0, row.key
 
 

@@ -13,7 +13,8 @@ from PySide6.QtGui import QPainter, QPicture
 from PySide6.QtWidgets import QApplication
 
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import compare_rows, progress
+from carpus.core.results.measure import wrist_column
+from carpus.core.results.progress import compare, progress
 from carpus.core.results.ranges import finger_keys
 from carpus.ui import numbers
 from carpus.ui.figures import Figure, with_side
@@ -35,6 +36,7 @@ from carpus.ui.words.fingers import (
 )
 from carpus.ui.words.progress import headline
 from carpus.ui.words.session import quality_lines
+from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.printed import pages_of, words_of
@@ -110,21 +112,21 @@ def test_a_hand_never_tracked_gives_an_honest_page(tmp_path: Path) -> None:
 
 def test_a_lower_bound_is_a_gain_when_it_is_beyond_the_error_and_else_not_judged(store: FakeHandSessions) -> None:
     first, last = (figures_once(store.session(key)) for key in ("hand-3", "hand-7"))
-    row = last.row("arc", -1, "TAM3")
-    before = first.row("arc", -1, "TAM3")
-    assert row.limited
-    assert not before.limited
-    gain = compare_rows(first, last, [row])[0]
+    row = last.find("TAM3", "arc")
+    before = first.find("TAM3", "arc")
+    assert row.at_least
+    assert not before.at_least
+    gain = compare(first, last, [row])[0]
     assert (gain.verdict, gain.at_least) == ("improved", True)
-    little = replace(row, mean_deg=before.mean_deg + 5.0)
-    assert compare_rows(first, last, [little])[0].verdict == "not_judged"
-    assert compare_rows(last, first, [before])[0].verdict == "not_judged"
+    little = replace(row, mean=before.mean + 5.0)
+    assert compare(first, last, [little])[0].verdict == "not_judged"
+    assert compare(last, first, [before])[0].verdict == "not_judged"
 
 
 def test_a_hand_that_was_seen_all_the_time_is_judged_joint_by_joint() -> None:
     first, last = (figures_once(without_hidden(hand_session(share=share))) for share in (0.6, 1.0))
-    compared = compare_rows(first, last, [row for row in last.joint_rows if row.joint == "MCP3_flexion"])
-    arc = next(item for item in compared if item.movement == "arc")
+    compared = compare(first, last, [row for row in last.joint_ranges if row.of == "MCP3_flexion"])
+    arc = next(item for item in compared if item.after.what == "arc")
     assert (arc.verdict, arc.at_least) == ("improved", False)
     assert arc.limit_deg == pytest.approx(12.0 * 2**0.5)
 
@@ -144,9 +146,9 @@ def test_progress_follows_totals_first_and_one_finger_on_request_and_of_the_thum
     assert shown_of(last) == ["TAM1", "TAM2", "TAM3", "TAM4", "TAM5"]
     assert "TAM" in headline(progress(history, None, followed_keys("tam")))[0]
     assert shown_of(last, "4") == ["TAM4", "MCP4_flexion", "PIP4_flexion"]
-    assert all(row.mean_deg <= axis_top_deg("arc", -1, row.joint) for row in last.joint_rows if row.count)
+    assert all(row.mean <= axis_top_deg((row.of, "arc")) for row in last.joint_ranges if row.count)
     wrist = progress(history, None, followed_keys(""))
-    assert all(not key[0] for key in panels_of(wrist))
+    assert all(wrist_column(of) >= 0 for of, _ in panels_of(wrist))
     thumb = figures_once(hand_session(exercise="THUMB_OPP", motion="thumb"))
     assert shown_of(thumb) == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
 
@@ -167,17 +169,17 @@ def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHand
     last = {(line["joint"], line["movement"]): line for line in lines if line["session"] == "hand-7"}
     figures = figures_once(store.session("hand-7"))
     assert len(last) >= 3 * (17 + 5)
-    for row in figures.joint_rows:
-        line = last[row.joint, row.movement]
-        assert float(line["mean_deg"]) == pytest.approx(row.mean_deg, abs=0.051)
-        assert (line["at_least"] == "yes") == row.limited
+    for row in figures.joint_ranges:
+        line = last[row.key]
+        assert float(line["mean_deg"]) == pytest.approx(row.mean, abs=0.051)
+        assert (line["at_least"] == "yes") == row.at_least
 
 
 def test_how_sure_is_amber_as_soon_as_a_joint_is_a_lower_bound() -> None:
     limited = figures_once(hand_session())
     lines = {name: (value, fine) for name, value, fine in quality_lines(limited)}
     value, fine = lines["At least (≥) or not seen"]
-    bounds = sum(row.limited for row in limited.joint_rows if row.movement == "arc")
+    bounds = sum(row.at_least for row in limited.joint_ranges if row.what == "arc")
     assert value.startswith(f"{bounds} of ")
     assert bounds
     assert not fine
@@ -221,10 +223,9 @@ def test_total_active_motion_is_explained_once_and_only_after_a_fist() -> None:
 
 def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
     figures = figures_once(hand_session())
-    low = figures.row("extension", -1, "PIP3_flexion")
-    assert low is not None
-    rows = tuple(replace(row, mean_deg=-3.2) if row == low else row for row in figures.joint_rows)
-    cell = cell_of(replace(figures, joint_rows=rows), Figure(3, "middle"))
+    low = ("PIP3_flexion", "extension")
+    beyond = with_ranges(figures, lambda row: {"mean": -3.2} if row.key == low else {})
+    cell = cell_of(beyond, Figure(3, "middle"))
     assert cell.small.startswith("−3° to ")
     spread = cell_of(figures, Figure(4, "spread")).small
     assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread)

@@ -22,7 +22,6 @@ import carpus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.provenance import revision
-from carpus.core.results.figures import StrokeSpread
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui.language import speaking
 from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
@@ -67,8 +66,8 @@ def test_the_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Pat
 def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
     words = words_of(report)
     figures = figures_once(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
-    for row in figures.rows:
-        assert f"{row.mean_deg:.0f}° ± {max(1, round(row.sd_deg))}°" in words
+    for row in figures.wrist_ranges:
+        assert f"{row.mean:.0f}° ± {max(1, round(row.sd))}°" in words
     assert "mean of 8 repetitions; number 7 left out: pain" in words
     assert "within error (14°)" in words
     assert "Linden 42" in words
@@ -273,10 +272,9 @@ def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
 @pytest.mark.parametrize("code", ["en", "de", "it"])
 def test_a_long_value_is_never_printed_over_its_name(qapp: QApplication, code: str) -> None:
     said = session_report(session())
-    speed = replace(
-        said.figures.speed, pauses=StrokeSpread(1.2, 1.0, 0.0, 9), pause_time=StrokeSpread(10.2, 1.0, 0.0, 9)
-    )
-    said = replace(said, figures=replace(said.figures, speed=speed))
+    pauses = {"pauses": 1.2, "pause time": 10.2}
+    rows = [replace(row, mean=pauses.get(row.what, row.mean)) for row in said.figures.measures]
+    said = replace(said, figures=replace(said.figures, measures=tuple(rows)))
     printed: list[tuple[float, float, float, str]] = []
 
     class Watched(Page):

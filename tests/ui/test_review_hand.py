@@ -87,8 +87,8 @@ def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
     assert [row.finger for row in rows] == [1, 2, 3, 4, 5]
     for row in rows:
         for column, cell in zip(COLUMNS, row.cells, strict=True):
-            found = screen.figures.row("arc", -1, Figure(row.finger, column).joint)
-            assert cell.main.startswith("≥") == (found is not None and found.limited)
+            found = screen.figures.find(Figure(row.finger, column).joint, "arc")
+            assert cell.main.startswith("≥") == (found is not None and found.at_least)
     fingers_limited = any(cell.limited for row in rows for cell in row.cells)
     assert ("camera’s view" in limits_words(screen.figures)) == fingers_limited
     tables = screen.card.tables

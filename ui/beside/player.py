@@ -11,7 +11,9 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout
 
 from carpus.core.hand.exercises import FLEXION, SIDES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measure import wrist_column
 from carpus.core.results.motion_curves import seen_angle
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.results.seen import best_motion
@@ -89,30 +91,24 @@ class Watched:
 
     @classmethod
     def of(cls, session: Session, figures: SessionFigures) -> Watched:
-        joint, angle = trained_angle(figures)
         time_s = session.timestamp_s - session.timestamp_s[:1]
-        return cls(session, figures, time_s, seen_angle(session, joint, angle))
+        return cls(session, figures, time_s, seen_angle(session, figures.trained or WRIST_ANGLES[FLEXION]))
 
 
 def value_words(watched: Watched, row: int) -> str:
     """``Flexion 37° ± 2°`` where the trained angle was seen."""
-    joint, angle = trained_angle(watched.figures)
+    of = watched.figures.trained or WRIST_ANGLES[FLEXION]
     value = float(watched.value_deg[row]) if 0 <= row < len(watched.value_deg) else math.nan
     if not math.isfinite(value):
         return tr("not seen")
-    if joint:
-        figure = figure_of(joint)
+    angle = wrist_column(of)
+    if angle < 0:
+        figure = figure_of(of)
         value *= figure.sign  # from the angle in every file to the one that is spoken of
         said = with_side(value, figure.finger) if figure.row == "spread" else numbers.signed_degrees(value)
         return f"{figure.long_name} {said}"
     sd = float(np.degrees(best_motion(watched.session).angles_sd_rad[row, angle]))
     return f"{terms.movement_name(SIDES[angle][0 if value >= 0 else 1])} {numbers.with_spread(value, sd)}"
-
-
-def trained_angle(figures: SessionFigures) -> tuple[str, int]:
-    """The joint that an exercise trains, or nothing and the wrist's angle."""
-    angle = figures.exercise.angle
-    return figures.exercise.joint, FLEXION if angle is None else angle
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import Progress, ProgressPoint
-from carpus.core.results.ranges import RangeRow, RowKey
-from carpus.core.results.side_by_side import ComparedRange, SideBySide
+from carpus.core.results.measure import Measure, MeasureKey, turn_round
+from carpus.core.results.progress import Comparison, Progress, ProgressPoint
+from carpus.core.results.side_by_side import SideBySide
 from carpus.ui import numbers, terms
-from carpus.ui.figures import FINGERS, Figure, figure_of
+from carpus.ui.figures import FINGERS, Figure
 from carpus.ui.icons import State
 from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import difference, no_change_words, reason_words
 from carpus.ui.words.fingers import AT_LEAST, compared_row, followed_keys, followed_kinds, trains_thumb
-from carpus.ui.words.progress import comparison_name, doubt_words
+from carpus.ui.words.progress import comparison_name, doubt_words, range_name
 from carpus.ui.words.progress import headline as progress_headline
-from carpus.ui.words.ranges import is_deficit, mean_words, repetition_words, turned
+from carpus.ui.words.ranges import is_deficit, mean_words, repetition_words
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,43 +67,44 @@ def headline(both: SideBySide) -> tuple[str, str]:
         return tr("Not judged: there is no movement that both have."), ""
     if both.relation == "dates":
         return progress_headline(_as_progress(both))
-    if not main.beyond and main.comparison.verdict == "not_judged":
-        why = reason_words(main.comparison.reasons) or tr("not measured")
+    if main.verdict == "not_judged":
+        why = reason_words(main.reasons) or tr("not measured")
         return tr("Not judged: {why}.").format(why=why), tr("What is hidden does not count.")
-    if not main.beyond:
+    if not main.is_beyond:
         return tr("No difference beyond measurement error between right and left."), _basis(main)
-    size = numbers.degrees(main.comparison.shown_difference_deg)
-    if main.at_least:
+    size = numbers.degrees(main.shown_difference_deg)
+    if _is_bound(main):
         size = tr("at least {size}").format(size=size)
     pattern = {
         (True, True): tr("{movement}: {size} less on the right than on the left."),
         (True, False): tr("{movement}: {size} more on the right than on the left."),
         (False, True): tr("{movement}: {size} less on the left than on the right."),
         (False, False): tr("{movement}: {size} more on the left than on the right."),
-    }[both.first.side == "right", main.comparison.difference_deg < 0.0]
-    return pattern.format(movement=row_name(main, both.ranges), size=size), _basis(main)
+    }[both.first.side == "right", main.difference_deg < 0.0]
+    return pattern.format(movement=comparison_name(main, both.ranges), size=size), _basis(main)
 
 
-def _basis(one: ComparedRange) -> str:
+def _basis(one: Comparison) -> str:
     pattern = (
         tr("{movement} {first} against {second}: more than the measurement error of {limit}.")
-        if one.beyond
+        if one.is_beyond
         else tr("{movement} {first} against {second}: within the measurement error of {limit}.")
     )
     return pattern.format(
-        movement=row_name(one, ()), first=_end(one.first), second=_end(one.second),
-        limit=numbers.degrees(one.comparison.limit_deg),
+        movement=comparison_name(one), first=_end(one.after), second=_end(one.before),
+        limit=numbers.degrees(one.limit_deg),
     )  # fmt: skip
 
 
-def _end(row: RangeRow) -> str:
-    sign = f"{AT_LEAST}{numbers.NARROW_GAP}" if row.limited and row.joint else ""
-    return f"{sign}{numbers.degrees(row.mean_deg) if row.joint else terms.end_words(row.mean_deg, row.movement)}"
+def _end(row: Measure) -> str:
+    if row.angle >= 0:
+        return terms.end_words(row.mean, row.what)
+    return f"{f'{AT_LEAST}{numbers.NARROW_GAP}' if row.at_least else ''}{numbers.degrees(row.mean)}"
 
 
-def row_name(one: ComparedRange, among: Sequence[ComparedRange]) -> str:
-    """``Whole arc``, ``Flexion``, ``Ring finger, TAM``."""
-    return comparison_name(one.comparison, [other.comparison for other in among])
+def _is_bound(one: Comparison) -> bool:
+    """Whether a difference is a lower bound, since one of the two was hidden in part."""
+    return one.is_beyond and one.limited[0] != one.limited[1]
 
 
 def unfair_words(both: SideBySide) -> str:
@@ -125,7 +125,7 @@ def doubts(both: SideBySide) -> list[str]:
 def _as_progress(both: SideBySide) -> Progress:
     """The pair as the progress shows two sessions."""
     points = (ProgressPoint(both.second, ()), ProgressPoint(both.first, ()))
-    return Progress(points, tuple(one.comparison for one in both.ranges), None)
+    return Progress(points, both.ranges, None)
 
 
 def facts_words(both: SideBySide) -> str:
@@ -162,67 +162,65 @@ def table_rows(both: SideBySide) -> list[BesideRow]:
     return rows + [_alone_row(row, both, is_first=is_first) for row, is_first in both.alone if row.count]
 
 
-def value_words(row: RangeRow) -> str:
+def value_words(row: Measure) -> str:
     """``57° ± 2°``; ``≥ 57°`` of a joint that was hidden; ``lacks 5°`` of an end that was never reached."""
     if not row.count:
         return tr("not seen")
-    if row.limited and row.joint:
-        return f"{AT_LEAST}{numbers.NARROW_GAP}{numbers.degrees(row.mean_deg)}"
-    return terms.lacking(mean_words(turned(row))) if is_deficit(row) else mean_words(row)
+    if row.at_least and row.angle < 0:
+        return f"{AT_LEAST}{numbers.NARROW_GAP}{numbers.degrees(row.mean)}"
+    return terms.lacking(mean_words(turn_round(row))) if is_deficit(row) else mean_words(row)
 
 
-def _range_row(one: ComparedRange, both: SideBySide) -> BesideRow:
-    item, row = one.comparison, one.first
-    hidden = any(side.limited for side in (one.first, one.second)) and bool(row.joint)
-    known = math.isfinite(item.difference_deg) and not (hidden and not one.beyond)
-    token = "" if row.joint or row.movement == "arc" else CURVE_TOKENS[row.angle]
-    limited = "" if row.joint or not (one.first.limited or one.second.limited) else tr("limited by the camera's view")
+def _range_row(one: Comparison, both: SideBySide) -> BesideRow:
+    known = math.isfinite(one.difference_deg) and (one.is_beyond or not any(one.limited))
+    in_part = not one.of_joint and (one.after.at_least or one.before.at_least)
+    limited = tr("limited by the camera's view") if in_part else ""
     words = "; ".join(part for part in (_judgement(one, both), limited) if part)
-    said = difference(item.shown_difference_deg) if known else numbers.UNKNOWN
-    if one.at_least:
+    said = difference(one.shown_difference_deg) if known else numbers.UNKNOWN
+    if _is_bound(one):
         said = tr("at least {difference}").format(difference=said)
     return BesideRow(
-        row_name(one, both.ranges), value_words(one.first), value_words(one.second),
+        comparison_name(one, both.ranges), value_words(one.after), value_words(one.before),
         said,
-        numbers.degrees(item.limit_deg) if both.fair else numbers.UNKNOWN, words, token,
-        "none" if item.verdict == "not_judged" else _state(one, both), one.beyond,
+        numbers.degrees(one.limit_deg) if both.fair else numbers.UNKNOWN, words, _token(one.after),
+        "none" if one.verdict == "not_judged" else _state(one, both), one.is_beyond,
     )  # fmt: skip
 
 
-def _alone_row(row: RangeRow, both: SideBySide, *, is_first: bool) -> BesideRow:
+def _alone_row(row: Measure, both: SideBySide, *, is_first: bool) -> BesideRow:
     """What only one of the two has."""
-    many = row.movement == "arc" and not row.joint
-    name = terms.arc_name(row.angle) if many else terms.movement_name(row.movement)
     cells = [value_words(row), numbers.UNKNOWN]
     first, second = cells if is_first else cells[::-1]
     words = tr("not judged: only one of the two has it") if both.fair else tr("not judged")
     return BesideRow(
-        figure_of(row.joint).long_name if row.joint else name, first, second, numbers.UNKNOWN, numbers.UNKNOWN, words,
-        "" if row.joint or row.movement == "arc" else CURVE_TOKENS[row.angle],
+        range_name(row, several=True), first, second, numbers.UNKNOWN, numbers.UNKNOWN, words, _token(row)
     )  # fmt: skip
 
 
-def _state(one: ComparedRange, both: SideBySide) -> State:
-    if not one.beyond:
+def _token(row: Measure) -> str:
+    return "" if row.angle < 0 or row.what == "arc" else CURVE_TOKENS[row.angle]
+
+
+def _state(one: Comparison, both: SideBySide) -> State:
+    if not one.is_beyond:
         return "open"
     if both.relation == "hands":
         return "warn"
-    return "good" if one.comparison.verdict == "improved" else "bad"
+    return "good" if one.verdict == "improved" else "bad"
 
 
-def _judgement(one: ComparedRange, both: SideBySide) -> str:
-    item = one.comparison
-    if item.verdict == "not_judged":
+def _judgement(one: Comparison, both: SideBySide) -> str:
+    if one.verdict == "not_judged":
         if not both.fair:  # the strip says why
             return tr("not judged")
-        return tr("not judged: {why}").format(why=reason_words(item.reasons) or tr("not measured"))
+        return tr("not judged: {why}").format(why=reason_words(one.reasons) or tr("not measured"))
     if both.relation == "dates":
-        if not one.beyond:
+        if not one.is_beyond:
             return no_change_words()
-        return tr("improved, beyond error") if item.verdict == "improved" else tr("worse, beyond error")
-    if not one.beyond:
+        return tr("improved, beyond error") if one.verdict == "improved" else tr("worse, beyond error")
+    if not one.is_beyond:
         return tr("no difference beyond error")
-    less, than_left = item.difference_deg < 0.0, both.second.side == "left"
+    less, than_left = one.difference_deg < 0.0, both.second.side == "left"
     return {
         (True, True): tr("less than the left, beyond error"),
         (True, False): tr("less than the right, beyond error"),
@@ -242,7 +240,7 @@ MIDDLE = "middle"
 
 def kinds(first: SessionFigures, second: SessionFigures) -> list[tuple[str, str]]:
     """What of the whole hand can be compared, as value and words; nothing unless both are of fingers."""
-    if not (first.joint_rows and second.joint_rows):
+    if not (first.joint_ranges and second.joint_ranges):
         return []
     found = followed_kinds(first)
     if compared_row(first) == "middle" and not trains_thumb(first):
@@ -250,8 +248,8 @@ def kinds(first: SessionFigures, second: SessionFigures) -> list[tuple[str, str]
     return found
 
 
-def keys_of(followed: str) -> tuple[RowKey, ...]:
+def keys_of(followed: str) -> tuple[MeasureKey, ...]:
     """What a choice of :func:`kinds` compares; nothing for the wrist."""
     if followed == MIDDLE:
-        return tuple((Figure(finger, "middle").joint, "arc", -1) for finger in FINGERS[1:])
+        return tuple((Figure(finger, "middle").joint, "arc") for finger in FINGERS[1:])
     return followed_keys(followed)

@@ -25,7 +25,7 @@ from carpus.core.measures.by_hand import (
     on_day,
     replaced,
 )
-from carpus.core.results.ranges import RangeRow
+from carpus.core.results.measure import Measure
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Line
@@ -64,7 +64,7 @@ class MeasureRow(QObject):
         self.beside = Text(theme, "", 14, SEMIBOLD)
         self.other = Text(theme, "", 14, REGULAR, "text2")
         self.last = Text(theme, "", 14, REGULAR, "text2")
-        self._of_carpus: RangeRow | None = None
+        self._of_carpus: Measure | None = None
 
     def place(self, theme: Theme, grid: QGridLayout, line: int) -> None:
         aside: dict[str, QWidget] = {
@@ -84,7 +84,7 @@ class MeasureRow(QObject):
     def keys(self, side: Side) -> list[Key]:
         return [(self.measure.id, way, side if self.measure.of_hand else "") for way in self.measure.ways]
 
-    def show(self, values: Sequence[HandValue], side: Side, day: date, of_carpus: RangeRow | None) -> None:
+    def show(self, values: Sequence[HandValue], side: Side, day: date, of_carpus: Measure | None) -> None:
         self._of_carpus = of_carpus
         fields = [field for _, field in self.fields]
         for field in (*fields, self.where):
@@ -151,8 +151,8 @@ class MeasureRow(QObject):
             row, active = self._of_carpus, self.fields[0][1]
             words = numbers.UNKNOWN
             if row is not None and row.count and not (active.is_empty or active.problem):
-                words = numbers.with_spread(row.mean_deg, row.sd_deg)
-                words = words if row.joint else terms.end_words(row.mean_deg, row.movement, row.sd_deg)
+                words = numbers.with_spread(row.mean, row.sd)
+                words = words if row.angle < 0 else terms.end_words(row.mean, row.what, row.sd)
             self.beside.setText(words)
 
 
@@ -231,9 +231,7 @@ class HandForm(QWidget):
         following = fields[min(fields.index(field) + 1, len(fields) - 1)]
         following.setFocus(Qt.FocusReason.TabFocusReason)
 
-    def show_values(
-        self, values: Sequence[HandValue], side: Side, day: date, of_carpus: Mapping[str, RangeRow]
-    ) -> None:
+    def show_values(self, values: Sequence[HandValue], side: Side, day: date, of_carpus: Mapping[str, Measure]) -> None:
         for name, row in self.rows.items():
             row.show(values, side, day, of_carpus.get(name))
 

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QBoxLayout, QDateEdit, QSizePolicy, QWidget
 
 from carpus.core.measures.by_hand import MEASURES, HandMeasure, HandValue, Key, counted, measure_named
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.ranges import RangeRow
+from carpus.core.results.measure import Measure
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.change_rows import add_changes
@@ -218,24 +218,23 @@ class ByHandScreen(Fitted):
         self._show_course(name)
         self.form.rows[name].fields[0][1].setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _of_carpus(self) -> dict[str, RangeRow]:
+    def _of_carpus(self) -> dict[str, Measure]:
         """What Carpus measured of the same on that day: the last session that did."""
-        found: dict[str, RangeRow] = {}
+        found: dict[str, Measure] = {}
         for measure in MEASURES:
             for _, row in self._sessions_of(measure):
                 if _.date() == self.day_shown:
                     found[measure.id] = row
         return found
 
-    def _sessions_of(self, measure: HandMeasure) -> list[tuple[datetime, RangeRow]]:
+    def _sessions_of(self, measure: HandMeasure) -> list[tuple[datetime, Measure]]:
         if measure.figure is None:
             return []
-        joint, movement, angle = measure.figure
         out = []
         for figures in self.record.figures:
             if figures.side != self.side or figures.simulated or figures.not_counted:
                 continue
-            row = figures.row(movement, angle, joint)  # type: ignore[arg-type]
+            row = figures.find(*measure.figure)
             if row is not None and row.count:
                 out.append((figures.when, row))
         return out
@@ -244,7 +243,7 @@ class ByHandScreen(Fitted):
         measure = measure_named(name)
         side = self.side if measure.of_hand else ""
         values = [one for one in counted(self.record.values) if (one.measure, one.side) == (name, side)]
-        self.chart.show_course(measure, values, [(when, row.mean_deg) for when, row in self._sessions_of(measure)])
+        self.chart.show_course(measure, values, [(when, row.mean) for when, row in self._sessions_of(measure)])
 
     def _fill_changes(self) -> None:
         body, theme = self._changes.body, self._theme

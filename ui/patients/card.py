@@ -19,7 +19,7 @@ from carpus.ui.controls.layouts import STRETCH, ScrollArea, empty, fill, in_colu
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.figures import figure_of, followed_name
 from carpus.ui.picture.photo import Photo
-from carpus.ui.ports import PatientCard, ResultLine
+from carpus.ui.ports import PatientCard, Result
 from carpus.ui.theme import Theme
 from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.verdicts import change_since_first, counted_once_words, verdict_token
@@ -164,39 +164,39 @@ class PatientCardView(Card):
 
     def _show_results(self, card: PatientCard) -> None:
         empty(self._results)
-        joint = card.results[0].joint if card.results else ""
-        if joint:
-            self._results.addWidget(caption(self._theme, followed_name(joint)))
-        for line in card.results:
-            fill(self._results, Line(self._theme), _ResultRow(self._theme, line))
+        if card.results and card.results[0][0].angle < 0:
+            self._results.addWidget(caption(self._theme, followed_name(card.results[0][0].of)))
+        for result in card.results:
+            fill(self._results, Line(self._theme), _ResultRow(self._theme, result))
         if card.results:
             self._results.addWidget(Line(self._theme))
 
 
 class _ResultRow(QWidget):
-    def __init__(self, theme: Theme, line: ResultLine) -> None:
+    def __init__(self, theme: Theme, result: Result) -> None:
         super().__init__()
         row = QHBoxLayout(self)
-        gap = 5 if line.joint else 10  # five fingers
+        measure, change = result
+        of_joint = measure.angle < 0
+        gap = 5 if of_joint else 10  # five fingers
         row.setContentsMargins(0, gap, 0, gap)
-        words = figure_of(line.joint).short_name if line.joint else terms.movement_name(line.movement)
+        words = figure_of(measure.of).short_name if of_joint else terms.movement_name(measure.what)
         name = Text(theme, words, 14, REGULAR, "text2")
         self._name = name
         theme.changed.connect(self._fit)
         self._theme = theme
         self._fit()
         row.addWidget(name)
-        sd_deg = math.nan if line.at_least else line.sd_deg
-        value = numbers.with_spread(line.mean_deg, sd_deg)
-        if not line.joint:
-            value = terms.end_words(line.mean_deg, line.movement, sd_deg)
-        if line.at_least:
-            value = f"≥{numbers.NARROW_GAP}{value}"
+        value = terms.end_words(measure.mean, measure.what, measure.sd)
+        if of_joint:
+            value = numbers.with_spread(measure.mean, math.nan if measure.at_least else measure.sd)
+            value = f"≥{numbers.NARROW_GAP}{value}" if measure.at_least else value
         row.addWidget(Text(theme, value, 16, SEMIBOLD))
-        words = change_since_first(line.verdict, line.change_deg)
-        change = Text(theme, words, 12, MEDIUM, verdict_token(line.verdict), wrap=True)
-        change.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        row.addWidget(change, 1)
+        words = "" if change is None else change_since_first(change.verdict, change.difference_deg)
+        token = "text2" if change is None else verdict_token(change.verdict)
+        since = Text(theme, words, 12, MEDIUM, token, wrap=True)
+        since.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        row.addWidget(since, 1)
 
     def _fit(self) -> None:
         needed = self._name.fontMetrics().horizontalAdvance(self._name.text()) + 4

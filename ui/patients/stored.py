@@ -11,15 +11,12 @@ from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import compare, compare_rows, unfair_reasons
-from carpus.ui.ports import MOST_ROWS, PatientCard, ResultLine
+from carpus.core.results.progress import compare, unfair_reasons
+from carpus.ui.ports import MOST_ROWS, PatientCard, Result
 from carpus.ui.words.fingers import compared_figures
 from carpus.ui.words.further import main_words
 from carpus.ui.words.ranges import repetition_words
 from carpus.ui.words.session import warnings
-
-_ENDS = ("arc",)
-"""Movements that the card leaves out: it shows the two ends, which the therapist trains."""
 
 
 class StoredPatients:
@@ -89,34 +86,14 @@ class StoredPatients:
         return None
 
 
-def _joint_results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
-    """Of the whole hand what the exercise is about, finger by finger."""
-    rows = [last.row("arc", -1, figure.joint) for figure in compared_figures(last)]
-    known = [row for row in rows if row is not None and row.count]
+def _results(first: SessionFigures | None, last: SessionFigures) -> Sequence[Result]:
+    """Of the wrist both ends of what is trained, which the therapist trains; of the whole hand what the exercise is
+    about, finger by finger."""
+    rows = [row for row in last.wrist_ranges if row.what != "arc" and last.exercise.angle is not None]
+    if last.joint_ranges:
+        found = [last.find(figure.joint, "arc") for figure in compared_figures(last)]
+        rows = [row for row in found if row is not None and row.count]
     changes = {}
     if first is not None and first.session_id != last.session_id:
-        changes = {item.joint: item for item in compare_rows(first, last, known)}
-    out = []
-    for row in known:
-        change = changes.get(row.joint)
-        difference, verdict = (change.difference_deg, change.verdict) if change else (float("nan"), "not_judged")
-        out.append(
-            ResultLine(row.movement, row.mean_deg, row.sd_deg, difference, verdict, row.joint, at_least=row.limited)
-        )
-    return out
-
-
-def _results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
-    if last.joint_rows:
-        return _joint_results(first, last)
-    changes = {}
-    if first is not None and first.session_id != last.session_id:
-        changes = {(item.movement, item.angle): item for item in compare(first, last)}
-    out = []
-    for row in last.rows:
-        if row.movement in _ENDS or last.exercise.angle is None:
-            continue
-        change = changes.get((row.movement, row.angle))
-        difference, verdict = (change.difference_deg, change.verdict) if change else (float("nan"), "not_judged")
-        out.append(ResultLine(row.movement, row.mean_deg, row.sd_deg, difference, verdict))
-    return out
+        changes = {item.key: item for item in compare(first, last, rows)}
+    return [(row, changes.get(row.key)) for row in rows]

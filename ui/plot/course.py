@@ -10,11 +10,11 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Movement
+from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION
 from carpus.core.measures.by_hand import HandValue, measure_named
+from carpus.core.results.measure import Measure, MeasureKey, is_total, wrist_column
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import Progress, row_aimed_at
-from carpus.core.results.ranges import RangeRow, RowKey, is_total
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
@@ -42,35 +42,37 @@ ALONE_S = 86_400.0
 """What is shown about a session that is the only one."""
 
 
-def panels_of(progress: Progress) -> list[RowKey]:
+def panels_of(progress: Progress) -> list[MeasureKey]:
     """What is drawn, arc first; of free movement the three arcs; of the whole hand what was chosen and ever seen."""
     if not progress.points:
         return []
     if progress.keys:
-        seen = {row.key for point in progress.points for row in point.figures.joint_rows if row.count}
+        seen = {row.key for point in progress.points for row in point.figures.joint_ranges if row.count}
         return [key for key in progress.keys if key in seen]
-    rows = progress.points[-1].figures.rows
-    arcs = [row.key for row in rows if row.movement == "arc"]
-    ends = [row.key for row in rows if row.movement != "arc"]
+    rows = progress.points[-1].figures.wrist_ranges
+    arcs = [row.key for row in rows if row.what == "arc"]
+    ends = [row.key for row in rows if row.what != "arc"]
     return (arcs + ends if len(arcs) == 1 else arcs)[:MOST_PANELS]
 
 
-def axis_top_deg(movement: Movement, angle: int, joint: str = "") -> float:
+def axis_top_deg(key: MeasureKey) -> float:
     """Fixed top of the axis: the same for both ends, whatever was measured."""
-    if joint:
-        return 180.0 if joint == "TAM1" else 300.0 if is_total(joint) else 60.0 if _is_spread(joint) else 120.0
+    of, movement = key
+    angle = wrist_column(of)
+    if angle < 0:
+        return 180.0 if of == "TAM1" else 300.0 if is_total(of) else 60.0 if _is_spread(of) else 120.0
     if movement == "arc":
         return {0: 90.0, 1: 180.0, 2: 180.0}[angle]
     return 60.0 if angle == 0 else 90.0
 
 
-def scale_of(progress: Progress, key: RowKey) -> Scale:
+def scale_of(progress: Progress, key: MeasureKey) -> Scale:
     """The fixed axis of a panel, from zero; below it where an end was never reached, by one step of what lacks."""
-    joint, movement, angle = key
-    top_deg = axis_top_deg(movement, angle, joint)
+    movement, angle = key[1], wrist_column(key[0])
+    top_deg = axis_top_deg(key)
     step = STEP_DEG if top_deg <= 90 else 2 * STEP_DEG if top_deg <= 180 else 100.0
     rows = [row_of(progress, number, key) for number in range(len(progress.points))]
-    lacks = not joint and any(row is not None and row.mean_deg < 0.0 for row in rows)
+    lacks = angle >= 0 and any(row is not None and row.mean < 0.0 for row in rows)
     low_deg = -step if lacks else 0.0
     if angle == PRONOSUPINATION and movement != "arc":
         # From thumb up a palm that looks down is at 90 degrees of pronation: supination may begin as far below zero.
@@ -98,14 +100,14 @@ def extent_s(progress: Progress) -> tuple[float, float]:
     return times[0] - pad, times[-1] + pad
 
 
-def by_hand_of(progress: Progress, key: RowKey) -> list[HandValue]:
+def by_hand_of(progress: Progress, key: MeasureKey) -> list[HandValue]:
     """What was measured by hand of the same, moved by the patient."""
     return [one for one in progress.by_hand if one.way == "active" and measure_named(one.measure).figure == key]
 
 
 def place_panels(
     progress: Progress, style: PlotStyle, box: QRectF, shown_s: tuple[float, float] | None = None
-) -> list[tuple[Panel, RowKey]]:
+) -> list[tuple[Panel, MeasureKey]]:
     """All panels over one time axis, in one column or, if there are many, in two."""
     keys, unit = panels_of(progress), style.unit
     if not keys:
@@ -129,54 +131,54 @@ def place_panels(
     return out
 
 
-def row_of(progress: Progress, number: int, key: RowKey) -> RangeRow | None:
+def row_of(progress: Progress, number: int, key: MeasureKey) -> Measure | None:
     """What a session measured of it; None for nothing."""
-    joint, movement, angle = key
-    row = progress.points[number].figures.row(movement, angle, joint)
+    row = progress.points[number].figures.find(*key)
     return row if row is not None and row.count else None
 
 
-def name_of(progress: Progress, key: RowKey) -> str:
+def name_of(progress: Progress, key: MeasureKey) -> str:
     """Title of a panel."""
-    joint, movement, angle = key
-    if joint:
-        return figure_of(joint).long_name
+    movement, angle = key[1], wrist_column(key[0])
+    if angle < 0:
+        return figure_of(key[0]).long_name
     if movement == "arc" and progress.points[-1].figures.exercise.angle is None:
         return terms.arc_name(angle)
     return tr("Whole arc") if movement == "arc" else terms.movement_long_name(movement)
 
 
-def still(progress: Progress, key: RowKey) -> list[Mark]:
+def still(progress: Progress, key: MeasureKey) -> list[Mark]:
     """What lies behind the points of a panel: usual, error band, grid, the other hand, and their words."""
-    joint, movement, angle = key
+    of, movement = key
+    angle = wrist_column(of)
     out: list[Mark] = []
     labels: list[tuple[float, str, str]] = []
     exercise = progress.points[-1].figures.exercise if progress.points else EXERCISES[-1]
-    norm = total_norm(int(joint[-1]), exercise) if is_total(joint) else None
-    if not joint:
+    norm = total_norm(int(of[-1]), exercise) if is_total(of) else None
+    if angle >= 0:
         norm = wrist_norm(movement, angle, exercise)
     if norm is not None:
         low, high = norm.low_deg, norm.high_deg
         span = f"{written(low)}°" if low == high else f"{written(low)}–{written(high)}°"
         out.append(Across(low, high, "norm"))
         labels.append((0.5 * (low + high), tr("Usual, adults {span}").format(span=span), "text2"))
-    first = progress.first.row(movement, angle, joint) if progress.first else None
-    limit = next((c.limit_deg for c in progress.comparisons if (c.joint, c.movement, c.angle) == key), math.nan)
+    first = progress.first.find(*key) if progress.first else None
+    limit = next((c.limit_deg for c in progress.comparisons if c.key == key), math.nan)
     if first is not None and first.count and math.isfinite(limit):
-        out.append(Across(first.mean_deg - limit, first.mean_deg + limit, "soft", "accent"))
+        out.append(Across(first.mean - limit, first.mean + limit, "soft", "accent"))
         words = tr("Error band ±{gap}{limit}").format(gap=numbers.NARROW_GAP, limit=numbers.degrees(limit))
-        labels.append((first.mean_deg, words, "accent"))
+        labels.append((first.mean, words, "accent"))
     out.append(Scales())
-    other = progress.other_hand.row(movement, angle, joint) if progress.other_hand else None
+    other = progress.other_hand.find(*key) if progress.other_hand else None
     if other is not None and other.count and progress.other_hand is not None:
-        out.append(Level(other.mean_deg, "text2"))
-        shown = numbers.degrees(other.mean_deg) if joint else end_words(other.mean_deg, movement)
+        out.append(Level(other.mean, "text2"))
+        shown = numbers.degrees(other.mean) if angle < 0 else end_words(other.mean, movement)
         words = f"{terms.hand_name(progress.other_hand.side)} {shown}"
-        labels.append((other.mean_deg, words, "text2"))
+        labels.append((other.mean, words, "text2"))
     goals = Goals(progress, key)
     if math.isfinite(goals.newest_deg):
         out.append(goals)
-        shown = numbers.degrees(goals.newest_deg) if joint else end_words(goals.newest_deg, movement)
+        shown = numbers.degrees(goals.newest_deg) if angle < 0 else end_words(goals.newest_deg, movement)
         words = tr("Goal {angle}").format(angle=shown)
         labels.append((goals.newest_deg, words, "accent"))
     return [*out, EndLabels(labels)]
@@ -187,15 +189,14 @@ class Goals:
     """The target that each session had, as a dashed step from one session to the next."""
 
     progress: Progress
-    key: RowKey
+    key: MeasureKey
 
     def goal_deg(self, number: int) -> float:
         """Of one session, that way; NaN for none."""
-        joint, movement, angle = self.key
         figures = self.progress.points[number].figures
         for target, direction in zip(figures.targets_deg, (1, -1), strict=True):
             row = row_aimed_at(figures, figures.exercise, direction)
-            if row is not None and (row.joint, row.movement, row.angle) == (joint, movement, angle):
+            if row is not None and row.key == self.key:
                 return direction * target
         return math.nan
 
@@ -222,7 +223,7 @@ class Points:
     """Mean of each session with its spread; those that compare are joined, the others are rings."""
 
     progress: Progress
-    key: RowKey
+    key: MeasureKey
     chosen: int = -1
 
     def places(self, panel: Panel) -> list[tuple[int, QPointF]]:
@@ -231,21 +232,22 @@ class Points:
         for number, point in enumerate(self.progress.points):
             row = row_of(self.progress, number, self.key)
             if row is not None:
-                out.append((number, panel.at(point.figures.when.timestamp(), row.mean_deg)))
+                out.append((number, panel.at(point.figures.when.timestamp(), row.mean)))
         return out
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        joint, movement, angle = self.key
+        of, movement = self.key
+        angle = wrist_column(of)
         unit, token = style.unit, "text" if movement == "arc" else CURVE_TOKENS[angle]
-        if joint and not is_total(joint):
-            token = figure_of(joint).token
+        if angle < 0 and not is_total(of):
+            token = figure_of(of).token
         found = [(number, at, row_of(self.progress, number, self.key)) for number, at in self.places(panel)]
         rows = [(number, at.x(), row) for number, at, row in found if row is not None]
         fair = [(x, row) for number, x, row in rows if self.progress.points[number].fair]
         painter.setPen(QPen(style.color(token), style.line_width))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         if len(fair) > 1:
-            line = np.array([x for x, _ in fair]), panel.y(np.array([row.mean_deg for _, row in fair]))
+            line = np.array([x for x, _ in fair]), panel.y(np.array([row.mean for _, row in fair]))
             painter.save()
             painter.setClipRect(panel.box, Qt.ClipOperation.IntersectClip)
             painter.drawPolyline(polygon(*line))
@@ -255,11 +257,11 @@ class Points:
                 continue  # zoomed away
             is_fair = self.progress.points[number].fair
             color = style.color(token if is_fair else "text2")
-            middle = float(panel.y(row.mean_deg))
-            sd = row.sd_deg if math.isfinite(row.sd_deg) else row.measurement_sd_deg
+            middle = float(panel.y(row.mean))
+            sd = row.sd if math.isfinite(row.sd) else row.measurement_sd
             top = middle
             if math.isfinite(sd):
-                top, bottom = float(panel.y(row.mean_deg + sd)), float(panel.y(row.mean_deg - sd))
+                top, bottom = float(panel.y(row.mean + sd)), float(panel.y(row.mean - sd))
                 painter.setPen(QPen(color, 1.4 * unit))
                 for edge in (top, bottom):
                     painter.drawLine(QPointF(x - CAP_REACH * unit, edge), QPointF(x + CAP_REACH * unit, edge))
@@ -268,7 +270,7 @@ class Points:
             painter.setBrush(style.color("surface") if not is_fair else color)
             reach = DOT_RADIUS * unit
             painter.drawEllipse(QPointF(x, middle), reach, reach)
-            if joint and row.limited:
+            if angle < 0 and row.at_least:
                 paint_at_least(painter, x, top - 4 * unit, unit)
             if number == self.chosen:
                 painter.setPen(QPen(style.color("accent"), 2 * unit))
@@ -280,31 +282,30 @@ class Points:
             if panel.box.left() - 1 <= x <= panel.box.right() + 1:
                 self._paint_value(painter, style, panel, x, row)
 
-    def _paint_value(self, painter: QPainter, style: PlotStyle, panel: Panel, x: float, row: RangeRow) -> None:
+    def _paint_value(self, painter: QPainter, style: PlotStyle, panel: Panel, x: float, row: Measure) -> None:
         """The figure of the first and of the last session that compare."""
-        joint, movement, angle = self.key
         unit = style.unit
         face = font(style.end_label.pixelSize() * 1.17, SEMIBOLD, display=False)
         metrics = QFontMetricsF(face)
-        text = numbers.degrees(row.mean_deg) if joint else end_words(row.mean_deg, row.movement)
-        sd = row.sd_deg if math.isfinite(row.sd_deg) else 0.0
-        baseline = float(panel.y(row.mean_deg + sd)) - 8 * unit
-        if joint and row.limited:
+        text = numbers.degrees(row.mean) if row.angle < 0 else end_words(row.mean, row.what)
+        sd = row.sd if math.isfinite(row.sd) else 0.0
+        baseline = float(panel.y(row.mean + sd)) - 8 * unit
+        if row.angle < 0 and row.at_least:
             baseline -= 10 * unit
             text = f"≥{numbers.NARROW_GAP}{text}"
         hand = self.progress.other_hand
-        other = hand.row(movement, angle, joint) if hand else None
+        other = hand.find(*self.key) if hand else None
         if other is not None and other.count:
-            line = float(panel.y(other.mean_deg)) + 2 * unit
+            line = float(panel.y(other.mean)) + 2 * unit
             if baseline - metrics.ascent() < line < baseline + 4 * unit:
-                baseline = float(panel.y(row.mean_deg - sd)) + 8 * unit + metrics.ascent()
+                baseline = float(panel.y(row.mean - sd)) + 8 * unit + metrics.ascent()
         width = metrics.horizontalAdvance(text)
         left = min(x - width / 2, panel.box.right() + 4 * unit - width)  # beside it stands what the bands are
         write(painter, QPointF(left, baseline), text, face, style.color("text"))
 
 
 def paint_behind(
-    painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress, panels: Sequence[tuple[Panel, RowKey]]
+    painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress, panels: Sequence[tuple[Panel, MeasureKey]]
 ) -> None:
     """Everything but the points: titles, bands, grid, dates, and what the signs mean."""
     when = [point.figures.when for point in progress.points]

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QPainter
 
+from carpus.core.results.measure import MeasureKey
 from carpus.core.results.progress import Progress
-from carpus.core.results.ranges import RowKey
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.plot import axes, course
@@ -44,7 +44,7 @@ class ProgressChart(ZoomCard):
         super().__init__(theme, "progress")
         self._progress = Progress((), (), None)
         self._mouse: QPointF | None = None
-        self._pointed: tuple[int, RowKey] | None = None
+        self._pointed: tuple[int, MeasureKey] | None = None
         """Number of the session and panel of the point under the mouse, or chosen by key."""
         self.setAccessibleName(self.tr("Range over the sessions"))
 
@@ -85,11 +85,11 @@ class ProgressChart(ZoomCard):
     def _box(self) -> QRectF:
         return QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
 
-    def panels(self) -> list[tuple[Panel, RowKey]]:
+    def panels(self) -> list[tuple[Panel, MeasureKey]]:
         placed = course.place_panels(self._progress, screen_style(self._theme), self._box(), self._window)
         return [(replace(panel, box=axes.crisp(panel.box)), key) for panel, key in placed]
 
-    def points(self) -> list[tuple[int, RowKey, QPointF]]:
+    def points(self) -> list[tuple[int, MeasureKey, QPointF]]:
         return [
             (number, key, at)
             for panel, key in self.panels()
@@ -97,9 +97,9 @@ class ProgressChart(ZoomCard):
             if panel.box.left() - 1 <= at.x() <= panel.box.right() + 1
         ]
 
-    def point_at(self, at: QPointF) -> tuple[int, RowKey] | None:
+    def point_at(self, at: QPointF) -> tuple[int, MeasureKey] | None:
         near = [(math.hypot(p.x() - at.x(), p.y() - at.y()), number, key) for number, key, p in self.points()]
-        away, number, key = min(near, default=(math.inf, 0, ("", "arc", 0)))
+        away, number, key = min(near, default=(math.inf, 0, ("", "arc")))
         return (number, key) if away <= NEAR_PX else None
 
     # --- what is in it ------------------------------------------------------------------------------------
@@ -120,14 +120,14 @@ class ProgressChart(ZoomCard):
         course.paint_behind(painter, screen_style(self._theme), self._box(), self._progress, self.panels())
 
     # --- a point ------------------------------------------------------------------------------------------
-    def said_of(self, number: int, key: RowKey) -> list[str]:
+    def said_of(self, number: int, key: MeasureKey) -> list[str]:
         point = self._progress.points[number]
         figures, row = point.figures, course.row_of(self._progress, number, key)
         assert row is not None
-        least = f"≥{numbers.NARROW_GAP}" if row.joint and row.limited else ""
-        value = f"{least}{numbers.with_spread(row.mean_deg, row.sd_deg)}"
-        if not row.joint:
-            value = terms.end_words(row.mean_deg, row.movement, row.sd_deg)
+        least = f"≥{numbers.NARROW_GAP}" if row.angle < 0 and row.at_least else ""
+        value = f"{least}{numbers.with_spread(row.mean, row.sd)}"
+        if row.angle >= 0:
+            value = terms.end_words(row.mean, row.what, row.sd)
         named = self.tr("{name} {value}, {count} repetitions")
         lines = [
             numbers.report_date(figures.when),
@@ -155,7 +155,7 @@ class ProgressChart(ZoomCard):
             room = QRectF(self.rect()).adjusted(4, 4, -4, -4)
             MouseReadout(self.said_of(number, key), at, room).paint(painter, screen_style(self._theme))
 
-    def _point_at(self, found: tuple[int, RowKey] | None) -> None:
+    def _point_at(self, found: tuple[int, MeasureKey] | None) -> None:
         if found != self._pointed:
             self._pointed = found
             self.draw()
@@ -193,11 +193,9 @@ class ProgressChart(ZoomCard):
                 row = course.row_of(self._progress, number, key)
                 if row is None or not start <= point.figures.when.timestamp() <= end:
                     continue
-                sd = written(row.sd_deg, 1) if math.isfinite(row.sd_deg) else ""
-                what = row.joint or f"{key[1]}"
+                sd = written(row.sd, 1) if math.isfinite(row.sd) else ""
+                what = row.of if row.angle < 0 else row.what
                 when = point.figures.when.isoformat(timespec="seconds")
                 compared = "yes" if point.fair else "no"
-                rows.append(
-                    [point.figures.session_id, when, what, written(row.mean_deg, 1), sd, str(row.count), compared]
-                )
+                rows.append([point.figures.session_id, when, what, written(row.mean, 1), sd, str(row.count), compared])
         return head, rows

@@ -97,9 +97,8 @@ def _rows(progress: Progress) -> Iterator[Sequence[object]]:
     for point in progress.points:
         figures = point.figures
         who = (figures.session_id, figures.when.isoformat(), figures.side, figures.exercise.id)
-        for row in (*figures.rows, *figures.joint_rows):
-            values = [
-                written(value, 1) if math.isfinite(value) else "" for value in (row.mean_deg, row.sd_deg, row.best_deg)
-            ]
-            reasons, limited = " ".join(point.reasons), "yes" if row.limited else ""
-            yield *who, row.movement, *values, row.count, reasons, row.joint, limited
+        for row in figures.group("range"):
+            values = [written(value, 1) if math.isfinite(value) else "" for value in (row.mean, row.sd, row.best)]
+            reasons, limited = " ".join(point.reasons), "yes" if row.at_least else ""
+            joint = row.of if row.angle < 0 else ""
+            yield *who, row.what, *values, row.count, reasons, joint, limited

@@ -38,6 +38,7 @@ from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, v
 from carpus.ui.words.by_hand import changes, day_words
 from carpus.ui.words.fingers import followed_keys, followed_kinds
 from carpus.ui.words.progress import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
+from carpus.ui.words.ranges import mean_speed_words
 
 if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.library import Library
@@ -239,7 +240,7 @@ class ProgressScreen(Fitted):
             body.addWidget(self._speed_row(first, last))
 
     def _speed_row(self, first: SessionFigures, last: SessionFigures) -> QWidget:
-        before, after = numbers.speed(first.speed.peak_speed.mean), numbers.speed(last.speed.peak_speed.mean)
+        before, after = mean_speed_words(first), mean_speed_words(last)
         return _Row(
             self._theme, self.tr("Peak speed"), f"{before} → {after}", "not_judged", self.tr("error not yet known")
         )

@@ -106,7 +106,7 @@ def _fitted(page: Page, edges: tuple[float, ...], column: int, line: CellLine, b
 def paint_wrist_line(page: Page, figures: SessionFigures, top: float) -> float:
     """The wrist's three arcs in one line under the table of the fingers."""
     page.title(tr("Wrist"), top + 11, tr("whole arcs over the same time"))
-    arcs = [row for row in figures.rows if row.movement == "arc"]
+    arcs = [row for row in figures.wrist_ranges if row.what == "arc"]
     baseline, left = top + 26, page.left
     step = (page.right - page.left) / 3
     for row in arcs:

@@ -14,7 +14,7 @@ from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
 from carpus.core.hand.forearm_rotation import stored_targets_deg
 from carpus.core.records.values import HomePlan
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import Goals, compare_rows, progress, row_aimed_at
+from carpus.core.results.progress import Goals, compare, progress, row_aimed_at
 from carpus.core.types import Side
 from carpus.ui import language, numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
@@ -83,18 +83,18 @@ def own_way(figures: SessionFigures, history: Sequence[SessionFigures], goals: G
     known = [one for one in alike if one.when <= figures.when and one.session_id != figures.session_id]
     fair = [point.figures for point in progress([*known, figures]).points if point.fair]
     rows = [(one, row_aimed_at(one, exercise, 1)) for one in fair]
-    found = [(one, row) for one, row in rows if row is not None and row.count and not row.limited]
+    found = [(one, row) for one, row in rows if row is not None and row.count and not row.at_least]
     if len(found) < 2 or found[-1][0] is not figures:
         return None
-    change = compare_rows(found[0][0], figures, [found[-1][1]])
+    change = compare(found[0][0], figures, [found[-1][1]])
     if not change or change[0].verdict not in ("improved", "no_change"):
         return None
-    since = [compare_rows(one, figures, [found[-1][1]]) for one, _ in found[1:-1]]
+    since = [compare(one, figures, [found[-1][1]]) for one, _ in found[1:-1]]
     if change[0].verdict == "no_change" and any(item.verdict == "worse" for items in since for item in items):
         return None  # what was reached in between is not held
     # Nothing of it is a number: the hand is drawn from where it lies, of the forearm from palm down.
     goal = stored_targets_deg(goals.get((exercise.id, figures.side), figures.targets_deg), exercise)[0]
-    values = tuple(stored_targets_deg((row.mean_deg, math.nan), exercise)[0] for _, row in found)
+    values = tuple(stored_targets_deg((row.mean, math.nan), exercise)[0] for _, row in found)
     return OwnWay(tuple(one.when.date() for one, _ in found), values, goal, change[0].verdict == "improved")
 
 

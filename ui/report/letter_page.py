@@ -121,7 +121,7 @@ def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
     for figure in compared_figures(figures):
         cells = []
         for shown in (figures, report.other_hand, report.previous):
-            row = None if shown is None else shown.row("arc", -1, figure.joint)
+            row = None if shown is None else shown.find(figure.joint, "arc")
             cells.append(range_words(row) if row is not None and row.count else tr("not measured"))
         name = figure.row_name if trains_thumb(figures) else f"{finger_name(str(figure.finger))}, {figure.row_name}"
         found.append((name, cells[0], cells[1], cells[2]))

@@ -81,7 +81,7 @@ def _paint_further(page: Page, figures: SessionFigures, previous: SessionFigures
     rows = further_rows(figures, previous)
     if not rows:
         return top
-    day = numbers.day_beside(previous.when, figures.when) if previous is not None and previous.further else ""
+    day = numbers.day_beside(previous.when, figures.when) if previous is not None and previous.group("task") else ""
     page.title(further_title(figures), top + 11, tr("mean ± sd; at the right: {day}").format(day=day) if day else "")
     gap = 18.0
     width = (page.right - page.left - gap) / 2

@@ -10,6 +10,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QWidget
 
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare
 from carpus.core.results.report_form import MOST_SENTENCES, SECTIONS, ReportForm
@@ -226,14 +227,14 @@ def _value(place: str, report: SessionReport) -> str:
 
 
 def _row(figures: SessionFigures, movement: str, angle: int) -> str:
-    row = next((one for one in figures.rows if one.movement == movement and one.angle == angle), None)
+    row = figures.find(WRIST_ANGLES[angle], movement)
     if row is None or not row.count:
         return ""
-    if row.limited:
+    if row.at_least:
         return range_words(row)
     if is_deficit(row):
-        sd_deg = row.sd_deg if prints_spread(row) else row.measurement_sd_deg
-        return f"{inside(terms.deficit_name(movement))} {numbers.with_spread(-row.mean_deg, sd_deg)}"
+        sd_deg = row.sd if prints_spread(row) else row.measurement_sd
+        return f"{inside(terms.deficit_name(movement))} {numbers.with_spread(-row.mean, sd_deg)}"
     return mean_words(row)
 
 

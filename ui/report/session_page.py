@@ -12,11 +12,12 @@ from PySide6.QtGui import QColor
 
 from carpus.core.hand.exercises import AXIS_TICK_DEG, PRONOSUPINATION, SIDES, Exercise
 from carpus.core.hand.forearm_rotation import is_from_thumb_up
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.results.norms import wrist_norm
-from carpus.core.results.progress import compare_rows
+from carpus.core.results.progress import compare
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.core.rounding import written
@@ -177,7 +178,7 @@ def what_words(report: SessionReport) -> str:
 def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
     session = tr("active")
-    if figures.passive is not None:
+    if figures.has_passive:
         session = tr("active and passive") if figures.counted else tr("passive")
     if report.session_number:
         session = f"{numbers.ordinal(report.session_number)}, {session}"
@@ -224,7 +225,7 @@ TABLE = (
 def _paint_table(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
     rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
-    if not rows and figures.passive is not None:
+    if not rows and figures.has_passive:
         return top  # the table of what was passive says all there is
     top += 18 + page.title(tr("Range of motion"), top + 11, repetition_words(figures))
     heads = column_names(figures, report.previous, report.other_hand)
@@ -246,7 +247,7 @@ def _paint_active_passive(page: Page, report: SessionReport, top: float) -> floa
     found = active_passive(report.figures, report.by_hand if report.form.has("by_hand") else ())
     if found is None:
         return top
-    said = "" if report.figures.rows or report.joints is not None else repetition_words(report.figures)
+    said = "" if report.figures.wrist_ranges or report.joints is not None else repetition_words(report.figures)
     y = top + 18 + page.title(tr("Active and passive"), top + 18, said)
     if found.said:
         y = page.said(found.said, y, 9.0, MEDIUM)
@@ -297,7 +298,7 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
         bars.append((numbers.day_beside(report.previous.when, figures.when), report.previous, angles[0], 6.0, "border"))
     if len(angles) == 1 and report.other_hand is not None:
         bars.append((terms.hand_name(report.other_hand.side), report.other_hand, angles[0], 3.0, "text2"))
-    bars = [bar for bar in bars if any(row.angle == bar[2] for row in bar[1].rows)]
+    bars = [bar for bar in bars if any(row.angle == bar[2] for row in bar[1].wrist_ranges)]
     if not bars:
         return top - 8
     compared = any(shown is not figures for _, shown, *_ in bars)
@@ -338,15 +339,16 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
 
 def _paint_bar(page: Page, figures: SessionFigures, angle: int, middle: float, thick: float, token: str, x) -> None:  # type: ignore[no-untyped-def]
     upper, lower = SIDES[angle]
-    top_row, bottom_row = figures.row(upper, angle), figures.row(lower, angle)
-    high = top_row.mean_deg if top_row else 0.0
-    low = -bottom_row.mean_deg if bottom_row else 0.0
+    of = WRIST_ANGLES[angle]
+    top_row, bottom_row = figures.find(of, upper), figures.find(of, lower)
+    high = top_row.mean if top_row else 0.0
+    low = -bottom_row.mean if bottom_row else 0.0
     page.fill(x(low), middle - thick / 2, x(high) - x(low), thick, token, 1.0)
     if thick < 7:
         return
     for value, row in ((high, top_row), (low, bottom_row)):
-        if row is not None and math.isfinite(row.sd_deg):
-            ends = x(value - row.sd_deg), x(value + row.sd_deg)
+        if row is not None and math.isfinite(row.sd):
+            ends = x(value - row.sd), x(value + row.sd)
             page.line((ends[0], middle), (ends[1], middle), "text", 0.9)
             for end in ends:
                 page.line((end, middle - 3), (end, middle + 3), "text", 0.9)
@@ -443,12 +445,12 @@ def _paint_by_hand(page: Page, report: SessionReport, top: float) -> float:
 def _speaks_of_error(report: SessionReport) -> bool:
     """Whether any change is judged on the page, against its measurement error."""
     figures = report.figures
-    rows = list(figures.rows)
+    rows = list(figures.wrist_ranges)
     if report.joints is not None:
         joints = [figure.joint for figure in compared_figures(figures)]
-        rows = [row for row in figures.joint_rows if row.movement == "arc" and row.joint in joints]
+        rows = [row for row in figures.joint_ranges if row.what == "arc" and row.of in joints]
     before = [item for item in (report.previous, report.first) if item is not None]
-    return any(item.verdict != "not_judged" for earlier in before for item in compare_rows(earlier, figures, rows))
+    return any(item.verdict != "not_judged" for earlier in before for item in compare(earlier, figures, rows))
 
 
 def _paint_foot(page: Page, report: SessionReport, top: float) -> float:

@@ -197,7 +197,7 @@ class ResultTables(ScrollArea):
             self.ways_note.setText(found.note)
         for place, widget in enumerate(self._ways):
             self._column.removeWidget(widget)  # what was done both ways is the first to be read
-            self._column.insertWidget(place if reviewed.figures.passive is not None else place + 2, widget)
+            self._column.insertWidget(place if reviewed.figures.has_passive else place + 2, widget)
         self.ways.setVisible(found is not None)
         self.ways_said.setVisible(found is not None and bool(found.said))
         self.ways_note.setVisible(found is not None and bool(found.note))

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.norms import Grade, GradedTotal, graded_totals, total_norm
-from carpus.core.results.progress import compare_rows
-from carpus.core.results.ranges import RangeRow, RowKey, finger_keys, spread_keys, thumb_keys
+from carpus.core.results.measure import Measure, MeasureKey, is_total, turn_round
+from carpus.core.results.norms import SHARE_OF_OTHER, Grade, grade_of, total_norm, total_shares
+from carpus.core.results.progress import compare
+from carpus.core.results.ranges import finger_keys, spread_keys, thumb_keys
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
@@ -17,7 +17,7 @@ from carpus.ui.marker_words import finger_name
 from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import change_short, reason_words
 from carpus.ui.words.further import main_words, short_words
-from carpus.ui.words.ranges import is_deficit, mean_words, turned
+from carpus.ui.words.ranges import is_deficit, mean_words
 from carpus.ui.words.session import since_sessions
 
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
@@ -60,12 +60,13 @@ def finger_rows(
 ) -> list[FingerRow]:
     """Thumb to little finger; last time and change are those of the total, of spreading or of the middle joint,
     whichever the exercise is about. ``other`` the other hand, of which a total is a share."""
-    graded = {grade.finger: grade for grade in graded_totals(figures.joint_rows, figures.exercise, _rows_of(other))}
-    return [_finger_row(finger, figures, previous, graded.get(finger)) for finger in FINGERS]
+    shares = {share.of: share for share in _shares(figures, other)}
+    return [_finger_row(finger, figures, previous, shares.get(f"TAM{finger}")) for finger in FINGERS]
 
 
-def _rows_of(other: SessionFigures | None) -> Sequence[RangeRow]:
-    return () if other is None else other.joint_rows
+def _shares(figures: SessionFigures, other: SessionFigures | None) -> tuple[Measure, ...]:
+    """Of every total, of the other hand's where that is known."""
+    return total_shares(figures.joint_ranges, figures.exercise, () if other is None else other.joint_ranges)
 
 
 def grade_words(grade: Grade | None) -> str:
@@ -75,17 +76,18 @@ def grade_words(grade: Grade | None) -> str:
     return {"excellent": tr("excellent"), "good": tr("good"), "fair": tr("fair"), "poor": tr("poor")}[grade]
 
 
-def _share_cell(graded: GradedTotal | None, row: RangeRow | None) -> FingerCell:
-    if graded is None or row is None:
+def _share_cell(share: Measure | None) -> FingerCell:
+    if share is None:
         return FingerCell("")
-    share = f"{written(100.0 * graded.share)}{numbers.NARROW_GAP}%"
-    return FingerCell(f"{AT_LEAST}{numbers.NARROW_GAP}{share}" if row.limited else share, grade_words(graded.grade))
+    words = f"{written(100.0 * share.mean)}{numbers.NARROW_GAP}%"
+    at_least = f"{AT_LEAST}{numbers.NARROW_GAP}" if share.at_least else ""
+    return FingerCell(f"{at_least}{words}", grade_words(grade_of(share)))
 
 
 def of_other_hand(figures: SessionFigures, other: SessionFigures | None) -> bool:
     """Whether totals are shares of the other hand's, not of the usual ones."""
-    graded = graded_totals(figures.joint_rows, figures.exercise, _rows_of(other))
-    return bool(graded) and all(grade.of_other_hand for grade in graded)
+    shares = _shares(figures, other)
+    return bool(shares) and all(share.what == SHARE_OF_OTHER for share in shares)
 
 
 def column_heads(
@@ -142,14 +144,14 @@ def limits_words(figures: SessionFigures) -> str:
     lifted: list[str] = []
     for finger in FINGERS:
         for row in COLUMNS:
-            found = figures.row("arc", -1, Figure(finger, row).joint)
+            found = figures.find(Figure(finger, row).joint, "arc")
             if found is None or row == "tam":
                 continue
             if not found.count:
                 unseen.append(Figure(finger, row).long_name)
-            elif found.limited and finger == 1 and row == "middle":
+            elif found.at_least and finger == 1 and row == "middle":
                 lifted.append(tr("lift of the thumb"))
-            elif found.limited:
+            elif found.at_least:
                 limited[row].append(inside(finger_name(str(finger))))
     parts = []
     for row, names in limited.items():
@@ -172,7 +174,7 @@ def limits_words(figures: SessionFigures) -> str:
 
 def total_words(figures: SessionFigures) -> list[str]:
     """What TAM is, or why there is none."""
-    totals = [row for row in figures.joint_rows if row.joint.startswith("TAM")]
+    totals = [row for row in figures.joint_ranges if is_total(row.of)]
     if not totals:
         return []
     words = [tr("Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.")]
@@ -207,12 +209,12 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
         shown = tuple(Figure(1, row) for row in ("middle", "spread", "knuckle", "end"))
     today, bounds = [], 0
     for figure in shown:
-        row = figures.row("arc", -1, figure.joint)
+        row = figures.find(figure.joint, "arc")
         known = row is not None and row.count
         words = range_words(row, spread=False) if row is not None and known else tr("not seen")
         name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
         today.append(f"{inside(name)} {words}")
-        bounds += bool(known and row is not None and row.limited)
+        bounds += bool(known and row is not None and row.at_least)
     parts = [f"{main}."] if main else []
     parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
     if bounds:
@@ -223,8 +225,8 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
 def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str) -> str:
     """What may be said of change of the fingers since a day."""
     keys = [figure.joint for figure in compared_figures(figures)]
-    rows = [row for row in figures.joint_rows if row.joint in keys and row.movement == "arc"]
-    changes = compare_rows(before, figures, rows)
+    rows = [row for row in figures.joint_ranges if row.of in keys and row.what == "arc"]
+    changes = compare(before, figures, rows)
     judged = [item for item in changes if item.verdict != "not_judged"]
     beyond = [item for item in judged if item.verdict != "no_change"]
     if not judged:
@@ -239,7 +241,7 @@ def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str)
         if item.at_least:
             size = tr("at least {size}").format(size=size)
         pattern = tr("{finger} {size} better") if item.verdict == "improved" else tr("{finger} {size} less")
-        words.append(pattern.format(finger=inside(finger_name(item.joint[3:4])), size=size))
+        words.append(pattern.format(finger=inside(finger_name(item.after.of[3:4])), size=size))
     limit = numbers.degrees(beyond[0].limit_deg)
     said = tr("Since {when}: {changes} (error {limit}).").format(when=when, changes=", ".join(words), limit=limit)
     return f"{said} {rest}".strip()
@@ -247,7 +249,7 @@ def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str)
 
 def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
     """The range of one joint or finger in words."""
-    row = figures.row("arc", -1, figure.joint)
+    row = figures.find(figure.joint, "arc")
     thumb: dict[Row, str] = {"knuckle": tr("MCP"), "middle": tr("Lift"), "end": tr("IP")}
     joint = thumb.get(figure.row, "") if figure.finger == 1 else ""
     if row is None and figure.row == "tam":
@@ -256,21 +258,19 @@ def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
         return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN, joint=joint)
     if not row.count:
         return FingerCell(tr("not seen"), limited=True, joint=joint)
-    return FingerCell(range_words(row), _ends(figures, figure), row.limited, joint)
+    return FingerCell(range_words(row), _ends(figures, figure), row.at_least, joint)
 
 
 def _finger_row(
-    finger: int, figures: SessionFigures, previous: SessionFigures | None, graded: GradedTotal | None
+    finger: int, figures: SessionFigures, previous: SessionFigures | None, share: Measure | None
 ) -> FingerRow:
     compared = Figure(finger, compared_row(figures))
-    share = _share_cell(graded, figures.row("arc", -1, f"TAM{finger}"))
-    if compared not in compared_figures(figures) or not trains_joints(figures):
-        cells = tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS)
-        return FingerRow(finger, finger_name(str(finger)), cells, share, "", "", "")
-    today = figures.row("arc", -1, compared.joint)
-    before = previous.row("arc", -1, compared.joint) if previous else None
+    today = before = None
+    if compared in compared_figures(figures) and trains_joints(figures):
+        today = figures.find(compared.joint, "arc")
+        before = previous.find(compared.joint, "arc") if previous else None
     change, verdict = "", ""
-    if previous is not None and today is not None and (found := compare_rows(previous, figures, [today])):
+    if previous is not None and today is not None and (found := compare(previous, figures, [today])):
         verdict = found[0].verdict
         change = change_short(verdict, found[0].shown_difference_deg, found[0].limit_deg)
         if found[0].at_least:
@@ -281,31 +281,31 @@ def _finger_row(
         finger,
         finger_name(str(finger)),
         tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS),
-        share,
+        _share_cell(share),
         range_words(before, spread=False) if before is not None and before.count else "",
         change,
         verdict,
     )
 
 
-def range_words(row: RangeRow, *, spread: bool = True) -> str:
+def range_words(row: Measure, *, spread: bool = True) -> str:
     """``57° ± 2°``, or ``≥ 57°`` where the end of the movement was not seen."""
-    sd = row.sd_deg if math.isfinite(row.sd_deg) else row.measurement_sd_deg
-    if row.limited:  # a spread would be that of where the joint went out of sight
-        return f"{AT_LEAST}{numbers.NARROW_GAP}{numbers.degrees(row.mean_deg)}"
-    return numbers.with_spread(row.mean_deg, sd) if spread else numbers.degrees(row.mean_deg)
+    sd = row.sd if math.isfinite(row.sd) else row.measurement_sd
+    if row.at_least:  # a spread would be that of where the joint went out of sight
+        return f"{AT_LEAST}{numbers.NARROW_GAP}{numbers.degrees(row.mean)}"
+    return numbers.with_spread(row.mean, sd) if spread else numbers.degrees(row.mean)
 
 
 def _ends(figures: SessionFigures, figure: Figure) -> str:
     """``3° to 87°``; ``−3° to 87°`` where it bends back beyond straight; spreading with its sides."""
-    low, high = (figures.row(end, -1, figure.joint) for end in ("extension", "flexion"))
+    low, high = (figures.find(figure.joint, end) for end in ("extension", "flexion"))
     if low is None or high is None:
         return ""
     if figure.row == "tam":
         return tr("bends {full}, lacks {missing}").format(
-            full=numbers.degrees(high.mean_deg), missing=numbers.degrees(low.mean_deg)
+            full=numbers.degrees(high.mean), missing=numbers.degrees(low.mean)
         )
-    ends = sorted((figure.sign * low.mean_deg, figure.sign * high.mean_deg))
+    ends = sorted((figure.sign * low.mean, figure.sign * high.mean))
     if figure.row == "spread":
         low_words, high_words = (with_side(end, figure.finger) for end in ends)
     else:
@@ -318,7 +318,7 @@ def followed_kinds(figures: SessionFigures) -> list[tuple[str, str]]:
 
     Empty for the wrist alone; the last choice (an empty value) is the wrist of a whole hand.
     """
-    if not figures.joint_rows:
+    if not figures.joint_ranges:
         return []
     kinds = [("tam", tr("TAM of all fingers"))] if compared_row(figures) == "tam" else []
     kinds.append(("spread", tr("Spreading of all fingers")))
@@ -330,7 +330,7 @@ def followed_kinds(figures: SessionFigures) -> list[tuple[str, str]]:
     return [*kinds, ("", tr("Wrist"))]
 
 
-def followed_keys(what: str) -> tuple[RowKey, ...]:
+def followed_keys(what: str) -> tuple[MeasureKey, ...]:
     """What a choice of :func:`followed_kinds` follows."""
     if what == "spread":
         return spread_keys()
@@ -349,16 +349,16 @@ def main_figure(figures: SessionFigures) -> str:
     about = short_words(figures)
     if about:
         return about
-    if figures.joint_rows:
+    if figures.joint_ranges:
         trained = figure_of(figures.exercise.joint).finger
         for figure in sorted(compared_figures(figures), key=lambda one: one.finger != trained):
-            row = figures.row("arc", -1, figure.joint)
+            row = figures.find(figure.joint, "arc")
             if row is not None and row.count:
                 return f"{figure.long_name} {range_words(row)}"
         return ""
-    rows = [row for row in figures.rows if row.movement != "arc" and row.count] or [*figures.rows]
+    rows = [row for row in figures.wrist_ranges if row.what != "arc" and row.count] or [*figures.wrist_ranges]
     if not rows:
         return ""
     if is_deficit(rows[0]):
-        return f"{terms.deficit_name(rows[0].movement)} {mean_words(turned(rows[0]))}"
-    return f"{terms.movement_name(rows[0].movement)} {mean_words(rows[0])}"
+        return f"{terms.deficit_name(rows[0].what)} {mean_words(turn_round(rows[0]))}"
+    return f"{terms.movement_name(rows[0].what)} {mean_words(rows[0])}"

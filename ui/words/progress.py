@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measure import Measure, is_total
 from carpus.core.results.progress import Comparison, Progress, ProgressPoint
-from carpus.core.results.ranges import is_total
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
@@ -36,49 +36,55 @@ def headline(progress: Progress) -> tuple[str, str]:
     size = numbers.degrees(main.shown_difference_deg)
     if main.at_least:
         size = tr("at least {size}").format(size=size)
-    gained = [item for item in progress.comparisons if is_total(item.joint) and item.verdict == "improved"]
+    gained = [item for item in progress.comparisons if is_total(item.after.of) and item.verdict == "improved"]
     if len(gained) > 1 and main.verdict == "improved":
         pattern = tr("TAM has improved in {count} of {all} fingers since {day}.")
         answer = pattern.format(count=len(gained), all=len(progress.comparisons), day=day)
-        return answer, " ".join(_rest(item) for item in progress.comparisons if item.verdict in ("improved", "worse"))
+        return answer, " ".join(_rest(item) for item in progress.comparisons if item.is_beyond)
     if main.verdict == "improved":
         answer = tr("{name} has improved by {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "worse":
         answer = tr("{name} has lost {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "no_change":
         answer = tr("No change proven since {day}.").format(day=day)
-    elif main.joint and min(first.counted, last.counted) >= FEWEST_FOR_SPREAD:
+    elif main.of_joint and min(first.counted, last.counted) >= FEWEST_FOR_SPREAD:
         return tr("Not judged: the joints were hidden in part."), tr("What is hidden does not count.")
     else:
         why = reason_words(main.reasons)
         return tr("Not judged: {why}.").format(why=why or tr("too few repetitions to compare")), ""
     others = [item for item in progress.comparisons if item is not main and item.verdict != "not_judged"]
-    if main.joint:  # of many joints only those that changed
-        others = [item for item in others if item.verdict in ("improved", "worse")]
-    turned = any(item.movement in ("supination", "pronation") for item in progress.comparisons)
+    if main.of_joint:  # of many joints only those that changed
+        others = [item for item in others if item.is_beyond]
+    turned = any(item.after.what in terms.FOREARM for item in progress.comparisons)
     zero = [terms.thumb_up_words()] if turned else []
     return answer, " ".join([_basis(main), *(_rest(item) for item in others), *zero])
 
 
 def comparison_name(item: Comparison, among: Sequence[Comparison] = ()) -> str:
     """``Whole arc``, ``Flexion``, or ``Ring finger, TAM``; ``among`` others that are whole arcs too it says of what."""
-    if item.movement == "arc" and not item.joint and sum(one.movement == "arc" for one in among) > 1:
-        return terms.arc_name(item.angle)
-    return figure_of(item.joint).long_name if item.joint else terms.movement_name(item.movement)
+    return range_name(item.after, several=sum(one.after.what == "arc" for one in among) > 1)
+
+
+def range_name(row: Measure, *, several: bool) -> str:
+    """As :func:`comparison_name`, of one range."""
+    if row.angle < 0:
+        return figure_of(row.of).long_name
+    return terms.arc_name(row.angle) if several and row.what == "arc" else terms.movement_name(row.what)
 
 
 def _subject(item: Comparison) -> str:
-    if item.joint:
-        figure = figure_of(item.joint)
+    if item.of_joint:
+        figure = figure_of(item.after.of)
         finger = inside(long_finger_name(str(figure.finger)))
         return tr("{joint} of the {finger}").format(joint=figure.row_name, finger=finger)
-    return tr("The whole arc") if item.movement == "arc" else terms.movement_long_name(item.movement)
+    what = item.after.what
+    return tr("The whole arc") if what == "arc" else terms.movement_long_name(what)
 
 
 def _basis(item: Comparison) -> str:
     before, after = _ends(item)
     limit = numbers.degrees(item.limit_deg)
-    if item.verdict in ("improved", "worse"):
+    if item.is_beyond:
         pattern = tr("From {before} to {after}: more than the measurement error of {limit}.")
     else:
         pattern = tr("From {before} to {after}: within the measurement error of {limit}.")
@@ -86,8 +92,8 @@ def _basis(item: Comparison) -> str:
 
 
 def _rest(item: Comparison) -> str:
-    name = _subject(item) if item.joint else terms.movement_long_name(item.movement)
-    if item.verdict in ("improved", "worse"):
+    name = _subject(item) if item.of_joint else terms.movement_long_name(item.after.what)
+    if item.is_beyond:
         change = difference(item.shown_difference_deg)
         if item.at_least:
             change = tr("at least {change}").format(change=change)
@@ -104,14 +110,15 @@ def before_after(item: Comparison) -> str:
 
 def _ends(item: Comparison) -> tuple[str, str]:
     """Both means; of the wrist a side that was not reached lacks something."""
-    if item.joint:
-        return numbers.degrees(item.before_deg), numbers.degrees(item.after_deg)
-    return terms.end_words(item.before_deg, item.movement), terms.end_words(item.after_deg, item.movement)
+    before, after = item.before, item.after
+    if item.of_joint:
+        return numbers.degrees(before.mean), numbers.degrees(after.mean)
+    return terms.end_words(before.mean, after.what), terms.end_words(after.mean, after.what)
 
 
 def change_line(item: Comparison) -> str:
     """``23° more, error 10°``; a joint that was hidden has no difference, at most a least one."""
-    if item.joint and item.verdict == "not_judged":
+    if item.of_joint and item.verdict == "not_judged":
         return tr("hidden in part, or too few")
     if item.at_least:
         return tr("at least {change}, error {limit}").format(
@@ -150,7 +157,7 @@ def unfair_words(point: ProgressPoint, progress: Progress) -> str:
         }
         reasons.append(words.get(reason) or reason_words((reason,)))
     day = _day_of(point, progress)
-    has_ring = point.figures.rows or point.figures.joint_rows
+    has_ring = point.figures.group("range")
     pattern = tr("{day}: {reasons}. Shown as a ring and left out.") if has_ring else tr("{day}: {reasons}. Left out.")
     return pattern.format(day=day, reasons=", ".join(reasons))
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measure import Measure, turn_round
 from carpus.core.results.norms import wrist_norm
 from carpus.core.results.progress import Comparison, compare
-from carpus.core.results.ranges import RangeRow
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
@@ -51,31 +51,25 @@ def table_rows(
     figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None
 ) -> list[TableRow]:
     """Arc first, then its two ends, what should have stayed still, and the speed."""
-    changes = {(item.movement, item.angle): item for item in compare(previous, figures)} if previous else {}
-    out = [_range_row(row, figures, previous, other, changes.get((row.movement, row.angle))) for row in figures.rows]
-    for angle in (0, 1, 2):
-        if math.isfinite(figures.trick_deg[angle]):
-            out.append(_trick_row(angle, figures, previous))
-    if figures.speed.peak_speed.count or too_slow(figures):
-        out.append(_speed_row(figures, previous, other))
+    changes = {item.key: item for item in compare(previous, figures)} if previous else {}
+    out = [_range_row(row, figures, previous, other, changes.get(row.key)) for row in figures.wrist_ranges]
+    out += [_still_row(row, figures, previous) for row in figures.group("still")]
+    speed = figures.speed("peak speed")
+    if speed is not None and (speed.count or speed.unknown):
+        out.append(_speed_row(speed, figures, previous, other))
     return out
 
 
 def norm_words(figures: SessionFigures) -> str:
     """Where the usual values are from and whom they cover; empty where none is shown."""
-    norms = [wrist_norm(row.movement, row.angle, figures.exercise) for row in figures.rows]
+    norms = [wrist_norm(row.what, row.angle, figures.exercise) for row in figures.wrist_ranges]
     return next((say(norm.sentence()) for norm in norms if norm is not None), "")
-
-
-def too_slow(figures: SessionFigures) -> bool:
-    """Whether there are strokes, and of all of them the speed is lost in the tracker's noise."""
-    return figures.speed.too_slow > 0 and not figures.speed.peak_speed.count
 
 
 def repetition_words(figures: SessionFigures) -> str:
     """``mean of 9 repetitions; number 7 left out: pain``: always n and what is left out."""
     if not any(repetition.is_whole for repetition in figures.repetitions):
-        ways = [len(item.values) for item in figures.further if item.name == "movement time"]
+        ways = [len(item.values) for item in figures.group("task") if item.what == "movement time"]
         if ways:
             words = tr("{count} ways out and back; ranges over the whole recording").format(count=sum(ways))
             return "; ".join([words, *_without_passive(figures)])
@@ -128,95 +122,108 @@ def _with_unseen(parts: list[str], figures: SessionFigures) -> str:
     return "; ".join(parts)
 
 
-def mean_words(row: RangeRow) -> str:
+def mean_words(row: Measure) -> str:
     """``57° ± 2°``: the spread between repetitions, of a single one the tracker's own; two are listed."""
+    is_forearm = row.what in terms.FOREARM
     if 1 < row.count < 3:
-        degrees = numbers.signed_degrees if row.movement in terms.FOREARM else numbers.degrees
-        return ", ".join(degrees(value) for value in row.values_deg)
-    words = numbers.with_spread(row.mean_deg, row.sd_deg if prints_spread(row) else row.measurement_sd_deg)
-    is_short = row.movement in terms.FOREARM and numbers.signed_degrees(row.mean_deg) != numbers.degrees(row.mean_deg)
+        degrees = numbers.signed_degrees if is_forearm else numbers.degrees
+        return ", ".join(degrees(value) for value in row.values)
+    words = numbers.with_spread(row.mean, row.sd if prints_spread(row) else row.measurement_sd)
+    is_short = is_forearm and numbers.signed_degrees(row.mean) != numbers.degrees(row.mean)
     return f"\N{MINUS SIGN}{words}" if is_short else words
 
 
-def prints_spread(row: RangeRow) -> bool:
+def prints_spread(row: Measure) -> bool:
     """Whether what stands after its ± is the spread between repetitions, not the tracker's sd."""
-    return math.isfinite(row.sd_deg)
+    return math.isfinite(row.sd)
 
 
-def is_deficit(row: RangeRow) -> bool:
+def is_deficit(row: Measure) -> bool:
     """Whether an end of the wrist's movement was never reached: the other one does not come back to neutral. A forearm
     that does not come to thumb up has a value below zero."""
-    return not row.joint and row.movement not in ("arc", *terms.FOREARM) and row.mean_deg < 0.0
-
-
-def turned(row: RangeRow) -> RangeRow:
-    """A deficit counted upwards."""
-    values = tuple(-value for value in row.values_deg)
-    return replace(row, mean_deg=-row.mean_deg, best_deg=-row.best_deg, values_deg=values)
+    return row.angle >= 0 and row.what not in ("arc", *terms.FOREARM) and row.mean < 0.0
 
 
 def _range_row(
-    row: RangeRow, figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None,
+    row: Measure, figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None,
     change: Comparison | None,
 ) -> TableRow:  # fmt: skip
-    name = terms.movement_name(row.movement)
+    name = terms.movement_name(row.what)
     if is_deficit(row):
-        name, row = terms.deficit_name(row.movement), turned(row)
-    if figures.exercise.angle is None and row.movement == "arc":
+        name, row = terms.deficit_name(row.what), turn_round(row)
+    if figures.exercise.angle is None and row.what == "arc":
         name = terms.arc_name(row.angle)
-    before, beside = (item.row(row.movement, row.angle) if item else None for item in (previous, other))
+    before, beside = (item.find(*row.key) if item else None for item in (previous, other))
     words = ""
     if change is not None:
         words = change_with_limit(change.verdict, change.shown_difference_deg, change.limit_deg)
         words = words or tr("not judged: {why}").format(why=reason_words(change.reasons))
     short = "" if change is None else change_short(change.verdict, change.shown_difference_deg, change.limit_deg)
-    if row.limited:
+    if row.at_least:
         words = "; ".join(part for part in (words, tr("limited by the camera's view")) if part)
         short = "; ".join(part for part in (short, tr("limited by view")) if part)
-    norm = wrist_norm(row.movement, row.angle, figures.exercise)
+    norm = wrist_norm(row.what, row.angle, figures.exercise)
     return TableRow(
         movement=name,
         today=mean_words(row),
-        best=terms.end_words(row.best_deg, row.movement),
-        other_hand=terms.end_words(beside.mean_deg, row.movement) if beside else "",
+        best=terms.end_words(row.best, row.what),
+        other_hand=terms.end_words(beside.mean, row.what) if beside else "",
         usual=numbers.UNKNOWN if norm is None else _range(norm.low_deg, norm.high_deg),
-        last=terms.end_words(before.mean_deg, row.movement) if before else "",
+        last=terms.end_words(before.mean, row.what) if before else "",
         change=words,
         short_change=short or words,
-        token="" if row.movement == "arc" else CURVE_TOKENS[row.angle],
+        token="" if row.what == "arc" else CURVE_TOKENS[row.angle],
         verdict=change.verdict if change else "",
     )
 
 
-def _trick_row(angle: int, figures: SessionFigures, previous: SessionFigures | None) -> TableRow:
+def still_names() -> dict[str, str]:
+    """What should stay still, by angle."""
+    return {
+        "deviation": tr("Side movement"), "flexion": tr("Up and down"),
+        "pronosupination": tr("Rotation from the start"),
+    }  # fmt: skip
+
+
+def _still_row(row: Measure, figures: SessionFigures, previous: SessionFigures | None) -> TableRow:
     limit = figures.exercise.trick_limit_deg
-    value = float(figures.trick_deg[angle])
-    inside = value <= limit
-    names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Rotation from the start")}
-    before = float(previous.trick_deg[angle]) if previous else math.nan
+    inside = row.mean <= limit
+    before = previous.find(*row.key) if previous else None
     return TableRow(
-        movement=names[angle],
-        today=tr("{angle} at most").format(angle=numbers.degrees(value)),
+        movement=still_names()[row.of],
+        today=tr("{angle} at most").format(angle=numbers.degrees(row.mean)),
         best="",
         other_hand="",
         usual=tr("under {angle}").format(angle=numbers.degrees(limit)),
-        last=numbers.degrees(before) if math.isfinite(before) else "",
+        last="" if before is None else numbers.degrees(before.mean),
         change=tr("as asked: the hand stays in line") if inside else tr("more than asked: watch the exercise"),
-        token=CURVE_TOKENS[angle],
+        token=CURVE_TOKENS[row.angle],
         verdict="" if inside else "warn",
     )
 
 
-def _speed_row(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> TableRow:
-    speed = figures.speed.peak_speed
+def speed_words(speed: Measure) -> str:
+    """``190 ± 7°/s``."""
     spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{written(speed.sd)}" if math.isfinite(speed.sd) else ""
+    return f"{written(speed.mean)}{spread}°/s" if speed.count else tr("too slow to judge")
+
+
+def mean_speed_words(figures: SessionFigures) -> str:
+    """``190°/s``, the mean peak speed of a session; a dash where none is known."""
+    speed = figures.speed("peak speed")
+    return numbers.speed(math.nan if speed is None else speed.mean)
+
+
+def _speed_row(
+    speed: Measure, figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None
+) -> TableRow:
     return TableRow(
         movement=tr("Peak speed"),
-        today=tr("too slow to judge") if too_slow(figures) else f"{written(speed.mean)}{spread}°/s",
-        best="" if too_slow(figures) else numbers.speed(speed.best),
-        other_hand=numbers.speed(other.speed.peak_speed.mean) if other else "",
+        today=speed_words(speed),
+        best=numbers.speed(speed.best) if speed.count else "",
+        other_hand=mean_speed_words(other) if other else "",
         usual=numbers.UNKNOWN,
-        last=numbers.speed(previous.speed.peak_speed.mean) if previous else "",
+        last=mean_speed_words(previous) if previous else "",
         change=tr("not judged: no error limit is known") if previous else "",
         short_change=tr("not judged") if previous else "",
     )

@@ -9,27 +9,28 @@ from datetime import datetime
 from carpus.core.hand.exercises import SIDES, STILL_RADIUS_MM
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measure import Measure, is_total
 from carpus.core.results.progress import Comparison, compare
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
-from carpus.ui.words.ranges import is_deficit, prints_spread, too_slow
+from carpus.ui.words.ranges import is_deficit, prints_spread, speed_words, still_names
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
     """Today's figures, then what may be said of change."""
     free = figures.exercise.angle is None
-    rows = [row for row in figures.rows if row.movement == "arc" or not free][:3]
+    rows = [row for row in figures.wrist_ranges if row.what == "arc" or not free][:3]
     today = ", ".join(
-        f"{inside(terms.deficit_name(row.movement))} {numbers.degrees(-row.mean_deg)}"
+        f"{inside(terms.deficit_name(row.what))} {numbers.degrees(-row.mean)}"
         if is_deficit(row)
-        else f"{_name(row.movement, row.angle, figures)} {terms.end_words(row.mean_deg, row.movement)}"
+        else f"{_name(row, figures)} {terms.end_words(row.mean, row.what)}"
         for row in rows
     )
     if not today:
-        return tr("No range could be measured.") if figures.passive is None else tr("No active range was measured.")
+        return tr("No range could be measured.") if not figures.has_passive else tr("No active range was measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
     return " ".join([*parts, *since_sessions(figures, previous, first, since_compared)])
 
@@ -53,15 +54,15 @@ def since_compared(figures: SessionFigures, before: SessionFigures, when: str) -
     return since_words(compare(before, figures), when)
 
 
-def _name(movement: str, angle: int, figures: SessionFigures) -> str:
-    if movement == "arc":
-        return tr("whole arc") if figures.exercise.angle is not None else inside(terms.arc_name(angle))
-    return inside(terms.movement_long_name(movement))
+def _name(row: Measure, figures: SessionFigures) -> str:
+    if row.what == "arc":
+        return tr("whole arc") if figures.exercise.angle is not None else inside(terms.arc_name(row.angle))
+    return inside(terms.movement_long_name(row.what))
 
 
 def since_words(changes: tuple[Comparison, ...], when: str) -> str:
     """What may be said of change since a day; empty without anything to compare."""
-    beyond = [item for item in changes if item.verdict in ("improved", "worse")]
+    beyond = [item for item in changes if item.is_beyond]
     judged = [item for item in changes if item.verdict != "not_judged"]
     if not judged:
         why = reason_words([reason for item in changes for reason in item.reasons])
@@ -70,7 +71,8 @@ def since_words(changes: tuple[Comparison, ...], when: str) -> str:
         return tr("No change proven since {when}.").format(when=when)
     words = []
     for item in beyond:
-        name = tr("whole arc") if item.movement == "arc" else inside(terms.movement_long_name(item.movement))
+        what = item.after.what
+        name = tr("whole arc") if what == "arc" else inside(terms.movement_long_name(what))
         size, limit = numbers.degrees(item.shown_difference_deg), numbers.degrees(item.limit_deg)
         pattern = tr("{name} {size} better") if item.verdict == "improved" else tr("{name} {size} less")
         words.append(pattern.format(name=name, size=size) + " " + tr("(error {limit})").format(limit=limit))
@@ -90,9 +92,9 @@ def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Se
     order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
     if figures.angle_order == "isb":
         order = tr("Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.")
-    if figures.joint_rows:
+    if figures.joint_ranges:
         order = tr("Fingers: zero is straight, below it bent back. Wrist: {zero}.")
-    if any(row.joint.startswith("TAM") for row in figures.joint_rows):
+    if any(is_total(row.of) for row in figures.joint_ranges):
         order = tr(
             "Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. "
             "Wrist: {zero}."
@@ -106,7 +108,7 @@ def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Se
         order.format(zero=zero),
         zero_words(figures, by_hand),
         tr("The wrist’s angles are in the order of the ISB.")
-        if figures.joint_rows and figures.angle_order == "isb"
+        if figures.joint_ranges and figures.angle_order == "isb"
         else "",
         camera_words(figures),
         _sd_words(figures).format(sd=numbers.spread(quality.angle_sd_deg)),
@@ -119,7 +121,7 @@ def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Se
 
 def zero_words(figures: SessionFigures, by_hand: Sequence[HandValue] = ()) -> str:
     """Where pronation and supination are counted from, where there are any, measured or entered by hand."""
-    named = {row.movement for row in figures.rows} | {one.measure.lower() for one in by_hand}
+    named = {row.what for row in figures.wrist_ranges} | {one.measure.lower() for one in by_hand}
     return terms.thumb_up_words() if named & set(terms.FOREARM) else ""
 
 
@@ -138,7 +140,7 @@ def camera_words(figures: SessionFigures) -> str:
 
 def _sd_words(figures: SessionFigures) -> str:
     """Whose standard deviation stands behind the ±: of the repetitions, or of the tracker where there are too few."""
-    spreads = {prints_spread(row) for row in (*figures.rows, *figures.joint_rows) if row.count and not row.limited}
+    spreads = {prints_spread(row) for row in figures.group("range") if row.count and not row.at_least}
     if spreads == {True}:
         return tr("± is the spread between repetitions; each angle itself is known to about {sd} where seen.")
     if spreads == {True, False}:
@@ -188,16 +190,16 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
         share=measured, frames=f"{quality.frames:,}".replace(",", numbers.NARROW_GAP), dropped=quality.dropped
     )
     pattern = tr("{share} % of the time")
-    if figures.joint_rows and figures.counted:
+    if figures.joint_ranges and figures.counted:
         pattern = tr("{share} % of the repetitions")
     hidden = pattern.format(share=numbers.fixed(100 * quality.hidden_share, 1))
     lines = [
         (tr("Pictures measured"), missed, quality.measured_share > 0.9),
         (tr("Markers hidden"), hidden, quality.hidden_share < 0.1),
     ]
-    arcs = [row for row in figures.joint_rows if row.movement == "arc"]
+    arcs = [row for row in figures.joint_ranges if row.what == "arc"]
     if arcs:
-        bounds = sum(row.limited or not row.count for row in arcs)
+        bounds = sum(row.at_least or not row.count for row in arcs)
         words = tr("{count} of {all} figures").format(count=bounds, all=len(arcs)) if bounds else tr("none")
         lines.append((tr("At least (≥) or not seen"), words, not bounds))
     if figures.exercise.pure_wrist and math.isfinite(quality.forearm_mm):
@@ -211,15 +213,11 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
                 residual=f"{numbers.fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
             )
             lines.append((tr("Point the wrist turns about"), words, True))
-    names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Rotation from the start")}
-    for angle in (0, 1, 2):
-        value = float(figures.trick_deg[angle])
-        if math.isfinite(value):
-            limit = figures.exercise.trick_limit_deg
-            words = tr("{angle} at most (limit {limit})").format(
-                angle=numbers.degrees(value), limit=numbers.degrees(limit)
-            )
-            lines.append((names[angle], words, value <= limit))
+    limit = figures.exercise.trick_limit_deg
+    for row in figures.group("still"):
+        words = tr("{angle} at most (limit {limit})")
+        words = words.format(angle=numbers.degrees(row.mean), limit=numbers.degrees(limit))
+        lines.append((still_names()[row.of], words, row.mean <= limit))
     if warnings(figures):
         lines.append((tr("Warning"), tr("at the top of the page"), False))
     return lines
@@ -227,16 +225,14 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
 
 def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
     """Speed, smoothness, pain."""
-    speed, smooth = figures.speed.peak_speed, figures.speed.smoothness
+    speed, smooth = figures.speed("peak speed"), figures.speed("smoothness")
+    pauses, pause_time = figures.speed("pauses"), figures.speed("pause time")
     lines = []
-    if speed.count:
-        spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{written(speed.sd)}" if math.isfinite(speed.sd) else ""
-        lines.append((tr("Peak speed, mean ± sd"), f"{written(speed.mean)}{spread}°/s"))
-    elif too_slow(figures):
-        lines.append((tr("Peak speed, mean ± sd"), tr("too slow to judge")))
-    if figures.speed.too_slow_to_be_smooth and not smooth.count:
+    if speed is not None and (speed.count or speed.unknown):
+        lines.append((tr("Peak speed, mean ± sd"), speed_words(speed)))
+    if smooth is not None and smooth.unknown:
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to judge")))
-    if smooth.count:
+    if smooth is not None and smooth.count:
         spread = (
             f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{numbers.fixed(smooth.sd, 1)}"
             if math.isfinite(smooth.sd)
@@ -244,10 +240,9 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
         )
         value = numbers.fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
-    if figures.speed.pauses.count:
-        pauses, pause_s = figures.speed.pauses.mean, figures.speed.pause_time.mean
-        words = tr("{count} per stroke, {seconds} s in all") if pauses else tr("none")
-        count, seconds = numbers.fixed(pauses, 1), numbers.fixed(pause_s, 1)
+    if pauses is not None and pause_time is not None and pauses.count:
+        words = tr("{count} per stroke, {seconds} s in all") if pauses.mean else tr("none")
+        count, seconds = numbers.fixed(pauses.mean, 1), numbers.fixed(pause_time.mean, 1)
         lines.append((tr("Stops on the way, mean"), words.format(count=count, seconds=seconds)))
     if targets := target_words(figures):
         lines.append((tr("Target"), targets))
