@@ -1,6 +1,8 @@
 """Mixtures of Gaussians, one of each mode of motion: what the filter asks of them in every frame.
 
-Arrays lead with the chain (C) and the mode (K); n numbers each. A mixture is a ``ModeMixture`` of the filter.
+Arrays lead with the chain (C) and the mode (K); each Gaussian has n numbers. A mixture is a ``ModeMixture`` of the
+filter, whose arrays each function takes and returns as mean (C, K, n), covariance (C, K, n, n), probability (C, K).
+Covariances are symmetric; of what comes in the lower half is read.
 """
 
 from __future__ import annotations
@@ -9,17 +11,34 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython.cimports.carpus.core.compiled.small_matrices import add_product, add_square, inverse_root, zero_times
+from cython.cimports.libc.math import INFINITY, exp, isfinite, log, sqrt
 from numpy.typing import NDArray
 
+LEAST_PROBABILITY = cython.declare(cython.double, 1e-6)
+"""No mode ever falls to zero."""
+LIKELY = cython.declare(cython.double, 0.0)
+"""Modes less probable are left as predicted."""
 
-def merged(mixture: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Mean (C, n) and covariance (C, n, n) over the modes: the sum of w (P + a a'), a from the mean."""
-    mean: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(mixture.mean)
-    covariance: cython.const[cython.double][:, :, :, ::1] = np.ascontiguousarray(mixture.covariance)
-    weight: cython.const[cython.double][:, ::1] = np.ascontiguousarray(mixture.probability)
-    chains, modes, n = mean.shape[0], mean.shape[1], mean.shape[2]
-    if mixture.covariance.shape != (chains, modes, n, n) or mixture.probability.shape != (chains, modes):
+Array = NDArray[np.float64]
+
+
+def sized(mixture: Any) -> tuple[Array, Array, Array]:
+    """The arrays of a mixture, row by row. Raises ``ValueError`` where they are not of one size."""
+    mean, covariance = np.ascontiguousarray(mixture.mean), np.ascontiguousarray(mixture.covariance)
+    probability = np.ascontiguousarray(mixture.probability)
+    if mean.ndim != 3 or covariance.shape != (*mean.shape, mean.shape[2]) or probability.shape != mean.shape[:2]:
         raise ValueError("mean, covariance and probability of a mixture are not of one size")
+    return mean, covariance, probability
+
+
+def merged(mixture: Any) -> tuple[Array, Array]:
+    """Mean (C, n) and covariance (C, n, n) over the modes: the sum of w (P + a a'), a from the mean."""
+    arrays = sized(mixture)
+    mean: cython.const[cython.double][:, :, ::1] = arrays[0]
+    covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
+    weight: cython.const[cython.double][:, ::1] = arrays[2]
+    chains, modes, n = mean.shape[0], mean.shape[1], mean.shape[2]
     out_mean, out_covariance = np.zeros((chains, n)), np.zeros((chains, n, n))
     middle: cython.double[:, ::1] = out_mean
     spread: cython.double[:, :, ::1] = out_covariance
@@ -40,3 +59,365 @@ def merged(mixture: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
             for j in range(i):
                 spread[c, j, i] = spread[c, i, j]
     return out_mean, out_covariance
+
+
+def mixed(mixture: Any, switch: Array) -> tuple[Array, Array, Array]:
+    """Each mode's start from all that may have switched to it, ``switch`` (K, K) from row to column: the interaction of
+    an interacting multiple model (Blom and Bar-Shalom 1988)."""
+    arrays = sized(mixture)
+    mean: cython.const[cython.double][:, :, ::1] = arrays[0]
+    covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
+    chains, modes, n = mean.shape[0], mean.shape[1], mean.shape[2]
+    if switch.shape != (modes, modes):
+        raise ValueError("a switch has a row and a column for each mode")
+    joint = arrays[2][:, :, None] * switch
+    probability = joint.sum(axis=1)
+    shares = np.ascontiguousarray((joint / probability[:, None, :]).swapaxes(1, 2))
+    share: cython.const[cython.double][:, :, ::1] = shares  # (C, to, from)
+    # The scatter of the means about the first of them: the sum of s (P + a a') less the square of the sum of s a.
+    shifts = shares @ (arrays[0] - arrays[0][:, :1])
+    shifted: cython.const[cython.double][:, :, ::1] = shifts
+    out = np.zeros((chains, modes, n, n))
+    spread: cython.double[:, :, :, ::1] = out
+    own: cython.double[::1] = np.empty(n)
+    c: cython.Py_ssize_t
+    before: cython.Py_ssize_t
+    to: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    for c in range(chains):
+        for i in range(n):
+            for before in range(modes):
+                apart = mean[c, before, i] - mean[c, 0, i]
+                for j in range(i + 1):
+                    own[j] = covariance[c, before, i, j] + apart * (mean[c, before, j] - mean[c, 0, j])
+                for to in range(modes):
+                    w = share[c, to, before]
+                    for j in range(i + 1):
+                        spread[c, to, i, j] += w * own[j]
+            for to in range(modes):
+                x = shifted[c, to, i]
+                for j in range(i + 1):
+                    spread[c, to, i, j] -= x * shifted[c, to, j]
+                    spread[c, to, j, i] = spread[c, to, i, j]
+    return arrays[0][:, :1] + shifts, out, probability
+
+
+def predicted(mixture: Any, forward: Array, noise: Array) -> tuple[Array, Array]:
+    """Mean F m and covariance F P F' + Q, ``forward`` F (C, n, n) and ``noise`` Q (C, K, n, n)."""
+    arrays = sized(mixture)
+    covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
+    chains, modes, n = covariance.shape[0], covariance.shape[1], covariance.shape[2]
+    if forward.shape != (chains, n, n) or noise.shape != (chains, modes, n, n):
+        raise ValueError("a step is not of the mixture's size")
+    ahead: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(forward)
+    turned: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(forward.swapaxes(1, 2))
+    out = noise.copy()
+    spread: cython.double[:, :, :, ::1] = out
+    half: cython.double[:, ::1] = np.empty((n, n))
+    c: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+    for c in range(chains):
+        for k in range(modes):
+            half[:] = zero_times(covariance[c, k])
+            add_product(ahead[c], covariance[c, k], half)
+            add_product(half, turned[c], spread[c, k])
+    return (forward[:, None] @ arrays[0][..., None])[..., 0], out
+
+
+def transitioned(mixture: Any, step: Any, nominal: Array) -> tuple[Array, Array]:
+    """Mean and covariance after a ``Transition``, of errors from a ``nominal`` (n,): F P F' + Q where F is
+    ``moving`` (m, m) for the first m numbers and ``kept`` (K, n) of all others, Q is ``driven`` (K, m, m) of the first
+    and ``relaxing`` (K, r, r) of the last r."""
+    arrays = sized(mixture)
+    moving: cython.const[cython.double][:, ::1] = np.ascontiguousarray(step.moving)
+    turned: cython.const[cython.double][:, ::1] = np.ascontiguousarray(step.moving.T)
+    driven: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(step.driven)
+    kept: cython.const[cython.double][:, ::1] = np.ascontiguousarray(step.kept)
+    relaxing: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(step.relaxing)
+    before: cython.const[cython.double][:, :, :, ::1] = arrays[1]
+    chains, modes, n = before.shape[0], before.shape[1], before.shape[2]
+    m: cython.Py_ssize_t = moving.shape[0]
+    first: cython.Py_ssize_t = n - relaxing.shape[1]
+    if step.driven.shape != (modes, m, m) or step.kept.shape != (modes, n) or relaxing.shape[0] != modes or m > n:
+        raise ValueError("a step is not of the mixture's size")
+    out = np.empty((chains, modes, n, n))
+    spread: cython.double[:, :, :, ::1] = out
+    rows: cython.double[:, ::1] = np.empty((m, n))
+    corner: cython.double[:, ::1] = np.empty((m, m))
+    square: cython.double[:, ::1] = np.empty((m, m))
+    c: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    for c in range(chains):
+        for k in range(modes):
+            for i in range(n):
+                for j in range(n):
+                    spread[c, k, i, j] = kept[k, i] * kept[k, j] * before[c, k, i, j]
+            rows[:] = zero_times(before[c, k])
+            add_product(moving, spread[c, k, :m], rows)
+            for i in range(m):
+                for j in range(m):
+                    corner[i, j] = rows[i, j]
+            square[:] = driven[k]
+            add_product(corner, turned, square)
+            for i in range(m):
+                for j in range(n):
+                    spread[c, k, i, j] = square[i, j] if j < m else rows[i, j]
+                    spread[c, k, j, i] = spread[c, k, i, j]
+            for i in range(first, n):
+                for j in range(first, n):
+                    spread[c, k, i, j] += relaxing[k, i - first, j - first]
+    mean = arrays[0] * step.kept + (step.kept - 1.0) * nominal
+    mean[..., :m] = arrays[0][..., :m] @ step.moving.T
+    return mean, out
+
+
+@cython.final
+@cython.cclass
+class Measured:
+    """What was measured, of one chain at a time in units of its noise: y = H (x - about) + e with the covariance
+    ``own`` of e, and what a correction works out of it. A number that was not measured has no slope and the noise
+    alone."""
+
+    value: cython.const[cython.double][:, ::1]
+    slope: cython.const[cython.double][:, :, ::1]
+    error: cython.const[cython.double][:, :, ::1]
+    about: cython.const[cython.double][:, ::1]
+    measured: cython.const[cython.double][:, ::1]
+    variance: cython.const[cython.double][:, ::1]
+    centre: cython.const[cython.double][::1]
+    off: cython.double[::1]
+    unit: cython.double[::1]
+    apart: cython.double[::1]
+    shift: cython.double[::1]
+    line: cython.double[:, ::1]
+    turned: cython.double[:, ::1]
+    own: cython.double[:, ::1]
+    cross: cython.double[:, ::1]
+    scatter: cython.double[:, ::1]
+    whitening: cython.double[:, ::1]
+    white: cython.double[:, ::1]
+    gained: cython.double[:, ::1]
+
+    def __init__(self, linearised: Any, shared: Array | None, measured: Array, variance: Array, n: int) -> None:
+        chains, m = measured.shape
+        if shared is not None and shared.shape != linearised.error.shape:
+            raise ValueError("a shared covariance is not of the size of what was measured")
+        error = linearised.error if shared is None else linearised.error + shared
+        self.value, self.slope = np.ascontiguousarray(linearised.value), np.ascontiguousarray(linearised.slope)
+        self.error, self.about = np.ascontiguousarray(error), np.ascontiguousarray(linearised.about)
+        self.measured, self.variance = np.ascontiguousarray(measured), np.ascontiguousarray(variance)
+        given = linearised.value, linearised.slope, error, linearised.about, variance
+        if [x.shape for x in given] != [(chains, m), (chains, m, n), (chains, m, m), (chains, n), (chains, m)]:
+            raise ValueError("what was measured is not of one size, or not of the mixture's")
+        self.off, self.unit, self.apart, self.shift = np.empty(m), np.empty(m), np.empty(m), np.empty(n)
+        self.line, self.cross, self.white = np.empty((m, n)), np.empty((m, n)), np.empty((m, n))
+        self.turned, self.gained = np.empty((n, m)), np.empty((n, n))
+        self.own, self.scatter, self.whitening = np.empty((3, m, m))
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def take(self, c: cython.Py_ssize_t) -> cython.Py_ssize_t:
+        """What was measured of a chain; of how many numbers."""
+        i: cython.Py_ssize_t
+        j: cython.Py_ssize_t
+        used: cython.Py_ssize_t = 0
+        self.centre = self.about[c]
+        for i in range(self.off.shape[0]):
+            known: cython.bint = isfinite(self.measured[c, i])
+            used += known
+            self.unit[i] = 1.0 / sqrt(self.variance[c, i]) if known else 0.0
+            self.off[i] = (self.measured[c, i] - self.value[c, i]) * self.unit[i] if known else 0.0
+            for j in range(self.shift.shape[0]):
+                self.line[i, j] = self.turned[j, i] = self.slope[c, i, j] * self.unit[i]
+            for j in range(i + 1):
+                self.own[i, j] = self.own[j, i] = self.error[c, i, j] * (self.unit[i] * self.unit[j])
+            self.own[i, i] += 1.0
+        return used
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def whiten(
+        self,
+        mean: cython.const[cython.double][::1],
+        covariance: cython.const[cython.double][:, ::1],
+    ) -> cython.bint:
+        """The scatter S = H P H' + own as L L', then ``white`` = L^-1 H P, ``apart`` = L^-1 (y - H (m - about)), and
+        what these tell: ``shift`` of the mean and ``gained`` of the covariance. False where S has no root."""
+        a: cython.Py_ssize_t
+        b: cython.Py_ssize_t
+        j: cython.Py_ssize_t
+        self.cross[:] = zero_times(covariance)
+        self.scatter[:] = self.own
+        self.white[:] = 0.0
+        self.gained[:] = 0.0
+        self.shift[:] = 0.0
+        add_product(self.line, covariance, self.cross)
+        add_product(self.cross, self.turned, self.scatter)
+        unknown = zero_times(self.scatter)
+        if not inverse_root(self.scatter, self.whitening):
+            if unknown == 0.0:
+                return False
+            self.whitening[:] = unknown  # and so is all that follows
+        add_product(self.whitening, self.cross, self.white)
+        add_square(self.white, self.gained)
+        count: cython.Py_ssize_t = self.off.shape[0]
+        # The scatter is not needed any more: its first row is the innovation.
+        for a in range(count):
+            innovation = self.off[a]
+            for j in range(mean.shape[0]):
+                innovation -= self.line[a, j] * (mean[j] - self.centre[j])
+            self.scatter[0, a] = innovation
+        for a in range(count):
+            apart: cython.double = 0.0
+            for b in range(a + 1):
+                apart += self.whitening[a, b] * self.scatter[0, b]
+            self.apart[a] = apart
+            for j in range(mean.shape[0]):
+                self.shift[j] += apart * self.white[a, j]
+        return True
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def nis(self) -> cython.double:
+        """Innovation' S^-1 innovation."""
+        a: cython.Py_ssize_t
+        out: cython.double = 0.0
+        for a in range(self.apart.shape[0]):
+            out += self.apart[a] * self.apart[a]
+        return out
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def log_likelihood(self) -> cython.double:
+        """Of the mode, but for a constant."""
+        a: cython.Py_ssize_t
+        out: cython.double = -0.5 * self.nis()
+        for a in range(self.apart.shape[0]):
+            out += log(self.whitening[a, a])
+        return out
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def surprise(self, out: cython.double[::1]) -> cython.void:
+        """Each measured number's residual given all others, in its own standard deviations: of S^-1 innovation."""
+        a: cython.Py_ssize_t
+        i: cython.Py_ssize_t
+        for i in range(out.shape[0]):
+            off: cython.double = 0.0
+            length2: cython.double = 0.0
+            for a in range(i, out.shape[0]):
+                off += self.apart[a] * self.whitening[a, i]
+                length2 += self.whitening[a, i] * self.whitening[a, i]
+            out[i] = off / sqrt(length2) if self.unit[i] > 0.0 else 0.0
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def correct(
+        self, share: cython.const[cython.double][::1], mean: cython.double[::1], covariance: cython.double[:, ::1]
+    ) -> cython.void:
+        """Move a Gaussian by what was gained, of which each number of the mean takes its ``share``."""
+        i: cython.Py_ssize_t
+        j: cython.Py_ssize_t
+        for i in range(mean.shape[0]):
+            mean[i] += share[i] * self.shift[i]
+            for j in range(i + 1):
+                covariance[i, j] -= (share[i] + share[j] - share[i] * share[j]) * self.gained[i, j]
+                covariance[j, i] = covariance[i, j]
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def reweigh(
+    before: cython.const[cython.double][::1], log_likelihood: cython.const[cython.double][::1], out: cython.double[::1]
+) -> cython.void:
+    """Probabilities (K,) after the measurement. Modes without a likelihood keep theirs, and the rest is the others'."""
+    k: cython.Py_ssize_t
+    modes: cython.Py_ssize_t = before.shape[0]
+    most: cython.double = -INFINITY
+    total: cython.double = 0.0
+    again: cython.double = 0.0
+    left: cython.double = 1.0
+    for k in range(modes):
+        out[k] = log(before[k]) + log_likelihood[k]
+        if not out[k] <= most:  # NaN goes on
+            most = out[k]
+        if log_likelihood[k] == -INFINITY:
+            left -= before[k]
+    for k in range(modes):
+        out[k] = exp(out[k] - most)
+        total += out[k]
+    for k in range(modes):
+        out[k] /= total
+        if out[k] < LEAST_PROBABILITY:
+            out[k] = LEAST_PROBABILITY
+        again += out[k] if log_likelihood[k] != -INFINITY else 0.0
+    for k in range(modes):
+        out[k] = before[k] if log_likelihood[k] == -INFINITY else left * out[k] / again
+
+
+def corrected(
+    mixture: Any,
+    linearised: Any,
+    measured: Array,
+    variance: Array,
+    shared: Array | None,
+    partial: Array | None,
+) -> tuple[Array, Array, Array, Array, NDArray[np.int64], Array]:
+    """Kalman correction of every chain and likely mode by ``measured`` (C, m), NaN where there is nothing.
+
+    ``variance`` (C, m) of the measurements' own errors, ``shared`` (C, m, m) covariance common to several of them,
+    ``partial`` (n,) share of a correction that each number of the mean takes (a Schmidt filter; Brink 2017: the
+    covariance then loses s_i + s_j - s_i s_j of what it would). Modes less probable than ``LIKELY`` are left as
+    predicted (a variable structure; Li and Bar-Shalom 1996).
+
+    The corrected mixture, NIS (C,) over the likely modes with its degrees of freedom (C,), residuals (C, m) in their
+    own standard deviations. Raises ``numpy.linalg.LinAlgError`` where a scatter is not positive definite.
+    """
+    arrays = sized(mixture)
+    out = arrays[0].copy(), arrays[1].copy(), np.empty_like(arrays[2])
+    mean: cython.const[cython.double][:, :, ::1] = arrays[0]
+    covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
+    before: cython.const[cython.double][:, ::1] = arrays[2]
+    to: cython.double[:, :, ::1] = out[0]
+    spread: cython.double[:, :, :, ::1] = out[1]
+    after: cython.double[:, ::1] = out[2]
+    chains, modes, n, m = mean.shape[0], mean.shape[1], mean.shape[2], measured.shape[1]
+    share: cython.const[cython.double][::1] = np.ones(n) if partial is None else np.ascontiguousarray(partial)
+    if share.shape[0] != n or measured.shape[0] != chains:
+        raise ValueError("what was measured, or the shares, are not of the mixture's size")
+    one: Measured = Measured(linearised, shared, measured, variance, n)
+    tests, dof, residuals = np.zeros(chains), np.empty(chains, dtype=np.int64), np.zeros((chains, m))
+    nis: cython.double[::1] = tests
+    residual: cython.double[:, ::1] = residuals
+    log_likelihood: cython.double[::1] = np.empty(modes)
+    square: cython.double[::1] = np.empty(modes)
+    surprise: cython.double[:, ::1] = np.empty((modes, m))
+    c: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    for c in range(chains):
+        dof[c] = one.take(c)
+        for k in range(modes):
+            log_likelihood[k], square[k], surprise[k] = -INFINITY, 0.0, 0.0
+            if not before[c, k] < LIKELY:
+                if not one.whiten(mean[c, k], covariance[c, k]):
+                    raise np.linalg.LinAlgError("Matrix is not positive definite")
+                log_likelihood[k], square[k] = one.log_likelihood(), one.nis()
+                one.surprise(surprise[k])
+                one.correct(share, to[c, k], spread[c, k])
+        reweigh(before[c], log_likelihood, after[c])
+        for k in range(modes):
+            nis[c] += after[c, k] * square[k]
+            for i in range(m):
+                residual[c, i] += after[c, k] * surprise[k, i]
+    return (*out, tests, dof, residuals)

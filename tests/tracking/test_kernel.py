@@ -13,7 +13,6 @@ from carpus.core.tracking.kernel import (
     mixed,
     partial_update,
     predicted,
-    reweighed,
     switching,
     transitioned,
 )
@@ -148,12 +147,6 @@ def test_modes_mix_from_row_to_column() -> None:
             )
             assert np.allclose(blend.mean[c, to], mean)
             assert np.allclose(blend.covariance[c, to], spread)
-
-
-def test_a_mode_that_foresaw_nothing_can_come_back() -> None:
-    found = reweighed(np.array([[0.5, 0.5]]), np.array([[0.0, -1e6]]))
-    assert found.sum() == pytest.approx(1.0)
-    assert 0.0 < found[0, 1] < 1e-5
 
 
 def test_switching_stays_for_its_dwell_time_whatever_the_step() -> None:
