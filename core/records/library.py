@@ -125,6 +125,7 @@ class Library:
         self.log = Log(self.store, by, lambda: self.who())
         self.patients, self.index = Patients(self.store), ListedSessions(self.store)
         self.notes = Notes(self.log, self.index.owner, lambda fault: self.log_fault(fault))
+        self.patients.noted = self.notes.patient
         self.pictures = ShownPictures()
         self.elsewhere: dict[str, SessionEntry] = {}
         """Sessions that are in no list, remembered until the program ends: files that were handed over, and those of a

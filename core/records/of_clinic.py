@@ -7,7 +7,6 @@ import base64
 import json
 import time
 import uuid
-from collections import Counter
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
@@ -20,8 +19,8 @@ from sqlalchemy import Row, select
 from carpus.core.durable import replace_text
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.names import folded
-from carpus.core.records.changes import changed, dropped, kept, new
-from carpus.core.records.schema import BACKUP, DIAGNOSIS, PATIENT, RECIPIENT, REPORT_FORM, SESSION
+from carpus.core.records.changes import changed, kept, new
+from carpus.core.records.schema import BACKUP, RECIPIENT, REPORT_FORM, SESSION
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
 from carpus.core.results.report_form import Letterhead, Paper, ReportForm
@@ -41,22 +40,6 @@ def remember_recipient(store: Store, address: str) -> None:
     """Take down an address."""
     row_id = uuid.uuid5(uuid.NAMESPACE_OID, address).hex
     store.do([kept(RECIPIENT, row_id, address=address, used_s=time.time())])
-
-
-def diagnoses(store: Store) -> list[str]:
-    """The clinic's own list of diagnoses and operations, those of most patients first."""
-    had = Counter(folded(row.diagnosis) for row in store.rows(select(PATIENT.c.diagnosis)))
-    listed = {folded(row.words): str(row.words) for row in store.rows(select(DIAGNOSIS.c.words))}
-    return [words for _, words in sorted(listed.items(), key=lambda one: (-had[one[0]], one[0]))]
-
-
-def list_diagnosis(store: Store, words: str, *, listed: bool) -> None:
-    """Take a diagnosis into the clinic's list, or out of it; a patient who has it keeps it."""
-    same = [row.id for row in store.rows(select(DIAGNOSIS)) if folded(row.words) == folded(words)]
-    if listed and not same:
-        store.do([new(DIAGNOSIS, new_id(), words=words)])
-    elif same and not listed:
-        store.do([dropped(DIAGNOSIS, one) for one in same])
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,8 @@ import json
 import math
 import random
 import time
-from collections.abc import Collection, Iterable
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import fields
 from datetime import UTC, date, datetime
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -19,8 +20,9 @@ from carpus.core.hand.exercises import known_exercise
 from carpus.core.hand.forearm_rotation import read_targets_deg, stored_targets_deg
 from carpus.core.measures.by_hand import MEASURES, HandValue
 from carpus.core.names import folded
-from carpus.core.records.changes import PRACTICE, RowChange, changed, kept, new
-from carpus.core.records.schema import GOAL, HOME_PLAN, MEASURED, PATIENT
+from carpus.core.records.changes import PRACTICE, RowChange, changed, dropped, kept, new
+from carpus.core.records.log import Deed
+from carpus.core.records.schema import DIAGNOSIS, GOAL, HOME_PLAN, MEASURED, PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient, moment, one_of
 from carpus.core.results.progress import Goals
@@ -61,6 +63,8 @@ class Patients:
 
     def __init__(self, store: Store) -> None:
         self._store = store
+        self.noted: Callable[[Deed, str], None] = lambda did, patient_id: None
+        """Is told who was added or changed, by identity, once that is stored."""
 
     def listed(self, search: str = "", *, archived: bool = False, most: int | None = None) -> list[Patient]:
         """Patients whose pseudonym, name, diagnosis or note holds every word of ``search``; last session first,
@@ -106,6 +110,7 @@ class Patients:
         """Enter a new patient; returns the identity given. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
         patient_id = new_id()
         self._store.do([new(PATIENT, patient_id, **columns(patient), added_s=(now or datetime.now(UTC)).timestamp())])
+        self.noted("added", patient_id)
         return patient_id
 
     def change(self, patient: Patient) -> None:
@@ -120,6 +125,7 @@ class Patients:
             values["former"] = "\n".join(dict.fromkeys([*row.former.split("\n"), row.pseudonym])).strip()
         self._store.do([changed(PATIENT, patient.patient_id, patient.version, **values)])
         self._store.leave_no_trace()  # of a name that was taken away
+        self.noted("changed", patient.patient_id)
 
     def archive(self, patient_id: str, now: datetime | None = None) -> None:
         since = (now or datetime.now(UTC)).isoformat(timespec="seconds")
@@ -127,6 +133,20 @@ class Patients:
 
     def bring_back(self, patient_id: str) -> None:
         self._store.do([changed(PATIENT, patient_id, archived="")])
+
+    def diagnoses(self) -> list[str]:
+        """The clinic's own list of diagnoses and operations, those of most patients first."""
+        had = Counter(folded(row.diagnosis) for row in self._store.rows(select(PATIENT.c.diagnosis)))
+        listed = {folded(row.words): str(row.words) for row in self._store.rows(select(DIAGNOSIS.c.words))}
+        return [words for _, words in sorted(listed.items(), key=lambda one: (-had[one[0]], one[0]))]
+
+    def list_diagnosis(self, words: str, *, listed: bool) -> None:
+        """Take a diagnosis into the clinic's list, or out of it; a patient who has it keeps it."""
+        same = [row.id for row in self._store.rows(select(DIAGNOSIS)) if folded(row.words) == folded(words)]
+        if listed and not same:
+            self._store.do([new(DIAGNOSIS, new_id(), words=words)])
+        elif same and not listed:
+            self._store.do([dropped(DIAGNOSIS, one) for one in same])
 
     def archived(self) -> dict[str, datetime]:
         rows = self._store.rows(select(PATIENT).where(PATIENT.c.archived != ""))

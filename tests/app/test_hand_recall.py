@@ -14,7 +14,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import Patient
 from carpus.core.results.figures import session_figures
-from carpus.ui.patients.stored import StoredPatients, _results
+from carpus.ui.patients.stored import _results
 from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
@@ -44,7 +44,7 @@ def test_plain_lines_have_every_joint() -> None:
 def test_the_markers_shown_are_those_of_the_same_hand_with_the_same_discs(tmp_path: Path) -> None:
     library = Library(tmp_path / "data")
     try:
-        linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+        linden = library.patients.add(Patient("Linden 42", "right", "right"))
         wanted = set_up(linden, "Linden 42")
         path = library.entry(store(library, wanted)).path
         cv2.imwrite(str(path.with_suffix(MARKERS_SUFFIX)), np.full((40, 60, 3), 90, np.uint8))

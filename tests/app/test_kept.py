@@ -29,7 +29,6 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.patients.stored import StoredPatients
 from carpus.ui.sessions.stored import StoredSessions
 from tests.app.test_library import set_up, store
 from tests.commands import Command
@@ -53,9 +52,9 @@ def deeds(folder: Path) -> list[tuple[str, str, str]]:
 
 
 def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
-    patients, stored = StoredPatients(library), StoredSessions(library)
-    linden = patients.add(Patient("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
-    patients.change(Patient("Linden 43", "right", "right", patient_id=linden))
+    stored = StoredSessions(library)
+    linden = library.patients.add(Patient("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
+    library.patients.change(Patient("Linden 43", "right", "right", patient_id=linden))
     session = store(library, set_up(linden, "Linden 43"))
     store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
     stored.set_aside(session, "pain")
@@ -89,7 +88,7 @@ def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path
 
 
 def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_path: Path, command: Command) -> None:
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     practice = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
     path, out, elsewhere = library.entry(session).path, tmp_path / "out", tmp_path / "own.h5"
@@ -115,8 +114,7 @@ def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_pat
 def test_progress_is_of_whom_the_list_says_without_the_archive(
     library: Library, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    patients = StoredPatients(library)
-    linden, heron = (patients.add(Patient(name, "right", "right")) for name in ("Linden 42", "Heron 17"))
+    linden, heron = (library.patients.add(Patient(name, "right", "right")) for name in ("Linden 42", "Heron 17"))
     sessions, whole = [str(uuid.uuid4()) for _ in range(2)], stored(tmp_path, frames=120, moving=True)
     for session_id in sessions:
         path = library.index.new_path(linden, "Linden 42", "WRIST_FE", "left", datetime.now(UTC))
@@ -149,7 +147,7 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
 def test_a_folder_that_can_only_be_read_is_backed_up_and_reported(
     library: Library, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     path = library.entry(session).path
     library.keep_comment(session, "went well")
@@ -177,7 +175,7 @@ def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_re
     share = tmp_path / "share"
     share.mkdir()
     library = Library(tmp_path / "data", sessions=share)
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     path = library.index.new_path(linden, "Linden 42", "WRIST_FE", "right", datetime.now(UTC))
     shutil.copy(stored(tmp_path, frames=120, moving=True), path)
     session = library.index.enter(path, linden).session_id
@@ -195,7 +193,7 @@ def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_re
 
 
 def test_an_erasing_that_was_cut_short_is_told_as_finished(library: Library, command: Command) -> None:
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     kept, other = (store(library, set_up(linden, "Linden 42"), after=timedelta(hours=hours)) for hours in range(2))
     paths = [library.entry(one).path for one in (kept, other)]
     for path, cut in (
@@ -210,7 +208,7 @@ def test_an_erasing_that_was_cut_short_is_told_as_finished(library: Library, com
 
 
 def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -> None:
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     path = library.entry(session).path
     elsewhere = Path(shutil.copy(path, tmp_path / "mine.h5"))
@@ -237,13 +235,13 @@ def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
         raise OutputNotWritable(library.folder)
 
     monkeypatch.setattr(library.log, "note", full)
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     assert library.patients.one(linden).pseudonym == "Linden 42"
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
 
 
 def test_a_back_up_by_command_comes_back_elsewhere(library: Library, tmp_path: Path, command: Command) -> None:
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     store(library, set_up(linden, "Linden 42"))
     place, new = tmp_path / "disk", tmp_path / "new"
     assert command("backup", place, "--list").code == 1
@@ -274,7 +272,7 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
     settings.parent.mkdir(parents=True, exist_ok=True)
     settings.write_text(f'[records]\nsessions = "{share}"\n')
     with closing(Library(data, sessions=share)) as library:
-        linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+        linden = library.patients.add(Patient("Linden 42", "right", "right"))
         session = store(library, set_up(linden, "Linden 42"))
         library.keep_comment(session, "Less swelling.")
         library.keep_choices(session, RepetitionChoices({0: "pain"}))

@@ -72,7 +72,7 @@ def store(
 
 def test_practice_is_never_among_the_patients(library: Library) -> None:
     patients = StoredPatients(library)
-    linden = patients.add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     practice, measured = (
         store(library, set_up(PRACTICE_PATIENT, "Practice patient")),
         store(library, set_up(linden, "Linden 42")),
@@ -84,7 +84,7 @@ def test_practice_is_never_among_the_patients(library: Library) -> None:
 
 
 def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
     places = NewSessions(library)
     assert math.isnan(places.last_hand_length_mm(wanted, simulated=False))
@@ -105,7 +105,7 @@ def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(lib
 
 def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
     patients = StoredPatients(library)
-    linden = patients.add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted, simulated = set_up(linden, "Linden 42"), json.dumps({"source": {"simulated": "yes"}})
     store(library, wanted, parameters=simulated)
     (row,) = patients.patients()
@@ -122,7 +122,7 @@ def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_resul
 
 
 def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
-    linden = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
     assert last_set_up(library.store, linden) is None
     wanted = set_up(linden, "Linden 42")
     store(library, wanted)
@@ -150,9 +150,9 @@ def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
 
 
 def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
-    patients, stored = StoredPatients(library), StoredSessions(library)
-    linden = patients.add(Patient("Linden 42", "right", "right"))
-    heron = patients.add(Patient("Heron 17", "right", "right"))
+    stored = StoredSessions(library)
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
+    heron = library.patients.add(Patient("Heron 17", "right", "right"))
     one = store(library, set_up(linden, "Linden 42"))
     two = store(library, set_up(linden, "Linden 42"), after=timedelta(hours=1))
     path = library.entry(one).path
@@ -195,7 +195,7 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
 
 
 def test_another_order_of_the_angles_is_read_everywhere_but_in_files(library: Library, tmp_path: Path) -> None:
-    patient_id = StoredPatients(library).add(Patient("Linden 42", "right", "right"))
+    patient_id = library.patients.add(Patient("Linden 42", "right", "right"))
     session_id = store(library, set_up(patient_id, "Linden 42"))
     plain = library.session(session_id)
     assert [figures.angle_order for figures in library.history(patient_id)] == ["zyx"]

@@ -138,7 +138,7 @@ def fill(house: House, patient_id: str) -> list[str]:
     patients.keep_home_plan(house.store, patient_id, plan)
     of_clinic.keep_place(house.store.folder, entry.pseudonym[:2], f"/papers/{entry.name}")
     of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
-    of_clinic.list_diagnosis(house.store, f"as {entry.name}", listed=True)
+    house.patients.list_diagnosis(f"as {entry.name}", listed=True)
     house.log.note("opened", "patient", patient_id)
     return sessions
 

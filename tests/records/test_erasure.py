@@ -147,7 +147,7 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         assert [len(comments) for comments in kept] == [1, 1, 1]
         assert of_clinic.last_place(folder, "He") == f"/papers/{HERON.name}"
         assert of_clinic.recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
-        assert of_clinic.diagnoses(house.store) == [f"as {HERON.name}"], "what names nobody stays"
+        assert house.patients.diagnoses() == [f"as {HERON.name}"], "what names nobody stays"
     assert traces(folder, *NAMES, linden, *sessions) == []
 
 
@@ -461,20 +461,20 @@ def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(fol
     with opened(folder) as house:
         gone = house.patients.add(Patient("Fir 11", "right", name="Li"))
         for words in ("Ligament repair", "Zweizeitige Naht", "Li, second operation", "as of Fir 11"):
-            of_clinic.list_diagnosis(house.store, words, listed=True)
+            house.patients.list_diagnosis(words, listed=True)
         erase_patient(house, gone)
-        assert of_clinic.diagnoses(house.store) == ["Ligament repair", "Zweizeitige Naht"]
+        assert house.patients.diagnoses() == ["Ligament repair", "Zweizeitige Naht"]
 
 
 def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_chance(house: House) -> None:
     kept = ("Dr. Linde\nLindenstraße 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
-    of_clinic.list_diagnosis(house.store, "Flexor tendon, zone 2", listed=True)
+    house.patients.list_diagnosis("Flexor tendon, zone 2", listed=True)
     for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
         for address in (*kept, "Family Li\nAsh Street 3"):
             of_clinic.remember_recipient(house.store, address)
         erase_patient(house, house.patients.add(Patient(pseudonym, "right", name="Li")))
         assert set(of_clinic.recipients(house.store)) == set(kept), pseudonym
-        assert of_clinic.diagnoses(house.store) == ["Flexor tendon, zone 2"]
+        assert house.patients.diagnoses() == ["Flexor tendon, zone 2"]
 
 
 def test_on_a_full_disk_the_list_opens_and_a_patient_is_erased_by_the_room_that_is_kept(

@@ -40,7 +40,6 @@ from carpus.core.records.database import STORE_FILE, Database, set_aside
 from carpus.core.records.keeping import due
 from carpus.core.records.kept_sets import read_sets
 from carpus.core.records.log import read_log
-from carpus.core.records.of_clinic import diagnoses, list_diagnosis
 from carpus.core.records.patients import WORDS, columns, suggest_pseudonym
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient
@@ -463,12 +462,14 @@ def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_
         linden = house.patients.add(LINDEN)
         house.patients.add(replace(HERON, diagnosis="wrist  sprain", onset="injury"))
         for words in ("Mallet finger", "Wrist sprain", LINDEN.diagnosis, "wrist sprain"):
-            list_diagnosis(house.store, words, listed=True)
-        assert diagnoses(house.store) == [LINDEN.diagnosis, "Wrist sprain", "Mallet finger"]
+            house.patients.list_diagnosis(words, listed=True)
+        assert house.patients.diagnoses() == [LINDEN.diagnosis, "Wrist sprain", "Mallet finger"]
         assert (house.names("tendon repair"), house.names("SPRAIN")) == (["Linden 42"], ["Heron 17"])
-        list_diagnosis(house.store, "mallet FINGER", listed=False)
+        house.patients.list_diagnosis("mallet FINGER", listed=False)
         house.patients.change(replace(LINDEN, diagnosis="", onset="", onset_day=None, patient_id=linden))
-        assert diagnoses(house.store) == ["Wrist sprain", LINDEN.diagnosis], "nobody has it now, and it stays listed"
+        assert house.patients.diagnoses() == ["Wrist sprain", LINDEN.diagnosis], (
+            "nobody has it now, and it stays listed"
+        )
         assert house.names("repair") == []
         house.store.own(update(schema.PATIENT).values(onset="fall", onset_day="soon"))
         one = house.patients.one(linden)

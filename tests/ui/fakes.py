@@ -439,6 +439,7 @@ class FakeStore:
     def __init__(self, rows: Sequence[Patient] | None = None) -> None:
         self.rows = list(_rows() if rows is None else rows)
         self.added: list[Patient] = []
+        self.register = self
         self.in_archive: list[str] = []
         self.listed = ["Wrist fracture, plate", "Wrist fracture, cast", "Flexor tendon repair"]
 

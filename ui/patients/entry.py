@@ -26,7 +26,7 @@ from carpus.ui.forms import Field, Form, at_most, must_be_chosen
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.patients.stored import StoredPatients
+    from carpus.core.records.patients import Patients
 
 NOTE_HEIGHT_PX = 84
 WHOLE_DAY = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")
@@ -44,9 +44,9 @@ class PatientForm(Sheet):
 
     accepted = Signal(Patient)
 
-    def __init__(self, host: QWidget, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
+    def __init__(self, host: QWidget, theme: Theme, register: Patients, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 740)
-        self._store, self._today = store, today
+        self._register, self._today = register, today
         self.patient = Patient("?", "both")
         self._taken: frozenset[str] = frozenset()
         self._words = ""
@@ -72,7 +72,7 @@ class PatientForm(Sheet):
     def _table(self, theme: Theme) -> list[Field]:
         """What is asked, in order; each field an attribute of a patient."""
         another = Button(theme, self.tr("&Another"), "plain", height_px=40)
-        another.clicked.connect(lambda: self.fields["pseudonym"].setText(self._store.suggest_pseudonym()))
+        another.clicked.connect(lambda: self.fields["pseudonym"].setText(self._register.suggest_pseudonym()))
         return [
             Field(
                 "pseudonym", self.tr("&Name in Carpus"), QLineEdit(),
@@ -143,9 +143,9 @@ class PatientForm(Sheet):
         self._words = self.tr("Add patient") if patient is None else self.tr("Keep changes")
         self.remove.setVisible(patient is not None)
         is_made_up = bool(MADE_UP_NAME.fullmatch(name.strip()))
-        pseudonym = name if is_made_up else self._store.suggest_pseudonym() if patient is None else ""
+        pseudonym = name if is_made_up else self._register.suggest_pseudonym() if patient is None else ""
         self.patient = patient or Patient(pseudonym, "right", name="" if is_made_up else name)
-        self._known.setStringList(list(self._store.diagnoses()))
+        self._known.setStringList(list(self._register.diagnoses()))
         self.fields.fill(self.patient)
         if patient is None:  # a hand that nobody chose would be a wrong record
             self.fields["side"].choose(None)
@@ -208,10 +208,10 @@ class PatientForm(Sheet):
 
     def _list(self, wanted: bool) -> None:
         try:
-            self._store.list_diagnosis(name_of(self.fields.values()["diagnosis"]), listed=wanted)
+            self._register.list_diagnosis(name_of(self.fields.values()["diagnosis"]), listed=wanted)
         except NameUnsuited as fault:
             self._say(fault)
-        self._known.setStringList(list(self._store.diagnoses()))
+        self._known.setStringList(list(self._register.diagnoses()))
         self._look_into_list()
 
     def _accept(self) -> None:

@@ -72,7 +72,7 @@ class PatientsScreen(QWidget):
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
         self._archived: tuple[str, ...] = ()
-        self.form = PatientForm(self, theme, store, today)
+        self.form = PatientForm(self, theme, store.register, today)
         self._lay_out()
         self._connect()
         self.look_at_day()
@@ -207,9 +207,9 @@ class PatientsScreen(QWidget):
     def _keep(self, patient: Patient) -> None:
         chosen = patient.patient_id
         if chosen:
-            self._store.change(patient)
+            self._store.register.change(patient)
         else:
-            chosen = self._store.add(patient)
+            chosen = self._store.register.add(patient)
         self.search.clear()
         self.refresh(chosen)
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)

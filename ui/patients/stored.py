@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from carpus.core.errors import SessionUnreadable
-from carpus.core.records import of_clinic
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT
@@ -23,17 +22,17 @@ class StoredPatients:
     """The register of patients. Names beyond the pseudonym are known behind it alone."""
 
     def __init__(self, library: Library) -> None:
-        self._library = library
+        self._library, self.register = library, library.patients
 
     def patients(self, search: str = "") -> Sequence[Patient]:
-        return self._library.patients.listed(search, most=MOST_ROWS)
+        return self.register.listed(search, most=MOST_ROWS)
 
     def archived(self) -> Sequence[str]:
         return [one.pseudonym for one in Records(self._library).archived() if one.recorded is None]
 
     def card(self, patient_id: str) -> PatientCard:
         """What the therapist must recall, of the last session against the first that compares."""
-        patient = self._library.patients.one(patient_id)
+        patient = self.register.one(patient_id)
         entries = self._library.sessions(patient_id)
         if not entries:
             archived = any(one.patient_id == patient_id for one in Records(self._library).archived())
@@ -53,24 +52,6 @@ class StoredPatients:
         about = main_words(last)
         results = () if about else _results(first, last)
         return PatientCard(patient, results, repetition_words(last), note, last.when, picture, said, True, about)
-
-    def suggest_pseudonym(self) -> str:
-        return self._library.patients.suggest_pseudonym()
-
-    def add(self, patient: Patient) -> str:
-        patient_id = self._library.patients.add(patient)
-        self._library.notes.patient("added", patient_id)
-        return patient_id
-
-    def change(self, patient: Patient) -> None:
-        self._library.patients.change(patient)
-        self._library.notes.patient("changed", patient.patient_id)
-
-    def diagnoses(self) -> Sequence[str]:
-        return of_clinic.diagnoses(self._library.store)
-
-    def list_diagnosis(self, words: str, *, listed: bool) -> None:
-        of_clinic.list_diagnosis(self._library.store, words, listed=listed)
 
     def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:
         """The first session of the same hand and exercise that the progress compares with; no more are read."""
