@@ -5,10 +5,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
-
-from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
-from carpus.core.types import Side
 
 MDC95_FACTOR = 1.96 * math.sqrt(2.0)
 """Minimal detectable change at 95 % per standard error of measurement: 2.77."""
@@ -31,28 +27,6 @@ _LIMIT_DEG = {
 ARC_LIMIT_FACTOR = math.sqrt(2.0)
 """Error limit of an arc against that of one of its two ends, whose errors are independent; of TAM there is an own."""
 
-Obstacle = Literal["side", "protocol", "exercise", "few_repetitions_before", "few_repetitions_after", "unknown"]
-
-
-@dataclass(frozen=True, slots=True)
-class MeasuredMean:
-    """One session's figure for one angle, with what decides whether another session compares."""
-
-    mean_rad: float
-    repetitions: int
-    side: Side
-    protocol: str
-    exercise: str
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """``difference_rad`` = after - before, against ``limit_rad``. ``obstacles`` say why the two do not compare."""
-
-    difference_rad: float
-    limit_rad: float
-    obstacles: tuple[Obstacle, ...]
-
 
 def change_limit_rad(angle_name: str) -> float:
     """Difference of two sessions' means above which it exceeds measurement error, for an angle of the session file.
@@ -68,25 +42,6 @@ def change_limit_rad(angle_name: str) -> float:
         if key in _LIMIT_DEG:
             return math.radians(_LIMIT_DEG[key])
     raise KeyError(angle_name)
-
-
-def change_between(before: MeasuredMean, after: MeasuredMean, angle_name: str) -> Change:
-    """Compares the means of two sessions, never their bests."""
-    obstacles: list[Obstacle] = []
-    if before.side != after.side:
-        obstacles.append("side")
-    if before.protocol != after.protocol:
-        obstacles.append("protocol")
-    if before.exercise != after.exercise:
-        obstacles.append("exercise")
-    if before.repetitions < FEWEST_FOR_SPREAD:
-        obstacles.append("few_repetitions_before")
-    if after.repetitions < FEWEST_FOR_SPREAD:
-        obstacles.append("few_repetitions_after")
-    difference = after.mean_rad - before.mean_rad
-    if not math.isfinite(difference):
-        obstacles.append("unknown")
-    return Change(difference, change_limit_rad(angle_name), tuple(obstacles))
 
 
 FEWEST_PEOPLE = 10

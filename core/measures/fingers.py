@@ -51,23 +51,6 @@ class JointTrack:
         return len(self.seen.time_s) > 0 and bool(self.seen.finite.any())
 
 
-@dataclass(frozen=True, slots=True)
-class TotalMotion:
-    """TAM of one finger in each repetition: ``total``, with the ``flexion`` and ``deficit`` it is made of (rad).
-
-    ``limited``: hidden stretches may hold more, in more repetitions than may be left out.
-    ``inferred``: the end joint follows the middle joint by the 2/3 rule.
-    """
-
-    finger: int
-    total: RangeFigure
-    flexion: RangeFigure
-    deficit: RangeFigure
-    limited: bool
-    inferred: bool
-    seen_share: float
-
-
 def joints_seen(joint_names: Sequence[str], markers: Sequence[str], measured_px: FloatArray) -> BoolArray:
     """Frames and joints (N, J) with a blob at both discs that show the joint; ``measured_px`` (N, M, 2) of
     ``markers``."""
@@ -154,18 +137,20 @@ def bending_weights(count: int, *, inferred: bool) -> FloatArray:
 
 
 def total_active_motion(
-    finger: int, tracks: Sequence[JointTrack], repetitions: Sequence[Repetition], *, inferred: bool
-) -> TotalMotion:
-    """TAM of one finger from its bending joints, base first: MCP, PIP and, if measured, DIP; of the thumb MCP, IP.
+    tracks: Sequence[JointTrack], repetitions: Sequence[Repetition], *, inferred: bool
+) -> MotionRange:
+    """TAM of one finger (``arc``) from its bending joints, base first: MCP, PIP and, if measured, DIP; of the thumb MCP
+    and IP; with the flexion and the deficit that it is made of (``maximum``, ``minimum``).
 
     In each repetition: the sum of the joints' bending at the moment it is largest, less the sum of what is missing to
     straight at the moment it is smallest; bending backwards counts 0 in both. Both moments need all joints seen. With
-    ``inferred`` the end joint is taken as two thirds of the last joint given.
+    ``inferred`` the end joint is taken as two thirds of the last joint given. Limited where hidden stretches may hold
+    more, in more repetitions than may be left out.
     """
     weight = bending_weights(len(tracks), inferred=inferred)
     nothing = RangeFigure(np.empty(0), math.nan, math.nan)
     if not all(track.known for track in tracks):
-        return TotalMotion(finger, nothing, nothing, nothing, True, inferred, 0.0)
+        return MotionRange(nothing, nothing, nothing, 0, True, True)
     time_s, seen, seen_sd = _side_by_side([track.seen for track in tracks], [track.seen_sd for track in tracks])
     bend = np.maximum(seen, 0.0) * weight
     sum_of = Signal(time_s, bend.sum(axis=1), tracks[0].seen.rate_hz, 1.0, np.empty((0, 2)))
@@ -186,15 +171,14 @@ def total_active_motion(
     kept = whole if len(whole) >= FEWEST_FOR_SPREAD else found
     flexion, deficit = (np.array([item[k] for item in kept]) for k in (0, 1))
     sd = math.sqrt(sum(item[2] for item in kept) / len(kept)) if kept else math.nan
-    total = flexion - deficit
-    return TotalMotion(
-        finger,
-        RangeFigure(total, float(total.max()) if kept else math.nan, sd),
-        RangeFigure(flexion, float(flexion.max()) if kept else math.nan, sd),
-        RangeFigure(deficit, float(deficit.min()) if kept else math.nan, sd),
-        not kept or any(item[3] for item in kept),
-        inferred,
-        min(track.seen_share for track in tracks),
+    total, limited = flexion - deficit, not kept or any(item[3] for item in kept)
+    return MotionRange(
+        arc=RangeFigure(total, float(total.max()) if kept else math.nan, sd),
+        maximum=RangeFigure(flexion, float(flexion.max()) if kept else math.nan, sd),
+        minimum=RangeFigure(deficit, float(deficit.min()) if kept else math.nan, sd),
+        repetitions=len(usable),
+        top_limited=limited,
+        bottom_limited=limited,
     )
 
 

@@ -4,7 +4,7 @@ speak for, a small step at a time. A goal is proposed, never set: the therapist 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,10 +18,7 @@ from carpus.core.measures.change import (
     DEFAULT_LIMITS,
     TOTAL_ACTIVE_MOTION,
     ErrorLimits,
-    MeasuredMean,
-    Obstacle,
     RetestStudy,
-    change_between,
     change_limit_rad,
 )
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
@@ -32,7 +29,12 @@ from carpus.core.types import Side
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
 Unfairness = Literal[
-    Obstacle,
+    "side",
+    "protocol",
+    "exercise",
+    "few_repetitions_before",
+    "few_repetitions_after",
+    "unknown",
     "simulated",
     "not_counted",
     "doubtful",
@@ -171,13 +173,12 @@ def compare(
         other = before.find(*row.key)
         if other is None:
             continue
-        obstacles = change_between(_mean(before, other), _mean(after, row), _limit_name(row)).obstacles
         limit = limit_deg(after, row, of_arcs=True)
         difference = row.mean - other.mean
         limited = (other.at_least, row.at_least) if row.angle < 0 else (False, False)
         # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
         sure_gain = row.what == "arc" and limited == (False, True) and difference > limit
-        reasons: tuple[Unfairness, ...] = tuple(dict.fromkeys((*unfair, *obstacles)))
+        reasons = tuple(dict.fromkeys((*unfair, *_obstacles(before, other, after, row))))
         if not reasons and any(limited) and not sure_gain:
             reasons = ("hidden",)
         verdict: Verdict = "not_judged"
@@ -186,6 +187,23 @@ def compare(
             verdict = "no_change" if not abs(difference) > limit else "improved" if better else "worse"
         out.append(Comparison(other, row, limit, verdict, reasons))
     return tuple(out)
+
+
+def _obstacles(before: SessionFigures, old: Measure, after: SessionFigures, new: Measure) -> Iterator[Unfairness]:
+    """Why two ranges do not compare, whatever else speaks against their sessions. One of a session without repetitions
+    (free movement) never does."""
+    if before.side != after.side:
+        yield "side"
+    if before.protocol != after.protocol:
+        yield "protocol"
+    if before.exercise.id != after.exercise.id:
+        yield "exercise"
+    if not before.counted or old.count < FEWEST_FOR_SPREAD:
+        yield "few_repetitions_before"
+    if not after.counted or new.count < FEWEST_FOR_SPREAD:
+        yield "few_repetitions_after"
+    if not math.isfinite(new.mean - old.mean):
+        yield "unknown"
 
 
 def limit_deg(figures: SessionFigures, row: Measure, *, of_arcs: bool = False) -> float:
@@ -277,12 +295,6 @@ def _alike(one: SessionFigures, other: SessionFigures) -> bool:
 
 def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
     return bool(one.recording_id) and one.recording_id == other.recording_id
-
-
-def _mean(figures: SessionFigures, row: Measure) -> MeasuredMean:
-    """A session without repetitions (free movement) has one range; it is never judged."""
-    count = row.count if figures.counted else 0
-    return MeasuredMean(math.radians(row.mean), count, figures.side, figures.protocol, figures.exercise.id)
 
 
 Goals = Mapping[tuple[str, Side], tuple[float, float]]

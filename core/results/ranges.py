@@ -7,7 +7,7 @@ in another order, and sessions read in different orders are never compared.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +18,7 @@ from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, Movemen
 from carpus.core.hand.forearm_rotation import is_from_thumb_up
 from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.fingers import FINGERS, JointTrack, joint_range, total_active_motion
-from carpus.core.measures.motion_range import RangeFigure, motion_range
+from carpus.core.measures.motion_range import MotionRange, RangeFigure, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import Signal, low_pass
@@ -110,26 +110,24 @@ def joint_ranges(
     """Measure the total (TAM) of every finger, then arc, most and least bent angle of every joint: ``extension`` holds
     the least bent one with its sign, what is missing to straight, below zero bent back."""
     rows: list[Measure] = []
-    if tracks and exercise.total:
-        for finger in FINGERS:
-            joints, inferred = bending_joints(finger, tuple(tracks))
-            if set(joints) <= set(tracks):
-                total = total_active_motion(finger, [tracks[name] for name in joints], counted, inferred=inferred)
-                for movement, figure in _PARTS_OF_TOTAL:
-                    row = range_measure(f"TAM{finger}", movement, getattr(total, figure), total.limited)
-                    rows.append(replace(row, seen_share=total.seen_share, inferred=total.inferred))
+    for finger in FINGERS if tracks and exercise.total else ():
+        joints, inferred = bending_joints(finger, tuple(tracks))
+        if set(joints) <= set(tracks):
+            own = [tracks[name] for name in joints]
+            share = min(track.seen_share for track in own) if all(track.known for track in own) else 0.0
+            rows += _joint_rows(f"TAM{finger}", total_active_motion(own, counted, inferred=inferred), share, inferred)
     for name, track in tracks.items():
-        found = joint_range(track, counted)
-        for row in (
-            range_measure(name, "arc", found.arc, found.top_limited or found.bottom_limited),
-            range_measure(name, "flexion", found.maximum, found.top_limited),
-            range_measure(name, "extension", found.minimum, found.bottom_limited),
-        ):
-            rows.append(replace(row, seen_share=track.seen_share))
+        rows += _joint_rows(name, joint_range(track, counted), track.seen_share)
     return tuple(rows)
 
 
-_PARTS_OF_TOTAL: tuple[tuple[Movement, str], ...] = (("arc", "total"), ("flexion", "flexion"), ("extension", "deficit"))
+def _joint_rows(of: str, found: MotionRange, seen_share: float, inferred: bool = False) -> Iterator[Measure]:
+    for row in (
+        range_measure(of, "arc", found.arc, found.top_limited or found.bottom_limited),
+        range_measure(of, "flexion", found.maximum, found.top_limited),
+        range_measure(of, "extension", found.minimum, found.bottom_limited),
+    ):
+        yield replace(row, seen_share=seen_share, inferred=inferred)
 
 
 def bending_joints(finger: int, names: Sequence[str]) -> tuple[tuple[str, ...], bool]:

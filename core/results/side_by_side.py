@@ -12,7 +12,6 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.measures.change import Obstacle
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import Measure, MeasureKey
 from carpus.core.results.progress import (
@@ -93,7 +92,7 @@ def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[M
 
 def pair_reasons(first: SessionFigures, second: SessionFigures) -> tuple[Unfairness, ...]:
     """Why two sessions do not compare, whatever hand they are of; empty where they do."""
-    obstacles: list[Obstacle] = []
+    obstacles: list[Unfairness] = []
     if first.protocol != second.protocol:
         obstacles.append("protocol")
     if first.exercise.id != second.exercise.id:

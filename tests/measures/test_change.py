@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import pytest
 
 from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
-from carpus.core.measures.change import MeasuredLimit, MeasuredMean, RetestStudy, change_between, change_limit_rad
-
-BEFORE = MeasuredMean(math.radians(40.0), 5, "right", "wrist6", "WRIST_FE")
-
-
-def after(mean_deg: float) -> MeasuredMean:
-    return replace(BEFORE, mean_rad=math.radians(mean_deg))
+from carpus.core.measures.change import MeasuredLimit, RetestStudy, change_limit_rad
 
 
 def test_every_angle_has_a_limit() -> None:
@@ -29,29 +22,6 @@ def test_limits_of_the_reference() -> None:
     assert {name: round(math.degrees(change_limit_rad(name))) for name in limits} == limits
     with pytest.raises(KeyError):
         change_limit_rad("elbow")
-
-
-@pytest.mark.parametrize(("mean_deg", "beyond"), [(49.9, False), (50.1, True), (29.9, True), (30.1, False)])
-def test_only_above_the_limit(mean_deg: float, beyond: bool) -> None:
-    change = change_between(BEFORE, after(mean_deg), "flexion")
-    assert not change.obstacles
-    assert (abs(change.difference_rad) > change.limit_rad) == beyond
-    assert math.degrees(change.difference_rad) == pytest.approx(mean_deg - 40.0)
-
-
-@pytest.mark.parametrize(
-    ("before", "other", "obstacle"),
-    [
-        (BEFORE, replace(after(90.0), side="left"), "side"),
-        (BEFORE, replace(after(90.0), protocol="hand21"), "protocol"),
-        (BEFORE, replace(after(90.0), exercise="WRIST_RU"), "exercise"),
-        (BEFORE, replace(after(90.0), repetitions=2), "few_repetitions_after"),
-        (replace(BEFORE, repetitions=1), after(90.0), "few_repetitions_before"),
-        (BEFORE, after(math.nan), "unknown"),
-    ],
-)
-def test_what_does_not_compare_is_no_change(before: MeasuredMean, other: MeasuredMean, obstacle: str) -> None:
-    assert change_between(before, other, "flexion").obstacles == (obstacle,)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from carpus.core.measures.fingers import (
     valid_joints,
 )
 from carpus.core.measures.repetitions import Repetition
-from carpus.core.results.ranges import bending_joints, joint_rows
+from carpus.core.results.ranges import bending_joints, joint_ranges
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import truth_of
@@ -87,9 +87,9 @@ def test_repetitions_that_were_surely_seen_stand_for_one_that_was_not() -> None:
     assert np.degrees(found.arc.values) == pytest.approx([80.0] * 3, abs=0.5)
     assert not found.top_limited
     assert joint_range(joint, four[:3]).top_limited
-    total = total_active_motion(3, [joint, joint], four, inferred=False)
-    assert np.degrees(total.total.values) == pytest.approx([160.0] * 3, abs=1.0)
-    assert not total.limited
+    total = total_active_motion([joint, joint], four, inferred=False)
+    assert np.degrees(total.arc.values) == pytest.approx([160.0] * 3, abs=1.0)
+    assert not total.top_limited
 
 
 def test_a_joint_hidden_in_the_middle_of_its_way_is_not_limited() -> None:
@@ -104,9 +104,9 @@ def test_a_joint_never_seen_has_no_range() -> None:
     found = joint_range(track("PIP3_flexion", 80.0 * WAVE, ~FULL), REPETITIONS)
     assert math.isnan(found.arc.mean)
     assert found.top_limited
-    total = total_active_motion(3, [track("MCP3_flexion", 60.0 * WAVE, ~FULL)] * 2, REPETITIONS, inferred=True)
-    assert math.isnan(total.total.mean)
-    assert total.limited
+    total = total_active_motion([track("MCP3_flexion", 60.0 * WAVE, ~FULL)] * 2, REPETITIONS, inferred=True)
+    assert math.isnan(total.arc.mean)
+    assert total.top_limited
 
 
 def test_a_repetition_seen_too_little_is_not_in_the_mean() -> None:
@@ -123,26 +123,25 @@ def test_total_is_bending_less_what_is_missing_to_straight(lowest_deg: float, de
         track("PIP3_flexion", lowest_deg + (90.0 - lowest_deg) * WAVE),
         track("DIP3_flexion", 50.0 * WAVE),
     ]
-    found = total_active_motion(3, joints, REPETITIONS, inferred=False)
-    assert math.degrees(found.flexion.mean) == pytest.approx(210.0, abs=0.5)
-    assert math.degrees(found.total.mean) == pytest.approx(210.0 - deficit_deg, abs=0.8)
-    assert not found.limited
+    found = total_active_motion(joints, REPETITIONS, inferred=False)
+    assert math.degrees(found.maximum.mean) == pytest.approx(210.0, abs=0.5)
+    assert math.degrees(found.arc.mean) == pytest.approx(210.0 - deficit_deg, abs=0.8)
+    assert not found.top_limited
 
 
 def test_an_end_joint_without_a_disc_of_its_own_adds_two_thirds_of_the_middle_joint_and_of_its_error() -> None:
     joints = [track("MCP3_flexion", 60.0 * WAVE, sd_deg=1.0), track("PIP3_flexion", 90.0 * WAVE, sd_deg=3.0)]
-    found = total_active_motion(3, joints, REPETITIONS, inferred=True)
-    assert math.degrees(found.total.mean) == pytest.approx(60.0 + 90.0 * 5.0 / 3.0, abs=0.8)
-    assert math.degrees(found.total.measurement_sd) >= math.hypot(1.0, 5.0) - 1e-6
-    assert found.inferred
+    found = total_active_motion(joints, REPETITIONS, inferred=True)
+    assert math.degrees(found.arc.mean) == pytest.approx(60.0 + 90.0 * 5.0 / 3.0, abs=0.8)
+    assert math.degrees(found.arc.measurement_sd) >= math.hypot(1.0, 5.0) - 1e-6
 
 
 def test_the_total_needs_all_joints_seen_at_once_and_says_when_the_fist_was_not() -> None:
     hidden = between(1.4, 2.6)
     joints = [track("MCP3_flexion", 60.0 * WAVE), track("PIP3_flexion", 90.0 * WAVE, ~hidden)]
-    found = total_active_motion(3, joints, REPETITIONS, inferred=True)
-    assert math.degrees(found.flexion.mean) < 200.0
-    assert found.limited
+    found = total_active_motion(joints, REPETITIONS, inferred=True)
+    assert math.degrees(found.maximum.mean) < 200.0
+    assert found.top_limited
 
 
 def test_one_range_over_the_whole_recording_where_nothing_was_repeated() -> None:
@@ -174,14 +173,14 @@ def test_ranges_and_totals_of_a_simulated_hand_are_those_of_its_motion() -> None
     tracks = {
         name: joint_track(name, truth.time_s, truth.joint_angles_rad[:, k], sd, always) for k, name in enumerate(names)
     }
-    rows = {(row.joint, row.movement): row for row in joint_rows(tracks, (), exercise_named("FIST_COMPOSITE"))}
+    rows = {(row.of, row.what): row for row in joint_ranges(tracks, (), exercise_named("FIST_COMPOSITE"))}
     angles = dict(zip(names, np.degrees(truth.joint_angles_rad).T, strict=True))
     for name in names:
-        assert rows[name, "arc"].mean_deg == pytest.approx(float(np.ptp(angles[name])), abs=0.6)
-        assert not rows[name, "arc"].limited
+        assert rows[name, "arc"].mean == pytest.approx(float(np.ptp(angles[name])), abs=0.6)
+        assert not rows[name, "arc"].at_least
     for finger in (1, 2, 3, 4, 5):
         joints, inferred = bending_joints(finger, names)
         bend = [np.maximum(angles[name], 0.0) for name in joints]
         bend[-1] = bend[-1] * (5.0 / 3.0 if inferred else 1.0)
         expected = float(np.ptp(np.sum(bend, axis=0)))
-        assert rows[f"TAM{finger}", "arc"].mean_deg == pytest.approx(expected, abs=1.0)
+        assert rows[f"TAM{finger}", "arc"].mean == pytest.approx(expected, abs=1.0)

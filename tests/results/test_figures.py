@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import replace
 from datetime import timedelta
+from typing import Any
 
 import numpy as np
 import pytest
@@ -86,6 +87,27 @@ def test_a_change_is_one_only_beyond_its_limit(figures: SessionFigures, differen
     sign = "improved" if difference_deg > 0 else "worse"
     assert verdicts["flexion"] == ("no_change" if abs(difference_deg) <= 10 else sign)
     assert verdicts["arc"] == ("no_change" if abs(difference_deg) <= 10 * math.sqrt(2) else sign)
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"side": "left"}, "side"),
+        ({"protocol": "hand21"}, "protocol"),
+        ({"exercise": exercise_named("WRIST_RU")}, "exercise"),
+        ({"repetitions": ()}, "few_repetitions_after"),
+        ({"measures": "unknown"}, "unknown"),
+    ],
+)
+def test_ranges_of_unlike_sessions_are_not_judged(
+    figures: SessionFigures, changes: dict[str, Any], reason: str
+) -> None:
+    other = days_ago(with_ranges(figures, lambda row: {"mean": row.mean + 30}), -1)
+    if "measures" in changes:
+        changes = {"measures": with_ranges(figures, lambda _: {"mean": math.nan}).measures}
+    found = compare(figures, replace(other, **changes))
+    assert found
+    assert all(reason in item.reasons and item.verdict == "not_judged" for item in found)
 
 
 def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionFigures) -> None:
