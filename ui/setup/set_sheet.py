@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
+from functools import partial
+from itertools import zip_longest
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
@@ -33,42 +34,40 @@ from carpus.ui.translate import say, tr
 USUAL_SECONDS = 60
 
 
-def _words() -> dict[str, str]:
-    """What stands in and beside a row."""
-    return {
-        "exercise": tr("Exercise"), "times": tr("times"), "seconds": tr("seconds"), "unit": tr("Times or seconds"),
-        "count": tr("How often or how long"), "none": tr("no rest"), "rest": tr("Rest after it"),
-        "earlier": tr("Earlier"), "remove": tr("Remove"),
-    }  # fmt: skip
-
-
 class PartRow:
     """One exercise of the set: which, how often or how long, rest after it, earlier, away."""
 
-    def __init__(self, theme: Theme, discs: str, part: CoursePart) -> None:
-        words = _words()
-        self.exercise = Combo()
-        exercises = [(one.id, terms.exercise_name(one.id)) for one in exercises_of(protocol_named(discs))]
-        self.exercise.offer(exercises, part.exercise.id)
-        self.exercise.setAccessibleName(words["exercise"])
-        self.count = number_field(theme, MOST_SECONDS)
-        self.unit = Combo()
-        self.unit.offer([(False, words["times"]), (True, words["seconds"])], not part.repetitions)
-        self.unit.setAccessibleName(words["unit"])
-        self.count.setValue(part.repetitions or part.seconds)
-        self.count.setAccessibleName(words["count"])
-        self.rest = number_field(theme, MOST_REST_S, " s", words["none"])
-        self.rest.setValue(part.rest_s)
-        self.rest.setAccessibleName(words["rest"])
-        self.earlier = Button(theme, words["earlier"], "plain", height_px=36)
-        self.remove = Button(theme, words["remove"], "plain", height_px=36)
+    def __init__(self, theme: Theme) -> None:
+        self.exercise, self.unit = Combo(), Combo()
+        self.unit.offer([(False, tr("times")), (True, tr("seconds"))])
+        self.count = number_field(theme, MOST_SECONDS, least=1)
+        self.rest = number_field(theme, MOST_REST_S, " s", tr("no rest"))
+        self.earlier = Button(theme, tr("Earlier"), "plain", height_px=36)
+        self.remove = Button(theme, tr("Remove"), "plain", height_px=36)
+        self.widgets = (self.exercise, self.count, self.unit, self.rest, self.earlier, self.remove)
+        names = tr("Exercise"), tr("How often or how long"), tr("Times or seconds"), tr("Rest after it")
+        for widget, name in zip(self.widgets, names, strict=False):
+            widget.setAccessibleName(name)
         self.exercise.currentIndexChanged.connect(lambda _: self._keep_possible())
         self.unit.currentIndexChanged.connect(lambda _: self._keep_possible())
-        self._keep_possible()
+        self.show(None)
 
     @property
-    def widgets(self) -> tuple[QWidget, ...]:
-        return (self.exercise, self.count, self.unit, self.rest, self.earlier, self.remove)
+    def is_shown(self) -> bool:
+        return not self.exercise.isHidden()
+
+    def show(self, part: CoursePart | None, discs: str = "") -> None:
+        """An exercise of those for these discs; nothing hides the row."""
+        for widget in self.widgets:
+            widget.setVisible(part is not None)
+        if part is None:
+            return
+        exercises = [(one.id, terms.exercise_name(one.id)) for one in exercises_of(protocol_named(discs))]
+        self.exercise.offer(exercises, part.exercise.id)
+        self.unit.choose(not part.repetitions)
+        self._keep_possible()
+        self.count.setValue(part.repetitions or part.seconds)
+        self.rest.setValue(part.rest_s)
 
     def part(self) -> CoursePart:
         exercise = exercise_named(str(self.exercise.currentData()))
@@ -95,7 +94,7 @@ class SetSheet(Sheet):
         self._now: ExerciseSet | None = None
         self._discs = ""
         self._sure = False
-        self.rows: list[PartRow] = []
+        self.rows = [PartRow(theme) for _ in range(MOST_PARTS)]
         self.which = Combo()
         self.which.setAccessibleName(self.tr("Set"))
         self.name = QLineEdit(maxLength=MOST_NAME, placeholderText=self.tr("No names of patients"))
@@ -123,6 +122,12 @@ class SetSheet(Sheet):
         body.addLayout(top)
         for column, head in enumerate((self.tr("Exercise"), self.tr("How much"), "", self.tr("Rest after it"))):
             self._grid.addWidget(caption(theme, head), 0, column)
+        for number, row in enumerate(self.rows):
+            for column, widget in enumerate(row.widgets):
+                self._grid.addWidget(widget, number + 1, column)
+            row.earlier.setEnabled(number > 0)
+            row.earlier.clicked.connect(partial(self._earlier, number))
+            row.remove.clicked.connect(partial(self._remove, number))
         rows = in_column(self._grid, STRETCH)
         area = scrolled(rows)
         area.setMinimumHeight(theme.px(190))
@@ -155,49 +160,32 @@ class SetSheet(Sheet):
         self._show_parts(self._now.parts)
 
     def _show_parts(self, parts: Sequence[CoursePart]) -> None:
-        for row in self.rows:
-            for widget in row.widgets:
-                self._grid.removeWidget(widget)
-                widget.hide()
-                widget.deleteLater()
-        self.rows = [PartRow(self._theme, self._discs, part) for part in parts]
-        for number, row in enumerate(self.rows):
-            for column, widget in enumerate(row.widgets):
-                self._grid.addWidget(widget, number + 1, column)
-            row.earlier.setEnabled(number > 0)
-            row.earlier.clicked.connect(lambda _=False, number=number: self._earlier(number))
-            row.remove.clicked.connect(lambda _=False, number=number: self._remove(number))
+        for row, part in zip_longest(self.rows, parts):
+            row.show(part, self._discs)
         self.add.setEnabled(len(parts) < MOST_PARTS)
-        self._keep_order()
         self._judge()
 
-    def _keep_order(self) -> None:
-        order: list[QWidget] = [self.which, self.name]
-        order += [widget for row in self.rows for widget in row.widgets]
-        order += [self.add, self.delete, self.close_button, self.keep]
-        for before, after in pairwise(order):
-            QWidget.setTabOrder(before, after)
-
     def _parts(self) -> list[CoursePart]:
-        return [row.part() for row in self.rows]
+        return [row.part() for row in self.rows if row.is_shown]
 
-    def _earlier(self, number: int) -> None:
+    def _earlier(self, number: int, *_: object) -> None:
         parts = self._parts()
-        parts[number - 1], parts[number] = parts[number], parts[number - 1]
+        parts.insert(number - 1, parts.pop(number))
         self._show_parts(parts)
         self.rows[number - 1].exercise.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _remove(self, number: int) -> None:
-        self._show_parts([part for k, part in enumerate(self._parts()) if k != number])
-        (self.rows[min(number, len(self.rows) - 1)].exercise if self.rows else self.add).setFocus(
-            Qt.FocusReason.OtherFocusReason
-        )
+    def _remove(self, number: int, *_: object) -> None:
+        parts = self._parts()
+        del parts[number]
+        self._show_parts(parts)
+        first = self.rows[min(number, len(parts) - 1)].exercise if parts else self.add
+        first.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _add(self) -> None:
         parts = self._parts()
         last = parts[-1] if parts else CoursePart(exercises_of(protocol_named(self._discs))[0])
         self._show_parts([*parts, last])
-        self.rows[-1].exercise.setFocus(Qt.FocusReason.OtherFocusReason)
+        self.rows[len(parts)].exercise.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _shown(self) -> ExerciseSet:
         assert self._now is not None
