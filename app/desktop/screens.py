@@ -148,6 +148,6 @@ def load_screens() -> Iterator[str]:
     for place in PLACES:
         flow_class(place)
         yield place
-    for module in ("carpus.ui.settings.flow", "carpus.ui.plot.canvas"):
+    for module in ("carpus.ui.settings.flow",):
         import_module(module)
         yield module

@@ -15,8 +15,7 @@ from carpus.app.desktop.looks import application
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.figures import FIGURES
-from carpus.ui.plot.session import HandPlot, SessionPlot
-from carpus.ui.plot.session_view import CurveView
+from carpus.ui.plot.session import HandPlot, SessionChart, SessionPlot
 from carpus.ui.theme import Theme
 
 SECONDS, RATE_HZ, STEPS = 1200.0, 30.0, 40
@@ -33,7 +32,7 @@ def report() -> Iterator[str]:
         ("wrist", SessionPlot(curves, exercise_named("WRIST_FE"), ())),
         ("whole hand", HandPlot(curves, exercise_named("FIST_COMPOSITE"), (), joints=_joints(curves))),
     ):
-        view = CurveView(Theme("light"))
+        view = SessionChart(Theme("light"))
         view.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
         view.resize(1232, 420)
         view.show()
@@ -71,7 +70,7 @@ def _joints(curves: ReportCurves) -> JointCurves:
     return JointCurves(names, curves.time_s, bent + noise, np.full_like(bent, 0.7), np.ones(bent.shape, dtype=bool))
 
 
-def _step_ms(view: CurveView, turn: int, modifiers: Qt.KeyboardModifier) -> tuple[float, float]:
+def _step_ms(view: SessionChart, turn: int, modifiers: Qt.KeyboardModifier) -> tuple[float, float]:
     """On the clock, and CPU time of the window's thread."""
     face = view.face
     at = QPointF(view.panels()[0][0].box.center().toPoint())

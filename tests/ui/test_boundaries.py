@@ -47,6 +47,6 @@ def test_only_the_plotting_room_knows_pyqtgraph() -> None:
 
 def test_pyqtgraph_is_loaded_when_a_plot_is_shown_not_when_the_window_opens() -> None:
     """It takes a quarter of a second."""
-    loaded = loaded_by(["carpus.app.compose", "carpus.ui.review.flow"])
-    assert "carpus.ui.plot.card" in loaded
+    loaded = loaded_by(["carpus.app.compose", "carpus.ui.patients.flow"])
+    assert "carpus.ui.plot.style" in loaded
     assert "pyqtgraph" not in loaded

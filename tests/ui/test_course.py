@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.progress import progress
 from carpus.ui.plot import course
-from carpus.ui.plot.course_view import ProgressChart
+from carpus.ui.plot.course import ProgressChart
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeSessions
 from tests.ui.test_plots import drag, move
@@ -36,8 +36,12 @@ def chart(qtbot: QtBot, theme: Theme, store: FakeSessions) -> Iterator[ProgressC
 
 
 def place(chart: ProgressChart, number: int) -> QPointF:
-    panel, key = chart.panels()[0]
-    return dict(course.Points(chart._progress, key).places(panel))[number]
+    key = chart.panels()[0][1]
+    at_s = chart._progress.points[number].figures.when.timestamp()
+    plot = chart.plots[0]
+    row = course.row_of(chart._progress, number, key)
+    assert row is not None
+    return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean_deg)))
 
 
 def test_a_click_on_a_point_opens_its_session_and_one_beside_it_nothing(qtbot: QtBot, chart: ProgressChart) -> None:
@@ -121,7 +125,7 @@ def test_figures_of_two_sessions_never_stand_on_each_other(
     by_hand = HandValue("FLEXION", "active", "right", first.when.date() + timedelta(days=30), (45.0,))
     two = progress([first, replace(second, when=first.when + apart)])
     said_at: list[float] = []
-    monkeypatch.setattr(course.Points, "_paint_value", lambda *given: said_at.append(given[4]))
+    monkeypatch.setattr(chart, "_add_value", lambda *given: said_at.append(given[2]))
     chart.show_progress(replace(two, by_hand=(by_hand,)))
     chart.grab()
     panels = len(chart.panels())

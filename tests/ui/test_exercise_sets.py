@@ -28,7 +28,7 @@ from carpus.ui.live.course import LINGER_S, CourseRun
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.guide import Glance, GuideScene
 from carpus.ui.patient.viewing import PatientViewing
-from carpus.ui.plot.course import Goals, still
+from carpus.ui.plot.course import goals_deg
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
@@ -129,9 +129,8 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
     screen.asked["side"].buttons()[1].click()
     assert math.isnan(screen.set_up().target_positive_deg)
     shown = progress([replace(figures, targets_deg=(goal_deg, math.nan))])
-    assert Goals(shown, ("flexion", "flexion")).newest_deg == goal_deg
-    assert math.isnan(Goals(shown, ("flexion", "extension")).newest_deg)
-    assert any(isinstance(mark, Goals) for mark in still(shown, ("flexion", "flexion")))
+    assert goals_deg(shown, ("flexion", "flexion")) == [goal_deg]
+    assert goals_deg(shown, ("flexion", "extension")) == []
 
 
 def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:

@@ -182,7 +182,7 @@ def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme:
     item = next(item for item in course.comparisons if item.after.what == "extension")
     assert item.verdict == "improved"
     assert before_after(item).count("lacks") == 2
-    panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, None) if key[1] == "extension")
+    panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, 1) if key[1] == "extension")
     assert panel.scale.low < item.before.mean + 5.0
     card = PatientCardView(theme, NOW.date)
     row = replace(item.after, mean=-20.0)

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import QRectF
-from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter
+from PySide6.QtGui import QColor, QFontMetricsF
+from pytestqt.qtbot import QtBot
 
 from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.seen import session_curves
@@ -18,7 +19,7 @@ from carpus.ui.patients.card import PatientCardView
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.motion import MotionPlot
 from carpus.ui.plot.style import screen_style
-from carpus.ui.plot.ways import LEAST_SPAN_MM, finger_ways, is_titled, plane_marks, side_by_side, wrist_way
+from carpus.ui.plot.ways import LEAST_SPAN_MM, WaysChart, finger_ways, is_titled, side_by_side, wrist_way
 from carpus.ui.ports import PatientCard
 from carpus.ui.report.gather import write_session_report
 from carpus.ui.review.charts import WRIST
@@ -39,18 +40,30 @@ def panels(theme: Theme) -> list[Panel]:
     return side_by_side(screen_style(theme), BOX, 12.0)
 
 
-def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(panels: list[Panel]) -> None:
+def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(qtbot: QtBot, theme: Theme) -> None:
     curves = motion_curves(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    chart = shown(qtbot, theme)
     for plot in (wrist_way(curves), finger_ways(curves, 0), finger_ways(curves, 1), finger_ways(curves, 3)):
+        chart.show_plot(plot)
         scales = set()
-        for panel, (mark,) in zip(panels, plane_marks(plot), strict=True):
-            room = panel.box.adjusted(-1, -1, 1, 1)
+        for item in chart._planes:
+            panel = item.plot.own
             for way in plot.ways:
-                x, y = mark._places(panel, way.place_mm)
+                x, y = item._places(panel, way.place_mm)
+                room = panel.box.adjusted(-1, -1, 1, 1)
                 assert all(room.contains(float(end(x)), float(end(y))) for end in (np.nanmin, np.nanmax))
             scales.add(round(plot.per_mm(panel.box), 9))
         assert len(scales) == 1
-        assert plot.bar_mm(panels[0].box) * scales.pop() <= 0.31 * panels[0].box.width()
+        box = chart.panels()[0].box
+        assert plot.bar_mm(box) * scales.pop() <= 0.31 * box.width()
+
+
+def shown(qtbot: QtBot, theme: Theme) -> WaysChart:
+    chart = WaysChart(theme)
+    qtbot.addWidget(chart)
+    chart.resize(720, 300)
+    chart.show()
+    return chart
 
 
 def test_a_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> None:
@@ -71,22 +84,24 @@ def test_a_still_hand_is_not_blown_up(panels: list[Panel]) -> None:
     assert plot.per_mm(panels[0].box) * LEAST_SPAN_MM <= panels[0].box.width() + 1e-9
 
 
-def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(panels: list[Panel]) -> None:
+def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(qtbot: QtBot, theme: Theme) -> None:
+    chart = shown(qtbot, theme)
     for side, thumb_left in (("right", True), ("left", False)):
         plot = finger_ways(motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)), 0)
-        ((mark,), *_) = plane_marks(plot)
-        x = [float(np.nanmean(mark._places(panels[0], way.place_mm)[0])) for way in plot.ways]  # type: ignore[attr-defined]
+        chart.show_plot(plot)
+        item = chart._planes[0]
+        x = [float(np.nanmean(item._places(item.plot.own, way.place_mm)[0])) for way in plot.ways]
         assert (x[0] < x[4]) is thumb_left
 
 
-def test_a_way_and_the_hand_s_axes_are_really_drawn(theme: Theme, panels: list[Panel]) -> None:
-    picture = QImage(720, 300, QImage.Format.Format_RGB32)
-    picture.fill(QColor("#FFFFFF"))
-    with QPainter(picture) as painter:
-        plane_marks(wrist_way(motion_curves(session())), 20.0)[0][0].paint(painter, screen_style(theme), panels[0])
-    seen = {picture.pixelColor(x, y).name() for x in range(0, 240) for y in range(0, 300)}
-    tokens = theme.tokens
-    assert {QColor(token).name() for token in (tokens.accent, tokens.curve_a)} <= seen
+def test_a_way_and_the_hand_s_axes_are_really_drawn(qtbot: QtBot, theme: Theme) -> None:
+    chart = shown(qtbot, theme)
+    chart.show_plot(wrist_way(motion_curves(session())))
+    chart.set_time(20.0)
+    picture, box = chart.grab().toImage(), chart.panels()[0].box.toRect()
+    rows, columns = range(box.top(), box.bottom()), range(box.left(), box.right())
+    seen = {picture.pixelColor(x, y).name() for x in columns for y in rows}
+    assert {QColor(token).name() for token in (theme.tokens.accent, theme.tokens.curve_a)} <= seen
 
 
 # --- curves -----------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from typing import cast
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtCore import QPointF, QRect, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, qGray
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -23,9 +23,8 @@ from carpus.ui.background import Background
 from carpus.ui.figures import Figure
 from carpus.ui.picture.view import PictureView
 from carpus.ui.playback.pictures import GROUND, modelled_px, paint_trails
-from carpus.ui.plot.session import HandPlot, joint_at
-from carpus.ui.plot.session_view import paint_readings
-from carpus.ui.plot.style import screen_style
+from carpus.ui.plot.chart import ChartText
+from carpus.ui.plot.session import HandPlot, SessionChart, joint_at
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from carpus.ui.words.fingers import COLUMNS, limits_words
@@ -190,28 +189,19 @@ def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repeti
 def test_numbers_beside_the_curves_never_overlap_also_with_end_joints_of_their_own(qtbot: QtBot, theme: Theme) -> None:
     session = free_ends(hand_session())
     figures = session_figures(session)
-    for height in (190.0, 620.0):
-        plot = HandPlot(session_curves(session), figures.exercise, figures.repetitions, joints=joint_curves(session))
-        panels = plot.panels(QRectF(100.0, 30.0, 500.0, height), 8.0)
-        picture = QImage(800, 700, QImage.Format.Format_RGB32)
-        painter = RecordingPainter(picture)
-        paint_readings(painter, screen_style(theme), plot, panels, 3.0)
-        painter.end()
-        assert len(painter.boxes) == 15  # three joints of five fingers
-        for i, one in enumerate(painter.boxes):
-            assert not any(one.intersects(other) for other in painter.boxes[i + 1 :])
-
-
-class RecordingPainter(QPainter):
-    """Remembers where texts stand."""
-
-    def __init__(self, picture: QImage) -> None:
-        super().__init__(picture)
-        self.boxes: list[QRectF] = []
-
-    def drawText(self, at: QPointF, text: str) -> None:  # type: ignore[override]  # noqa: N802
-        self.boxes.append(self.fontMetrics().tightBoundingRect(text).translated(at.toPoint()).toRectF())
-        super().drawText(at, text)
+    plot = HandPlot(session_curves(session), figures.exercise, figures.repetitions, joints=joint_curves(session))
+    chart = SessionChart(theme)
+    qtbot.addWidget(chart)
+    chart.show_plot(plot)
+    chart.set_time(3.0)
+    chart.show()
+    for height in (250, 680):
+        chart.resize(800, height)
+        said = [item for item in chart.scene().items() if isinstance(item, ChartText) and "°" in item.toPlainText()]
+        assert sum(item.toPlainText().count("°") // (2 if "±" in item.toPlainText() else 1) for item in said) == 15
+        boxes = [item.sceneBoundingRect() for item in said]
+        for i, one in enumerate(boxes):
+            assert not any(one.intersects(other) for other in boxes[i + 1 :])
 
 
 def free_ends(session: Session) -> Session:

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 
-from PySide6.QtCore import QDate, QSize, Qt, Signal
+from PySide6.QtCore import QDate, Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QBoxLayout, QDateEdit, QSizePolicy, QWidget
+from PySide6.QtWidgets import QBoxLayout, QDateEdit, QWidget
 
 from carpus.core.measures.by_hand import MEASURES, HandMeasure, HandValue, Key, counted, measure_named
 from carpus.core.results.figures import SessionFigures
@@ -22,8 +22,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices, Combo, leave_wheel
 from carpus.ui.controls.layouts import STRETCH, Fitted, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
-from carpus.ui.plot.by_hand import paint_course
-from carpus.ui.plot.card import StillPlot
+from carpus.ui.plot.by_hand import ByHandChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.words.by_hand import changes, measure_name
 
@@ -70,7 +69,7 @@ class ByHandScreen(Fitted):
         self.save_button = Button(
             theme, self.tr("Save values"), "primary", icon="check", hint="Ctrl+Enter", height_px=44
         )
-        self.chart = HandChart(theme)
+        self.chart = ByHandChart(theme)
         self._changes = Card(theme, 20)
         self._lay_out()
         self.day.dateChanged.connect(lambda _: self._turn())
@@ -270,27 +269,3 @@ class ByHandScreen(Fitted):
     def _save(self) -> None:
         if not self.form.problems():
             self.save.emit(self.unsaved(), self.form.doubts())
-
-
-class HandChart(StillPlot):
-    """One measure over the days."""
-
-    def __init__(self, theme: Theme) -> None:
-        super().__init__(theme)
-        self.measure: HandMeasure | None = None
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        theme.changed.connect(self.updateGeometry)
-
-    def show_course(
-        self, measure: HandMeasure, values: Sequence[HandValue], ours: Sequence[tuple[datetime, float]]
-    ) -> None:
-        """Draw the values that count of one hand, and Carpus's own by day."""
-        self.measure = measure
-        self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
-        self.show_painted(lambda painter, style, box: paint_course(painter, style, box, measure, values, ours))
-
-    def sizeHint(self) -> QSize:
-        return QSize(400, self._theme.px(250))
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(260, self.sizeHint().height())

@@ -19,7 +19,7 @@ from carpus.ui.figures import FINGERS
 from carpus.ui.fonts import MEDIUM
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot.compared import OLD_TOKEN, ComparedHandPlot, ComparedPlot, legend_words, most_different_finger
-from carpus.ui.plot.session_view import CurveView
+from carpus.ui.plot.session import SessionChart
 from carpus.ui.theme import Theme
 
 WRIST = -1
@@ -57,7 +57,7 @@ class ResultsSheet(Sheet):
         fingers = [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.finger.chosen.connect(lambda _: self._draw())
-        self.curves = CurveView(theme)
+        self.curves = SessionChart(theme)
         self.curves.cursor_moved.connect(self.curves.set_time)
         self.stop = Button(theme, self.tr("&Stop"), "plain", height_px=44)
         self.keep = Button(theme, self.tr("&Keep the old one"), "plain", height_px=44)

@@ -29,8 +29,7 @@ from carpus.ui.keys import KEYS, bind_screen
 from carpus.ui.marker_words import finger_of, marker_name
 from carpus.ui.playback.pictures import RowReader, plain_ground
 from carpus.ui.playback.transport import Scrubber, Transport, clock_words
-from carpus.ui.plot.session import HandPlot, SessionPlot
-from carpus.ui.plot.session_view import CurveView
+from carpus.ui.plot.session import HandPlot, SessionChart, SessionPlot
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
 if TYPE_CHECKING:
@@ -71,7 +70,7 @@ class CorrectScreen(Fitted):
         self.transport = Transport(theme)
         self.time = Text(theme, "", 14, MEDIUM)
         self.scrubber = Scrubber(theme)
-        self.curves = CurveView(theme)
+        self.curves = SessionChart(theme)
         self.curves.show_single(True)
         self.step = StateText(theme)
         self.title = Text(theme, "", 28, SEMIBOLD, wrap=True)

@@ -32,11 +32,11 @@ from carpus.ui.live.readings import Readings
 from carpus.ui.live.recording import Recording
 from carpus.ui.patient.guide import Glance
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
-from carpus.ui.plot.card import PlotCard
+from carpus.ui.plot.chart import Chart
 from carpus.ui.plot.finger_curves import FingerCurves
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.path_view import PathView
+from carpus.ui.plot.ways import PathView
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 
@@ -327,7 +327,7 @@ class LiveScreen(Fitted):
         for event in feed.drain_events():
             self.told.emit(event)
 
-    def plots(self) -> PlotCard:
+    def plots(self) -> Chart:
         return self.fingers if self._whole_hand else self.curves
 
     def glance(self) -> Glance:

@@ -11,17 +11,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter
+import pyqtgraph as pg
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QFontMetricsF
 
 from carpus.core.hand.forearm_rotation import as_read_rad
 from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
-from carpus.ui.plot.axes import Panel, Scale, hatch, time_labels
-from carpus.ui.plot.marks import Curves, Level, Mark, Remark, Scales, Times
+from carpus.ui.plot.axes import Panel, Scale, time_labels
+from carpus.ui.plot.chart import BAND, Chart, Hatching, Label, Plot, scale_labels
 from carpus.ui.plot.series import Curve, Series
-from carpus.ui.plot.style import PlotStyle, write
+from carpus.ui.plot.style import PlotStyle
+from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 from carpus.ui.words.agreement import angle_token, ends, interval, signed
 
@@ -112,77 +114,6 @@ class AgreementPlot:
         area = box.adjusted(left, metrics.height() * 0.5, -right, -foot)
         return Panel(area, scale, *self.extent())
 
-    # --- what is drawn ------------------------------------------------------------------------------------
-    def ground(self) -> list[Mark]:
-        if self.view == "curves":
-            return [Scales(), _Along(self)]
-        more, less = _shows(self.pairs.name)
-        reach = max(self.scale().ticks)
-        marks: list[Mark] = [_Limit(self.limit_deg)] if self.limit_deg > 0.0 else []
-        return [
-            *marks, Scales(), _Along(self), Remark(0.85 * reach, more),
-            Remark(-reach, less),
-        ]  # fmt: skip
-
-    def moving(self) -> list[Mark]:
-        token = angle_token(self.pairs.name)
-        if self.view == "differences":
-            rows = self.drawn
-            values = (self.measured_deg - self.reference_deg)[rows]
-            figures = self.pairs.figures_deg
-            limits = [Level(value, "text", (7.0, 5.0)) for value in figures.limits]
-            dots = _Dots(self.mean_deg[rows], values, token, 3.0 if self.over_time else 4.5)
-            return [dots, Level(figures.bias, token, ()), *limits]
-        if not self.over_time:
-            return [
-                _Dots(self.along, self.reference_deg, "border", 5.0),
-                _Dots(self.along, self.measured_deg, token, 4.5),
-            ]
-        step_s = 3.0 * float(np.median(np.diff(self.along))) if len(self.along) > 1 else 1.0
-        return [
-            Curves(
-                [
-                    Curve(Series(self.along, values, None, np.full(len(values), dashed), step_s), own)
-                    for values, own, dashed in (
-                        (self.reference_deg, "curve_c" if token != "curve_c" else "border", True),
-                        (self.measured_deg, token, False),
-                    )
-                ]
-            )
-        ]
-
-    def beside(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        metrics, unit = QFontMetricsF(style.end_label), style.unit
-        token, left = angle_token(self.pairs.name), panel.box.right() + 12 * unit
-        if self.view == "curves":
-            other = "curve_c" if token != "curve_c" and self.over_time else "border"
-            top = panel.box.top() + metrics.ascent()
-            for number, ((words,), color) in enumerate(zip(_line_words(self), (token, other), strict=True)):
-                place = QPointF(left, top + number * 1.4 * metrics.height())
-                write(painter, place, words, style.end_label, style.color("text2" if color == "border" else color))
-            return
-        figures = self.pairs.figures_deg
-        at = [*figures.limits, figures.bias]
-        height = 2 * metrics.height()
-        taken = -math.inf
-        rows = sorted(zip(at, _line_words(self), (False, False, True), strict=True), key=lambda row: -row[0])
-        room = panel.box.bottom() + 0.5 * height - len(rows) * (height + 2 * unit)
-        for value, (first, second), is_mean in rows:
-            if not math.isfinite(value):
-                continue
-            top = min(max(float(panel.y(value)) - height / 2, taken), max(room, panel.box.top()))
-            room += height + 2 * unit
-            taken = top + height + 2 * unit
-            place = QPointF(left, top + metrics.ascent())
-            write(painter, place, first, style.end_label, style.color(token if is_mean else "text"))
-            write(painter, place + QPointF(0.0, metrics.height()), second, style.label, style.color("text2"))
-
-    def paint(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        panel = self.panel(style, box)
-        for mark in (*self.ground(), *self.moving()):
-            mark.paint(painter, style, panel)
-        self.beside(painter, style, panel)
-
     def along_labels(self, start: float, end: float) -> list[tuple[float, str]]:
         """Round values along the panel; degrees have the angle's words at the ends."""
         if self.view == "curves" and self.over_time:
@@ -237,51 +168,82 @@ def _step(span: float) -> float:
     return next((step for step in STEPS_DEG if span / step <= 7.0), STEPS_DEG[-1])
 
 
-@dataclass(frozen=True, slots=True)
-class _Limit:
-    """The limit set before, hatched about no difference."""
+class AgreementChart(Chart):
+    """One angle of a comparison, over time or as differences against the mean."""
 
-    limit_deg: float
+    is_card = False
 
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        top, bottom = float(panel.y(self.limit_deg)), float(panel.y(-self.limit_deg))
-        hatch(painter, style, QRectF(panel.box.left(), top, panel.box.width(), bottom - top), "accent", 90)
-        metrics = QFontMetricsF(style.label)
-        words = _hatched()
-        left = panel.box.right() - metrics.horizontalAdvance(words) - 6 * style.unit
-        place = QPointF(left, bottom + metrics.ascent() + 2 * style.unit)
-        write(painter, place, words, style.label, style.color("accent"))
+    def __init__(self, theme: Theme, plot: AgreementPlot) -> None:
+        super().__init__(theme)
+        self._plot = plot
 
+    def build(self) -> None:
+        shown, look = self._plot, self.look
+        plot = self.add_plot(shown.panel(look, self.area))
+        differences = shown.view == "differences"
+        if differences and shown.limit_deg > 0.0:
+            self._add_limit(plot)
+        plot.add_grid()
+        self.add_axis(plot, "left", scale_labels(plot.panel), 12)
+        self.add_axis(plot, "bottom", lambda *ends: [Label(*one) for one in shown.along_labels(*ends)][::-1], 6)
+        foot = self.text(_foot(shown), look.label, "text2", (0.5, 0.0))
+        box = plot.panel.box
+        foot.setPos(box.center().x(), box.bottom() + QFontMetricsF(look.label).height() + 8 * look.unit)
+        (self._add_differences if differences else self._add_curves)(plot)
 
-@dataclass(frozen=True, slots=True)
-class _Along:
-    """Values under the panel, and what they are."""
+    def _add_limit(self, plot: Plot) -> None:
+        """What was set before, hatched about no difference."""
+        limit, box = self._plot.limit_deg, plot.panel.box
+        plot.put(Hatching(plot, [(-math.inf, math.inf, -limit, limit)], "accent", 90), BAND)
+        words = self.text(_hatched(), self.look.label, "accent", (1.0, 0.0))
+        words.setPos(box.right() - 6 * self.look.unit, float(plot.panel.y(-limit)) + 2 * self.look.unit)
 
-    plot: AgreementPlot
+    def _add_dots(self, plot: Plot, x: FloatArray, y: FloatArray, token: str, radius: float) -> None:
+        """One value each, half clear."""
+        at = [
+            plot.panel.at(one, value) for one, value in zip(x.tolist(), y.tolist(), strict=True) if math.isfinite(value)
+        ]
+        self.add_symbols("o", 2.0 * radius, pg.mkPen(None), token, at, DOT_ALPHA)
 
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        labels = self.plot.along_labels(panel.start_s, panel.end_s)
-        Times(labels).paint(painter, style, panel)
-        height = QFontMetricsF(style.label).height()
-        top = panel.box.bottom() + height + 8 * style.unit
-        room = QRectF(panel.box.left() - 60 * style.unit, top, panel.box.width() + 120 * style.unit, height)
-        side = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
-        write(painter, room, _foot(self.plot), style.label, style.color("text2"), side)
+    def _add_differences(self, plot: Plot) -> None:
+        shown, figures = self._plot, self._plot.pairs.figures_deg
+        token, unit, rows = angle_token(shown.pairs.name), self.look.unit, shown.drawn
+        differences = (shown.measured_deg - shown.reference_deg)[rows]
+        self._add_dots(plot, shown.mean_deg[rows], differences, token, 3.0 if shown.over_time else 4.5)
+        for value in figures.limits:
+            plot.add_level(value, "text", (7.0, 5.0))
+        plot.add_level(figures.bias, token, ())
+        reach = max(plot.panel.scale.ticks)
+        for value, words in zip((0.85 * reach, -reach), _shows(shown.pairs.name), strict=True):
+            plot.add_words(value, words, small=True)
+        height, taken = 2 * QFontMetricsF(self.look.end_label).height(), -math.inf
+        box, at = plot.panel.box, [*figures.limits, figures.bias]
+        lines = sorted(zip(at, _line_words(shown), (False, False, True), strict=True), key=lambda row: -row[0])
+        room = box.bottom() + 0.5 * height - len(lines) * (height + 2 * unit)
+        for value, (first, second), is_mean in lines:
+            if not math.isfinite(value):
+                continue
+            top = min(max(float(plot.panel.y(value)) - height / 2, taken), max(room, box.top()))
+            room += height + 2 * unit
+            taken = top + height + 2 * unit
+            left = box.right() + 12 * unit
+            self.text(first, self.look.end_label, token if is_mean else "text").setPos(left, top)
+            self.text(second, self.look.label, "text2").setPos(left, top + height / 2)
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Dots:
-    """One value each, half clear."""
-
-    x: FloatArray
-    y: FloatArray
-    token: str
-    radius: float
-
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(style.color(self.token, DOT_ALPHA))
-        reach = self.radius * style.unit
-        for x, y in zip(panel.x(self.x), panel.y(self.y), strict=True):
-            if math.isfinite(y) and panel.box.left() - 1 <= x <= panel.box.right() + 1:
-                painter.drawEllipse(QPointF(float(x), float(y)), reach, reach)
+    def _add_curves(self, plot: Plot) -> None:
+        shown, token = self._plot, angle_token(self._plot.pairs.name)
+        along, other = shown.along, "curve_c" if token != "curve_c" and shown.over_time else "border"
+        if shown.over_time:
+            step_s = 3.0 * float(np.median(np.diff(along))) if len(along) > 1 else 1.0
+            both = ((shown.reference_deg, other, True), (shown.measured_deg, token, False))
+            plot.add_curves().show([
+                Curve(Series(along, values, None, np.full(len(values), dashed), step_s), own)
+                for values, own, dashed in both
+            ])  # fmt: skip
+        else:
+            self._add_dots(plot, along, shown.reference_deg, "border", 5.0)
+            self._add_dots(plot, along, shown.measured_deg, token, 4.5)
+        left, height = plot.panel.box.right() + 12 * self.look.unit, QFontMetricsF(self.look.end_label).height()
+        for number, ((words,), color) in enumerate(zip(_line_words(shown), (token, other), strict=True)):
+            item = self.text(words, self.look.end_label, "text2" if color == "border" else color)
+            item.setPos(left, plot.panel.box.top() + 1.4 * number * height)

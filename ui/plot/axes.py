@@ -100,15 +100,18 @@ def crisp(box: QRectF) -> QRectF:
     return QRectF(box.toRect())
 
 
-def hatch(painter: QPainter, style: PlotStyle, box: QRectF, token: str = "border", alpha: int = 130) -> None:
-    """Diagonal lines over a stretch that is not known; drawn as lines so that paper gets vectors too."""
+def hatch(
+    painter: QPainter, style: PlotStyle, box: QRectF, token: str = "border", alpha: int = 130, shift: float = 0.0
+) -> None:
+    """Diagonal lines over a stretch that is not known; drawn as lines so that paper gets vectors too. What is over
+    another one is seen by a ``shift``, as a share of their distance."""
     painter.save()
     painter.setClipRect(box, Qt.ClipOperation.IntersectClip)
     painter.setPen(QPen(style.color(token, alpha), style.grid_width))
     painter.setBrush(QBrush(Qt.BrushStyle.NoBrush))
     step = 5.0 * style.unit
     offset = box.height()
-    start = np.floor((box.left() - offset) / step) * step
+    start = (np.floor((box.left() - offset) / step) + shift) * step
     lines = [
         QLineF(left, box.bottom(), left + offset, box.top())
         for left in np.arange(start, box.right() + step, step).tolist()

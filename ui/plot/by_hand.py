@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from datetime import date, datetime, time
+from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtGui import QFontMetricsF
+from PySide6.QtWidgets import QSizePolicy
 
 from carpus.core.measures.by_hand import HandMeasure, HandValue
 from carpus.ui import numbers
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import EndLabels, Scales, Times
-from carpus.ui.plot.style import PlotStyle, write
+from carpus.ui.plot.chart import Chart, Plot, date_labels, scale_labels
+from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 from carpus.ui.words.by_hand import measure_name, value_words
 
-HALF_PX = 4.5
 DAY_S = 86_400.0
 
 
@@ -31,108 +32,33 @@ def day_s(day: date, sessions: Iterable[datetime] = ()) -> float:
     return (same[0] if same else datetime.combine(day, time(12))).timestamp()
 
 
-@dataclass(frozen=True, slots=True)
-class Squares:
+def add_by_hand(
+    plot: Plot, values: Sequence[HandValue], sessions: Sequence[datetime] = (), *, joined: bool = False
+) -> list[Any]:
     """Values by hand of one way: hollow squares, diamonds where it was moved by somebody else; never joined with ours.
 
     ``joined``: a thin line between them, where nothing else is in the panel; ``sessions``: when ours were. What is
     beyond the axis of time is an arrow at its end.
     """
-
-    values: Sequence[HandValue]
-    joined: bool = False
-    sessions: Sequence[datetime] = ()
-
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        times = [day_s(one.day, self.sessions) for one in self.values]
-        places = [panel.at(at, one.value) for at, one in zip(times, self.values, strict=True)]
-        shown = [at for at in places if panel.box.left() - 1 <= at.x() <= panel.box.right() + 1]
-        painter.setPen(QPen(style.color("text"), 1.6 * style.unit))
-        if self.joined and len(shown) > 1:
-            painter.drawPolyline(QPolygonF(shown))
-        painter.setBrush(style.color("surface"))
-        passive = bool(self.values) and self.values[0].way == "passive"
-        for at in shown:
-            paint_square(painter, at, style.unit, turned=passive)
-        for edge, way in ((panel.box.left(), -1.0), (panel.box.right(), 1.0)):
-            beyond = [at for at in places if (at.x() - edge) * way > 1]
-            if beyond:
-                nearest = min(beyond, key=lambda at, edge=edge: abs(at.x() - edge))  # type: ignore[misc]
-                _paint_beyond(painter, QPointF(edge, nearest.y()), way * style.unit)
-
-
-def _paint_beyond(painter: QPainter, at: QPointF, unit: float) -> None:
-    """An arrow: there is more before or after what the axis of time shows."""
-    reach = 2.0 * HALF_PX * unit
-    corners = [QPointF(0, -abs(reach) / 2), QPointF(reach, 0), QPointF(0, abs(reach) / 2)]
-    painter.drawPolygon(QPolygonF([at + corner for corner in corners]))
-
-
-def paint_square(painter: QPainter, at: QPointF, unit: float, *, turned: bool = False) -> None:
-    """The sign of what was entered by hand."""
-    half = HALF_PX * unit
-    if turned:
-        half *= 1.3
-        corners = [QPointF(0, -half), QPointF(half, 0), QPointF(0, half), QPointF(-half, 0)]
-        painter.drawPolygon(QPolygonF([at + corner for corner in corners]))
-    else:
-        painter.drawRect(QRectF(at.x() - half, at.y() - half, 2 * half, 2 * half))
-
-
-def paint_at_least(painter: QPainter, x: float, y: float, unit: float) -> None:
-    """An arrow upwards: the joint went out of sight, the true value may be larger."""
-    painter.drawPolygon(QPolygonF([QPointF(x, y - 7 * unit), QPointF(x - 4.5 * unit, y), QPointF(x + 4.5 * unit, y)]))
-
-
-@dataclass(frozen=True, slots=True)
-class Key:
-    """What the signs mean (sign, words, token), at the lower end of a box in as many lines as it needs."""
-
-    entries: Sequence[tuple[str, str, str]]
-
-    def lines(self, style: PlotStyle, box: QRectF) -> list[list[tuple[float, str, str, str]]]:
-        metrics, unit = QFontMetricsF(style.end_label), style.unit
-        lines: list[list[tuple[float, str, str, str]]] = [[]]
-        across = 8 * unit
-        for sign, words, token in self.entries:
-            width = 17 * unit + metrics.horizontalAdvance(words)
-            if lines[-1] and across + width > box.width():
-                lines.append([])
-                across = 8 * unit
-            lines[-1].append((box.left() + across, sign, words, token))
-            across += width + 18 * unit
-        return lines
-
-    def paint(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        unit, metrics = style.unit, QFontMetricsF(style.end_label)
-        for number, entries in enumerate(reversed(self.lines(style, box))):
-            baseline = box.bottom() - 6 * unit - number * metrics.height()
-            for left, sign, words, token in entries:
-                at = QPointF(left + 5 * unit, baseline - 0.36 * metrics.ascent())
-                painter.setPen(QPen(style.color(token), 1.6 * unit))
-                painter.setBrush(style.color(token if sign == "dot" else "surface"))
-                if sign == "arrow":
-                    paint_at_least(painter, at.x(), baseline - 1 * unit, unit)
-                elif sign in ("square", "diamond"):
-                    paint_square(painter, at, unit, turned=sign == "diamond")
-                else:
-                    painter.drawEllipse(at, HALF_PX * unit, HALF_PX * unit)
-                write(painter, QPointF(left + 17 * unit, baseline), words, style.end_label, style.color("text2"))
-
-
-@dataclass(frozen=True, slots=True)
-class OurDots:
-    """What Carpus measured of the same, each session's mean."""
-
-    points: Sequence[tuple[datetime, float]]
-
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        places = [panel.at(when.timestamp(), value) for when, value in self.points]
-        painter.setPen(QPen(style.color("curve_a"), style.line_width))
-        painter.drawPolyline(QPolygonF(places))
-        painter.setBrush(style.color("curve_a"))
-        for at in places:
-            painter.drawEllipse(at, 4 * style.unit, 4 * style.unit)
+    panel, chart, (start, end) = plot.panel, plot.chart, plot.viewRange()[0]
+    times = [day_s(one.day, sessions) for one in values]
+    places = [
+        QPointF(float(plot.scene_x(at)), float(panel.y(one.value))) for at, one in zip(times, values, strict=True)
+    ]
+    if joined:
+        plot.add_line(times, [one.value for one in values], "text", 1.6)
+    pen = pg.mkPen(plot.look.color("text"), width=1.6 * plot.look.unit)
+    symbol, size = ("d", 12.0) if values and values[0].way == "passive" else ("s", 9.0)
+    shown = [at for time, at in zip(times, places, strict=True) if start <= time <= end]
+    out = [chart.add_symbols(symbol, size, pen, "surface", shown)]
+    for edge, sign, beyond in (
+        (panel.box.left(), "t3", [at for at in places if at.x() < panel.box.left() - 1]),
+        (panel.box.right(), "t2", [at for at in places if at.x() > panel.box.right() + 1]),
+    ):
+        if beyond:
+            nearest = min(beyond, key=lambda at, edge=edge: abs(at.x() - edge))  # type: ignore[misc]
+            out.append(chart.add_symbols(sign, 10.0, pen, "surface", [QPointF(edge, nearest.y())]))
+    return out
 
 
 def scale_of(measure: HandMeasure, values: Sequence[float]) -> Scale:
@@ -146,55 +72,79 @@ def scale_of(measure: HandMeasure, values: Sequence[float]) -> Scale:
     return Scale(low, high, ticks, tuple((tick, value_words(measure, tick)) for tick in ticks), strong_ends=False)
 
 
-def paint_course(
-    painter: QPainter,
-    style: PlotStyle,
-    box: QRectF,
-    measure: HandMeasure,
-    values: Sequence[HandValue],
-    ours: Sequence[tuple[datetime, float]],
-) -> None:
-    """Title, axis, squares, dots and what they mean."""
-    unit, metrics = style.unit, QFontMetricsF(style.end_label)
-    face = font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
-    title = QFontMetricsF(face).height()
-    write(painter, QPointF(box.left(), box.top() + 0.8 * title), measure_name(measure), face, style.color("text"))
-    active = [one for one in values if one.way != "passive"]
-    passive = [one for one in values if one.way == "passive"]
-    when = [one for one, _ in ours]
-    times = [day_s(one.day, when) for one in values] + [one.timestamp() for one in when]
-    if not times:
-        at = QPointF(box.left(), box.top() + 2.2 * title)
-        write(painter, at, tr("Nothing measured by hand yet."), style.end_label, style.color("text2"))
-        return
-    key = Key(
-        [("square", tr("by hand, active") if len(measure.ways) > 1 else tr("by hand"), "text")]
-        + ([("diamond", tr("by hand, passive"), "text")] if passive else [])
-        + ([("dot", tr("Carpus, mean"), "curve_a")] if ours else [])
-    )
-    pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
-    scale = scale_of(measure, [one.value for one in values] + [value for _, value in ours])
-    left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 14 * unit
-    right = metrics.horizontalAdvance(tr("passive {value}").format(value="100°")) + 20 * unit
-    area = QRectF(
-        box.left() + left, box.top() + title + 12 * unit, box.width() - left - right,
-        box.height() - title - (1 + len(key.lines(style, box))) * metrics.height() - 34 * unit,
-    )  # fmt: skip
-    panel = Panel(area, scale, min(times) - pad, max(times) + pad)
-    Scales().paint(painter, style, panel)
-    if ours:
-        OurDots(ours).paint(painter, style, panel)
-    for some in (passive, active):
-        Squares(some, joined=not ours, sessions=when).paint(painter, style, panel)
-    labels = (
-        [(ours[-1][1], tr("Carpus {value}").format(value=value_words(measure, ours[-1][1])), "curve_a")] if ours else []
-    )
-    for some in (passive, active):
-        if some:
-            pattern = {"passive": tr("passive {value}"), "active": tr("active {value}")}.get(some[-1].way, "{value}")
-            words = pattern.format(value=value_words(measure, some[-1].value))
-            labels.append((some[-1].value, words, "text"))
-    EndLabels(labels).paint(painter, style, panel)
-    days = sorted({one.day for one in values} | {one.date() for one in when})
-    Times([(day_s(day), numbers.day_month(day)) for day in days], days=True).paint(painter, style, panel)
-    key.paint(painter, style, box)
+class ByHandChart(Chart):
+    """Title, axis, squares, dots and what they mean; nothing before it is shown a measure."""
+
+    usual_px, least_px = (400, 250), (260, 250)
+    is_card = False
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme)
+        self.measure: HandMeasure | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self.updateGeometry)
+
+    def sizeHint(self) -> QSize:
+        return QSize(self.usual_px[0], self._theme.px(self.usual_px[1]))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(self.least_px[0], self.sizeHint().height())
+
+    def show_course(
+        self, measure: HandMeasure, values: Sequence[HandValue], ours: Sequence[tuple[datetime, float]]
+    ) -> None:
+        """``values`` as entered, each way for itself; ``ours`` what Carpus measured of the same, by session."""
+        self.measure, self._values, self._ours = measure, values, ours
+        self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
+        self.forget()
+
+    def build(self) -> None:
+        measure = self.measure
+        if measure is None:
+            return
+        values, ours, look, box = self._values, self._ours, self.look, self.area
+        unit, metrics = look.unit, QFontMetricsF(look.end_label)
+        face = font(look.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
+        title = QFontMetricsF(face).height()
+        self.text(measure_name(measure), face).setPos(box.left(), box.top())
+        passive = [one for one in values if one.way == "passive"]
+        active = [one for one in values if one.way != "passive"]
+        when = [one for one, _ in ours]
+        times = [day_s(one.day, when) for one in values] + [one.timestamp() for one in when]
+        if not times:
+            words = self.text(tr("Nothing measured by hand yet."), look.end_label, "text2")
+            words.setPos(box.left(), box.top() + 1.4 * title)
+            return
+        key = [("s", tr("by hand, active") if len(measure.ways) > 1 else tr("by hand"), "text")]
+        key += [("d", tr("by hand, passive"), "text")] if passive else []
+        key += [("O", tr("Carpus, mean"), "curve_a")] if ours else []
+        pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
+        scale = scale_of(measure, [one.value for one in values] + [value for _, value in ours])
+        left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 14 * unit
+        right = metrics.horizontalAdvance(tr("passive {value}").format(value="100°")) + 20 * unit
+        area = QRectF(
+            box.left() + left, box.top() + title + 12 * unit, box.width() - left - right,
+            box.height() - title - (1 + len(self.key_lines(key, box.width()))) * metrics.height() - 34 * unit,
+        )  # fmt: skip
+        plot = self.add_plot(Panel(area, scale, min(times) - pad, max(times) + pad))
+        plot.add_grid()
+        self.add_axis(plot, "left", scale_labels(plot.panel), 12)
+        beside = []
+        if ours:
+            plot.add_line([one.timestamp() for one in when], [value for _, value in ours], "curve_a")
+            at = [plot.panel.at(one.timestamp(), value) for one, value in ours]
+            self.add_symbols("o", 8.0, pg.mkPen(look.color("curve_a"), width=look.line_width), "curve_a", at)
+            said = tr("Carpus {value}").format(value=value_words(measure, ours[-1][1]))
+            beside.append((ours[-1][1], said, "curve_a"))
+        for some in (passive, active):
+            add_by_hand(plot, some, sessions=when, joined=not ours)
+            if some:
+                pattern = {"passive": tr("passive {value}"), "active": tr("active {value}")}.get(
+                    some[-1].way, "{value}"
+                )
+                said = pattern.format(value=value_words(measure, some[-1].value))
+                beside.append((some[-1].value, said, "text"))
+        self.add_beside(plot, beside)
+        days = sorted({one.day for one in values} | {one.date() for one in when})
+        self.add_axis(plot, "bottom", date_labels([(day_s(day), numbers.day_month(day)) for day in days]), 6)
+        self.add_key(key, box)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION
 from carpus.core.measures.by_hand import HandValue, measure_named
@@ -19,14 +21,16 @@ from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.by_hand import Key, Squares, day_s, paint_at_least
-from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales, Times
-from carpus.ui.plot.polygon import polygon
-from carpus.ui.plot.style import PlotStyle, dashed, write
+from carpus.ui.plot.by_hand import add_by_hand, day_s
+from carpus.ui.plot.chart import LINES, Plot, UnderMouse, date_labels, scale_labels
+from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.zoom_chart import ZoomChart
 from carpus.ui.terms import end_words
-from carpus.ui.theme import CURVE_TOKENS
+from carpus.ui.theme import CURVE_TOKENS, Theme
 from carpus.ui.translate import tr
+from carpus.ui.words.progress import corrected_words, doubt_words, unfair_words
 
 STEP_DEG = 30.0
 DOT_RADIUS, CAP_REACH = 3.5, 7.0
@@ -106,7 +110,7 @@ def by_hand_of(progress: Progress, key: MeasureKey) -> list[HandValue]:
 
 
 def place_panels(
-    progress: Progress, style: PlotStyle, box: QRectF, shown_s: tuple[float, float] | None = None
+    progress: Progress, style: PlotStyle, box: QRectF, key_lines: int, shown_s: tuple[float, float] | None = None
 ) -> list[tuple[Panel, MeasureKey]]:
     """All panels over one time axis, in one column or, if there are many, in two."""
     keys, unit = panels_of(progress), style.unit
@@ -114,7 +118,7 @@ def place_panels(
         return []
     line = QFontMetricsF(style.end_label).height()
     title = line + 14 * unit
-    foot = line * (1 + len(_key(progress).lines(style, box))) + 26 * unit
+    foot = line * (1 + key_lines) + 26 * unit
     columns = 1 if len(keys) <= MOST_PANELS else 2
     lines = math.ceil(len(keys) / columns)
     height, width = (box.height() - foot) / lines, box.width() / columns
@@ -147,11 +151,10 @@ def name_of(progress: Progress, key: MeasureKey) -> str:
     return tr("Whole arc") if movement == "arc" else terms.movement_long_name(movement)
 
 
-def still(progress: Progress, key: MeasureKey) -> list[Mark]:
-    """What lies behind the points of a panel: usual, error band, grid, the other hand, and their words."""
+def furnish(plot: Plot, progress: Progress, key: MeasureKey) -> None:
+    """Add what lies behind the points of a panel: usual, error band, grid, the other hand, goals, and their words."""
     of, movement = key
     angle = wrist_column(of)
-    out: list[Mark] = []
     labels: list[tuple[float, str, str]] = []
     exercise = progress.points[-1].figures.exercise if progress.points else EXERCISES[-1]
     norm = total_norm(int(of[-1]), exercise) if is_total(of) else None
@@ -160,132 +163,246 @@ def still(progress: Progress, key: MeasureKey) -> list[Mark]:
     if norm is not None:
         low, high = norm.low_deg, norm.high_deg
         span = f"{written(low)}°" if low == high else f"{written(low)}–{written(high)}°"
-        out.append(Across(low, high, "norm"))
+        plot.add_band(low, high, "norm")
         labels.append((0.5 * (low + high), tr("Usual, adults {span}").format(span=span), "text2"))
     first = progress.first.find(*key) if progress.first else None
     limit = next((c.limit_deg for c in progress.comparisons if c.key == key), math.nan)
     if first is not None and first.count and math.isfinite(limit):
-        out.append(Across(first.mean - limit, first.mean + limit, "soft", "accent"))
+        plot.add_band(first.mean - limit, first.mean + limit, "soft", "accent")
         words = tr("Error band ±{gap}{limit}").format(gap=numbers.NARROW_GAP, limit=numbers.degrees(limit))
         labels.append((first.mean, words, "accent"))
-    out.append(Scales())
+    plot.add_grid()
     other = progress.other_hand.find(*key) if progress.other_hand else None
     if other is not None and other.count and progress.other_hand is not None:
-        out.append(Level(other.mean, "text2"))
+        plot.add_level(other.mean, "text2")
         shown = numbers.degrees(other.mean) if angle < 0 else end_words(other.mean, movement)
         words = f"{terms.hand_name(progress.other_hand.side)} {shown}"
         labels.append((other.mean, words, "text2"))
-    goals = Goals(progress, key)
-    if math.isfinite(goals.newest_deg):
-        out.append(goals)
-        shown = numbers.degrees(goals.newest_deg) if angle < 0 else end_words(goals.newest_deg, movement)
-        words = tr("Goal {angle}").format(angle=shown)
-        labels.append((goals.newest_deg, words, "accent"))
-    return [*out, EndLabels(labels)]
+    if goals := goals_deg(progress, key):
+        starts = [point.figures.when.timestamp() for point in progress.points]
+        ends = [*starts[1:], extent_s(progress)[1]]
+        known = [
+            (start, end, goal) for start, end, goal in zip(starts, ends, goals, strict=True) if math.isfinite(goal)
+        ]
+        x, y = [at for start, end, _ in known for at in (start, end)], [goal for _, _, goal in known for _ in range(2)]
+        plot.add_line(x, y, "accent", 2.0, (5.0, 3.0), "pairs", LINES)
+        shown = numbers.degrees(goals[-1]) if angle < 0 else end_words(goals[-1], movement)
+        labels.append((goals[-1], tr("Goal {angle}").format(angle=shown), "accent"))
+    plot.chart.add_beside(plot, labels)
 
 
-@dataclass(frozen=True, slots=True)
-class Goals:
-    """The target that each session had, as a dashed step from one session to the next."""
-
-    progress: Progress
-    key: MeasureKey
-
-    def goal_deg(self, number: int) -> float:
-        """Of one session, that way; NaN for none."""
-        figures = self.progress.points[number].figures
+def goals_deg(progress: Progress, key: MeasureKey) -> list[float]:
+    """The target that each session had that way, NaN for none; nothing where the newest has none."""
+    out = []
+    for point in progress.points:
+        figures, goal = point.figures, math.nan
         for target, direction in zip(figures.targets_deg, (1, -1), strict=True):
             row = row_aimed_at(figures, figures.exercise, direction)
-            if row is not None and row.key == self.key:
-                return direction * target
-        return math.nan
+            if row is not None and row.key == key:
+                goal = direction * target
+                break
+        out.append(goal)
+    return out if out and math.isfinite(out[-1]) else []
+
+
+def token_of(key: MeasureKey) -> str:
+    """The colour of a panel's points."""
+    of, movement = key
+    angle = wrist_column(of)
+    if angle < 0 and not is_total(of):
+        return figure_of(of).token
+    return "text" if movement == "arc" else CURVE_TOKENS[angle]
+
+
+def spread_of(row: Measure) -> float:
+    """Half the error bar of a point: between repetitions, of a single one of the measurement."""
+    return row.sd if math.isfinite(row.sd) else row.measurement_sd
+
+
+def top_of(row: Measure) -> float:
+    """The upper end of its error bar."""
+    sd = spread_of(row)
+    return row.mean + (sd if math.isfinite(sd) else 0.0)
+
+
+def _is_spread(joint: str) -> bool:
+    return figure_of(joint).row == "spread"
+
+
+def entries(progress: Progress) -> list[tuple[str, str, str]]:
+    """What the signs mean."""
+    out = [("O", tr("mean, ± sd between repetitions"), "text"), ("o", tr("not compared"), "text2")]
+    out += [("t1", tr("at least: hidden in part"), "text2")] if progress.keys else []
+    if any(by_hand_of(progress, key) for key in panels_of(progress)):
+        out.append(("s", tr("by hand, active"), "text"))
+    return out
+
+
+NEAR_PX = 16
+"""Half the width of the target around a point: 32 px."""
+DAY_S = 86_400.0
+LONGEST_LINE = 60
+"""Letters of a line of what a point says."""
+
+
+class ProgressChart(ZoomChart):
+    """``opened`` carries the session of a point that was clicked, or chosen by key."""
+
+    usual_px, least_px = (864, 560), (480, 320)
+    shortest = DAY_S
+
+    opened = Signal(str)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, "progress")
+        self._progress = Progress((), (), None)
+        self._moving: list[Any] = []
+        """What goes along with the part of the time that is shown."""
+        self._ring: Any = None
+        self._said: UnderMouse | None = None
+        self._pointed: tuple[int, MeasureKey] | None = None
+        """Number of the session and panel of the point under the mouse, or chosen by key."""
+        self.setAccessibleName(self.tr("Range over the sessions"))
+
+    def show_progress(self, progress: Progress) -> None:
+        self._progress = progress
+        self._window = None
+        self._pointed = None
+        self.forget()
 
     @property
-    def newest_deg(self) -> float:
-        return self.goal_deg(len(self.progress.points) - 1)
+    def pointed(self) -> int:
+        """Number of the session that is pointed at, -1 for none."""
+        return -1 if self._pointed is None else self._pointed[0]
 
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        painter.setPen(dashed(style.color("accent"), 2 * style.unit, (5, 3)))
-        starts = [float(panel.x(point.figures.when.timestamp())) for point in self.progress.points]
-        ends = [*starts[1:], panel.box.right()]
-        painter.save()
-        painter.setClipRect(panel.box, Qt.ClipOperation.IntersectClip)
-        for number, (left, right) in enumerate(zip(starts, ends, strict=True)):
-            goal = self.goal_deg(number)
-            if math.isfinite(goal):
-                y = float(panel.y(goal))
-                painter.drawLine(QPointF(left, y), QPointF(right, y))
-        painter.restore()
+    def step(self, by: int) -> None:
+        found = [at for at in self.points() if at[1] == next(iter(panels_of(self._progress)), None)]
+        if not found:
+            return
+        numbers_of = [number for number, _, _ in found]
+        now = numbers_of.index(self.pointed) if self.pointed in numbers_of else -1 if by > 0 else len(numbers_of)
+        number, key, _ = found[min(max(now + by, 0), len(found) - 1)]
+        self._point_at((number, key))
 
+    def open_pointed(self) -> None:
+        if self._pointed is not None:
+            self.opened.emit(self._progress.points[self._pointed[0]].figures.session_id)
 
-@dataclass(frozen=True, slots=True)
-class Points:
-    """Mean of each session with its spread; those that compare are joined, the others are rings."""
+    # --- window -------------------------------------------------------------------------------------------
+    def extent(self) -> tuple[float, float] | None:
+        return extent_s(self._progress) if panels_of(self._progress) else None
 
-    progress: Progress
-    key: MeasureKey
-    chosen: int = -1
+    def about(self) -> float:
+        if self._pointed is not None:
+            return self._progress.points[self._pointed[0]].figures.when.timestamp()
+        return super().about()
 
-    def places(self, panel: Panel) -> list[tuple[int, QPointF]]:
-        """Number of the session and where its point is, of those that measured it."""
+    def show_range(self) -> None:
+        for item in self._moving:
+            self.remove(item)
+        self._moving = []
+        before = len(self._items)
+        for plot, key in zip(self.plots, panels_of(self._progress), strict=False):
+            self._add_points(plot, key)
+        self._moving = self._items[before:]
+        self._point_out()
+
+    # --- places -------------------------------------------------------------------------------------------
+    def panels(self) -> list[tuple[Panel, MeasureKey]]:
+        area = self.area if self.on_paper else QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
+        keys = entries(self._progress)
+        placed = place_panels(self._progress, self.look, area, len(self.key_lines(keys, area.width())), self._window)
+        return placed if self.on_paper else [(replace(panel, box=axes.crisp(panel.box)), key) for panel, key in placed]
+
+    def places(self, plot: Plot, key: MeasureKey) -> list[tuple[int, QPointF, Measure]]:
+        """Number of the session, where its point is, and its figures, of those that measured it and are shown."""
         out = []
-        for number, point in enumerate(self.progress.points):
-            row = row_of(self.progress, number, self.key)
-            if row is not None:
-                out.append((number, panel.at(point.figures.when.timestamp(), row.mean)))
+        start, end = self.shown()
+        for number, point in enumerate(self._progress.points):
+            row, at_s = row_of(self._progress, number, key), point.figures.when.timestamp()
+            if row is not None and start <= at_s <= end:
+                out.append((number, QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean))), row))
         return out
 
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        of, movement = self.key
-        angle = wrist_column(of)
-        unit, token = style.unit, "text" if movement == "arc" else CURVE_TOKENS[angle]
-        if angle < 0 and not is_total(of):
-            token = figure_of(of).token
-        found = [(number, at, row_of(self.progress, number, self.key)) for number, at in self.places(panel)]
-        rows = [(number, at.x(), row) for number, at, row in found if row is not None]
-        fair = [(x, row) for number, x, row in rows if self.progress.points[number].fair]
-        painter.setPen(QPen(style.color(token), style.line_width))
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        if len(fair) > 1:
-            line = np.array([x for x, _ in fair]), panel.y(np.array([row.mean for _, row in fair]))
-            painter.save()
-            painter.setClipRect(panel.box, Qt.ClipOperation.IntersectClip)
-            painter.drawPolyline(polygon(*line))
-            painter.restore()
-        for number, x, row in rows:
-            if not panel.box.left() - 1 <= x <= panel.box.right() + 1:
-                continue  # zoomed away
-            is_fair = self.progress.points[number].fair
-            color = style.color(token if is_fair else "text2")
-            middle = float(panel.y(row.mean))
-            sd = row.sd if math.isfinite(row.sd) else row.measurement_sd
-            top = middle
-            if math.isfinite(sd):
-                top, bottom = float(panel.y(row.mean + sd)), float(panel.y(row.mean - sd))
-                painter.setPen(QPen(color, 1.4 * unit))
-                for edge in (top, bottom):
-                    painter.drawLine(QPointF(x - CAP_REACH * unit, edge), QPointF(x + CAP_REACH * unit, edge))
-                painter.drawLine(QPointF(x, top), QPointF(x, bottom))
-            painter.setPen(QPen(color, 2 * unit) if not is_fair else Qt.PenStyle.NoPen)
-            painter.setBrush(style.color("surface") if not is_fair else color)
-            reach = DOT_RADIUS * unit
-            painter.drawEllipse(QPointF(x, middle), reach, reach)
-            if angle < 0 and row.at_least:
-                paint_at_least(painter, x, top - 4 * unit, unit)
-            if number == self.chosen:
-                painter.setPen(QPen(style.color("accent"), 2 * unit))
-                painter.setBrush(Qt.BrushStyle.NoBrush)
-                painter.drawEllipse(QPointF(x, middle), 9 * unit, 9 * unit)
-        roomy = panel.box.width() >= ROOMY_EM * style.end_label.pixelSize()  # else they cover what is beside them
-        apart = len(fair) > 1 and fair[-1][0] - fair[0][0] >= VALUES_APART_EM * style.end_label.pixelSize()
-        for x, row in (fair[:1] if apart else []) + fair[-1:] if roomy else []:
-            if panel.box.left() - 1 <= x <= panel.box.right() + 1:
-                self._paint_value(painter, style, panel, x, row)
+    def points(self) -> list[tuple[int, MeasureKey, QPointF]]:
+        keys = panels_of(self._progress)
+        return [
+            (number, key, at)
+            for plot, key in zip(self.plots, keys, strict=False)
+            for number, at, _ in self.places(plot, key)
+        ]
 
-    def _paint_value(self, painter: QPainter, style: PlotStyle, panel: Panel, x: float, row: Measure) -> None:
-        """The figure of the first and of the last session that compare."""
-        unit = style.unit
-        face = font(style.end_label.pixelSize() * 1.17, SEMIBOLD, display=False)
+    def point_at(self, at: QPointF) -> tuple[int, MeasureKey] | None:
+        near = [(math.hypot(p.x() - at.x(), p.y() - at.y()), number, key) for number, key, p in self.points()]
+        away, number, key = min(near, default=(math.inf, 0, ("", "arc")))
+        return (number, key) if away <= NEAR_PX else None
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def build(self) -> None:
+        progress, look, placed = self._progress, self.look, self.panels()
+        self.more.setVisible(bool(placed))
+        self._moving, self._ring, self._said = [], None, None
+        face = font(look.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
+        for panel, key in placed:
+            plot = self.add_plot(panel)
+            furnish(plot, progress, key)
+            self.add_axis(plot, "left", scale_labels(panel), 12)
+            title = self.text(name_of(progress, key), face, "text", (0.0, 1.0))
+            title.setPos(panel.box.left(), panel.box.top() - 5 * look.unit)
+            joined = [  # those that compare
+                (point.figures.when.timestamp(), row.mean)
+                for number, point in enumerate(progress.points)
+                if point.fair and (row := row_of(progress, number, key)) is not None
+            ]
+            if len(joined) > 1:
+                plot.add_line([at for at, _ in joined], [value for _, value in joined], token_of(key))
+        if not placed:
+            return
+        when = [point.figures.when for point in progress.points]
+        one_day = len({day.date() for day in when}) == 1
+        words = [numbers.day_beside(day, *when) if one_day else numbers.day_month(day) for day in when]
+        days = date_labels([(day.timestamp(), said) for day, said in zip(when, words, strict=True)])
+        for plot in {plot.panel.box.left(): plot for plot in self.plots}.values():  # the lowest of each column
+            self.add_axis(plot, "bottom", days, 14)
+        area = self.area if self.on_paper else QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
+        self.add_key(entries(progress), area)
+        if not self.on_paper:
+            self._ring = self.add_symbols("o", 18.0, pg.mkPen(look.color("accent"), width=2.0))
+            self._said = UnderMouse(self)
+        self.show_range()
+
+    def _add_points(self, plot: Plot, key: MeasureKey) -> None:
+        """Mean of each session with its spread; those that do not compare are rings. The first and the last one that
+        compare carry their figures, where these do not cover what is beside them."""
+        progress, look, unit, panel = self._progress, self.look, self.look.unit, plot.panel
+        found = self.places(plot, key)
+        for is_fair, token in ((True, token_of(key)), (False, "text2")):
+            some = [one for one in found if progress.points[one[0]].fair == is_fair]
+            pen = pg.mkPen(look.color(token), width=(1.4 if is_fair else 2.0) * unit)
+            bars = [(at, sd) for _, at, row in some if math.isfinite(sd := spread_of(row))]
+            if bars:
+                y = np.array([at.y() for at, _ in bars])
+                deg = float(panel.y(0.0) - panel.y(1.0))
+                high, beam = 2.0 * deg * np.array([sd for _, sd in bars]), 2.0 * CAP_REACH * unit
+                along = np.array([at.x() for at, _ in bars])
+                self.add(pg.ErrorBarItem(x=along, y=y, height=high, beam=beam, pen=pen))
+            places = [at for _, at, _ in some]
+            self.add_symbols("o", 2 * DOT_RADIUS, pen, token if is_fair else "surface", places)
+            least = [at for _, at, row in some if row.angle < 0 and row.at_least]
+            tops = [QPointF(at.x(), float(panel.y(top_of(row))) - 8 * unit) for _, at, row in some if at in least]
+            self.add_symbols("t1", 8.0, pen, token if is_fair else "surface", tops)
+        fair = [(at.x(), row) for number, at, row in found if progress.points[number].fair]
+        em = look.end_label.pixelSize()
+        apart = len(fair) > 1 and fair[-1][0] - fair[0][0] >= VALUES_APART_EM * em
+        if panel.box.width() >= ROOMY_EM * em:
+            for x, row in (fair[:1] if apart else []) + fair[-1:]:
+                self._add_value(plot, key, x, row)
+        add_by_hand(plot, by_hand_of(progress, key), [point.figures.when for point in progress.points])
+
+    def _add_value(self, plot: Plot, key: MeasureKey, x: float, row: Measure) -> None:
+        """The figure of a session, over its point, or under it where the line of the other hand goes through it."""
+        unit, panel = self.look.unit, plot.panel
+        face = font(self.look.end_label.pixelSize() * 1.17, SEMIBOLD, display=False)
         metrics = QFontMetricsF(face)
         text = numbers.degrees(row.mean) if row.angle < 0 else end_words(row.mean, row.what)
         sd = row.sd if math.isfinite(row.sd) else 0.0
@@ -293,53 +410,96 @@ class Points:
         if row.angle < 0 and row.at_least:
             baseline -= 10 * unit
             text = f"≥{numbers.NARROW_GAP}{text}"
-        hand = self.progress.other_hand
-        other = hand.find(*self.key) if hand else None
+        hand = self._progress.other_hand
+        other = hand.find(*key) if hand else None
         if other is not None and other.count:
             line = float(panel.y(other.mean)) + 2 * unit
             if baseline - metrics.ascent() < line < baseline + 4 * unit:
                 baseline = float(panel.y(row.mean - sd)) + 8 * unit + metrics.ascent()
         width = metrics.horizontalAdvance(text)
         left = min(x - width / 2, panel.box.right() + 4 * unit - width)  # beside it stands what the bands are
-        write(painter, QPointF(left, baseline), text, face, style.color("text"))
+        self.text(text, face).setPos(left, baseline - metrics.ascent())
 
+    # --- a point ------------------------------------------------------------------------------------------
+    def said_of(self, number: int, key: MeasureKey) -> list[str]:
+        point = self._progress.points[number]
+        figures, row = point.figures, row_of(self._progress, number, key)
+        assert row is not None
+        least = f"≥{numbers.NARROW_GAP}" if row.angle < 0 and row.at_least else ""
+        value = f"{least}{numbers.with_spread(row.mean, row.sd)}"
+        if row.angle >= 0:
+            value = terms.end_words(row.mean, row.what, row.sd)
+        named = self.tr("{name} {value}, {count} repetitions")
+        lines = [
+            numbers.report_date(figures.when),
+            named.format(name=name_of(self._progress, key), value=value, count=row.count),
+        ]
+        quality = figures.quality
+        if math.isfinite(quality.distance_m):
+            lines.append(self.tr("Camera {distance} cm away").format(distance=written(100 * quality.distance_m)))
+        if not point.fair:
+            lines.append(unfair_words(point, self._progress))
+        elif said := doubt_words(point, self._progress):
+            lines.append(said)
+        if said := corrected_words(figures):
+            lines.append(said)
+        lines += [f"“{text}”" for _, text in figures.notes[:1]]
+        lines.append(self.tr("Click opens the session"))
+        return [line if len(line) <= LONGEST_LINE else f"{line[: LONGEST_LINE - 1].rstrip()}…" for line in lines]
 
-def paint_behind(
-    painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress, panels: Sequence[tuple[Panel, MeasureKey]]
-) -> None:
-    """Everything but the points: titles, bands, grid, dates, and what the signs mean."""
-    when = [point.figures.when for point in progress.points]
-    face = font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
-    for panel, key in panels:
-        at = QPointF(panel.box.left(), panel.box.top() - 9 * style.unit)
-        write(painter, at, name_of(progress, key), face, style.color("text"))
-        for mark in (*still(progress, key), Squares(by_hand_of(progress, key), sessions=when)):
-            mark.paint(painter, style, panel)
-    one_day = len({day.date() for day in when}) == 1
-    words = [numbers.day_beside(day, *when) if one_day else numbers.day_month(day) for day in when]
-    days = Times([(day.timestamp(), said) for day, said in zip(when, words, strict=True)], 14.0, days=True)
-    for panel in {panel.box.left(): panel for panel, _ in panels}.values():  # the lowest of each column
-        days.paint(painter, style, panel)
-    if panels:
-        _key(progress).paint(painter, style, box)
+    def _point_at(self, found: tuple[int, MeasureKey] | None) -> None:
+        if found != self._pointed:
+            self._pointed = found
+            self._point_out()
+
+    def _point_out(self) -> None:
+        """A ring about the point that is pointed at, in each panel, and what it says."""
+        if self._ring is None or self._said is None:
+            return
+        rings = [at for number, _, at in self.points() if number == self.pointed]
+        self._ring.setData(x=[at.x() for at in rings], y=[at.y() for at in rings])
+        at = next((at for number, key, at in self.points() if (number, key) == self._pointed), None)
+        self._said.show_at(at, self.said_of(*self._pointed) if at is not None and self._pointed is not None else ())
+
+    # --- mouse --------------------------------------------------------------------------------------------
+    def hover(self, at: QPointF | None) -> None:
+        found = None if at is None else self.point_at(at)
+        self._point_at(found)
+        inside = at is not None and any(plot.panel.box.contains(at) for plot in self.plots)
+        pans = Qt.CursorShape.OpenHandCursor if inside and self._window is not None else Qt.CursorShape.ArrowCursor
+        self.face.setCursor(pans if found is None else Qt.CursorShape.PointingHandCursor)
+
+    def click(self, event: Any) -> None:
+        if event.double():
+            self.show_all()
+            return
+        found = self.point_at(event.scenePos())
+        self._point_at(found)
+        if found is not None:
+            self.open_pointed()
+
+    # --- for other programs -------------------------------------------------------------------------------
+    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+        """One row for each session and panel that is shown."""
+        head = ["session", "when", "what", "mean_deg", "sd_deg", "repetitions", "compared"]
+        start, end = self.shown()
+        rows = []
+        for key in panels_of(self._progress):
+            for number, point in enumerate(self._progress.points):
+                row = row_of(self._progress, number, key)
+                if row is None or not start <= point.figures.when.timestamp() <= end:
+                    continue
+                sd = written(row.sd, 1) if math.isfinite(row.sd) else ""
+                what = row.of if row.angle < 0 else row.what
+                when = point.figures.when.isoformat(timespec="seconds")
+                compared = "yes" if point.fair else "no"
+                rows.append([point.figures.session_id, when, what, written(row.mean, 1), sd, str(row.count), compared])
+        return head, rows
 
 
 def paint_chart(painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress) -> None:
-    """The whole chart at once, as on paper."""
-    panels = place_panels(progress, style, box)
-    paint_behind(painter, style, box, progress, panels)
-    for panel, key in panels:
-        Points(progress, key).paint(painter, style, panel)
-
-
-def _is_spread(joint: str) -> bool:
-    return figure_of(joint).row == "spread"
-
-
-def _key(progress: Progress) -> Key:
-    """What the signs mean."""
-    entries = [("dot", tr("mean, ± sd between repetitions"), "text"), ("ring", tr("not compared"), "text2")]
-    entries += [("arrow", tr("at least: hidden in part"), "text2")] if progress.keys else []
-    if any(by_hand_of(progress, key) for key in panels_of(progress)):
-        entries.append(("square", tr("by hand, active"), "text"))
-    return Key(entries)
+    """The chart on paper, with its words, in a box."""
+    chart = ProgressChart(Theme("light"))
+    chart.show_progress(progress)
+    chart.paint_on(painter, style, box)
+    chart.deleteLater()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen
@@ -16,16 +15,12 @@ from carpus.ui.icons import paint_state
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.card import PlotCard
+from carpus.ui.plot.chart import Chart, Layer, scale_labels
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import DrawnCurves, Scales, Target
 from carpus.ui.plot.series import Curve, Drawing
 from carpus.ui.plot.style import screen_style, write
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
-
-if TYPE_CHECKING:
-    from carpus.ui.plot.canvas import Canvas, Layer
 
 LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
 BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))
@@ -40,7 +35,7 @@ WEAK_SD_DEG = 10.0
 _NUMBER_OF = {figure: number for number, figure in enumerate(FIGURES)}
 
 
-class FingerCurves(PlotCard):
+class FingerCurves(Chart):
     """Shows the fingers of a :class:`History`; ``chosen`` tells that a figure was clicked."""
 
     usual_px = (776, 396)
@@ -54,7 +49,9 @@ class FingerCurves(PlotCard):
         self._target_deg = math.nan
         self._waiting = False
         self._speeds = False
+        self._cells: Layer | None = None
         self._values: dict[Figure, tuple[float, float, bool]] = {}
+        self.scene().sigMouseClicked.connect(lambda click: self.choose_at(click.scenePos()))
         self.setAccessibleName(self.tr("Joint angles of the last ten seconds, by finger"))
 
     def set_figure(self, figure: Figure, target_deg: float) -> None:
@@ -77,7 +74,7 @@ class FingerCurves(PlotCard):
         self._refresh()
 
     def _refresh(self) -> None:
-        if self._canvas is not None:
+        if self._cells is not None:
             self._cells.update()
 
     def minimumSizeHint(self) -> QSize:
@@ -85,7 +82,7 @@ class FingerCurves(PlotCard):
 
     def _spreads(self) -> bool:
         """Whether there is room for the spreading; the bending stays."""
-        return self.height() >= SPREADS_FROM_PX * self._theme.text_scale
+        return bool(self.height() >= SPREADS_FROM_PX * self._theme.text_scale)
 
     # --- places -------------------------------------------------------------------------------------------
     def column(self, finger: int) -> QRectF:
@@ -96,7 +93,7 @@ class FingerCurves(PlotCard):
 
     def rows_top(self) -> float:
         """Where the figures begin; without room for both, the curves stay."""
-        return self.height() - 8 - len(self._rows()) * ROW_PX * self._theme.text_scale
+        return float(self.height()) - 8 - len(self._rows()) * ROW_PX * self._theme.text_scale
 
     def _rows(self) -> tuple[Row, ...]:
         return ROWS if self.height() >= ROOMY_FROM_PX * self._theme.text_scale else ()
@@ -143,25 +140,36 @@ class FingerCurves(PlotCard):
                 self.chosen.emit(Figure(finger, self._figure.row))
 
     # --- what is in it --------------------------------------------------------------------------------------
-    def furnish(self, canvas: Canvas) -> None:
-        self._cells: Layer = canvas.add_layer(self._paint_figures, kept=True)
-        canvas.scene().sigMouseClicked.connect(lambda click: self.choose_at(click.scenePos()))
-
-    def lay_out(self, canvas: Canvas) -> None:
-        canvas.lay_out([panel for finger in FINGERS for panel in self.panels(finger)])
-        self._cells.cover(QRectF(0.0, self.rows_top(), self.width(), self.height() - self.rows_top() - 1))
-        self._cells.update()
-
-    def show_marks(self, canvas: Canvas) -> None:
-        block = self._history.block(speeds=self._speeds)
-        placed: list[tuple[Panel, list[Curve]]] = []
-        boxes = iter(canvas.boxes)
+    def build(self) -> None:
+        self._curves = []
         for finger in FINGERS:
-            for rows in (BENDING_ROWS, SPREADING_ROWS):
-                own = [Figure(finger, row) for row in rows] if (box := next(boxes)).panel.box.height() > 0.0 else []
-                placed.append((box.own, [Curve(block.series(_NUMBER_OF[one]), one.token) for one in own]))
-        drawing = Drawing(screen_style(self._theme), placed)
-        canvas.show_marks([[DrawnCurves(drawing, number)] for number in range(len(placed))])
+            for panel, rows in zip(self.panels(finger), (BENDING_ROWS, SPREADING_ROWS), strict=True):
+                if panel.box.height() <= 0.0:
+                    continue
+                own = self.add_plot(panel)
+                own.add_grid()
+                if finger == 1:
+                    self.add_axis(own, "left", scale_labels(panel), 12)
+                is_chosen = finger == self._figure.finger and (self._figure.row == "spread") == (rows == SPREADING_ROWS)
+                if is_chosen and self._has_target():
+                    own.add_level(self._target_deg, "accent", (6.0, 4.0))
+                self._curves.append((own.add_curves(kept=False), [Figure(finger, row) for row in rows]))
+        area = QRectF(0.0, self.rows_top(), self.width(), self.height() - self.rows_top() - 1)
+        self._cells = Layer(self, area, self._paint_figures)
+        self.draw()
+
+    def draw(self) -> None:
+        """What moves has changed; what all curves cost in Python is paid once."""
+        if not self.plots or not self.isVisible():
+            return
+        block = self._history.block(speeds=self._speeds)
+        placed = [
+            (curves.plot.own, [Curve(block.series(_NUMBER_OF[one]), one.token) for one in figures])
+            for curves, figures in self._curves
+        ]
+        drawing = Drawing(self.look, placed)
+        for number, (curves, _) in enumerate(self._curves):
+            curves.show_drawn(lambda _, number=number: (drawing, number))  # type: ignore[misc]
 
     def _paint_figures(self, painter: QPainter) -> None:
         """The numbers below the curves; they change ten times a second at most."""
@@ -222,19 +230,12 @@ class FingerCurves(PlotCard):
         style = screen_style(theme)
         self._text(painter, self.tr("Last 10 s"), 20, 17 * scale, 12, REGULAR, "text2")
         for finger in FINGERS:
-            bending, spreading = self.panels(finger)
+            bending = self.panels(finger)[0]
             face = font(16 * scale, SEMIBOLD)
             head = QFontMetricsF(face).elidedText(
                 finger_name(str(finger)), Qt.TextElideMode.ElideRight, bending.box.width() + 4
             )
             self._text(painter, head, bending.box.left(), 13 * scale, 16, SEMIBOLD, "text")
-            for panel in (bending, spreading):
-                shown = panel if finger == 1 else replace(panel, scale=replace(panel.scale, labels=()))
-                if panel.box.height() > 0.0:
-                    Scales().paint(painter, style, shown)
-            own = spreading if self._figure.row == "spread" else bending
-            if finger == self._figure.finger and self._has_target():
-                Target(self._target_deg).paint(painter, style, own)
         bending, spreading = self.panels(1)
         room_px = self.column(1).left() - 28
         if bending.box.height() > 0.0:

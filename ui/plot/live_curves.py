@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QFontMetricsF, QPainter
@@ -16,16 +14,12 @@ from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.card import PlotCard
+from carpus.ui.plot.chart import LINES, Chart, Hatching, Label, Layer, fitted, scale_labels
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Scales, StayWithin, Times, fitted
 from carpus.ui.plot.series import Curve
-from carpus.ui.plot.session import stay_words, target_marks, zero_marks
-from carpus.ui.plot.style import screen_style, write
+from carpus.ui.plot.session import add_limits, add_targets
+from carpus.ui.plot.style import paint_dot, write
 from carpus.ui.theme import CURVE_TOKENS, Theme
-
-if TYPE_CHECKING:
-    from carpus.ui.plot.canvas import Canvas, Layer
 
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 132, 112, 24, 28, 30
 DOT_PX = 7
@@ -35,7 +29,7 @@ ZERO_BAND_DEG = 0.5
 """Within this of zero the word for the direction stays as it was, so that it does not flutter."""
 
 
-class LiveCurves(PlotCard):
+class LiveCurves(Chart):
     """Shows the history it is given, the newest value at 0 s on the right. Nothing here moves by mouse."""
 
     usual_px, least_px = (696, 396), (420, 170)  # the number above it never gives way
@@ -49,6 +43,7 @@ class LiveCurves(PlotCard):
         self._single = False
         self._values: list[tuple[str, str, str]] = []
         self._ways = [1.0, 1.0, 1.0]
+        self._numbers: Layer | None = None
         self.setAccessibleName(self.tr("Curves of the last ten seconds"))
 
     def set_exercise(self, exercise: Exercise, target_positive_deg: float, target_negative_deg: float) -> None:
@@ -97,7 +92,7 @@ class LiveCurves(PlotCard):
         self._refresh()
 
     def _refresh(self) -> None:
-        if self._canvas is not None:
+        if self._numbers is not None:
             self._numbers.update()
 
     # --- places -------------------------------------------------------------------------------------------
@@ -136,64 +131,53 @@ class LiveCurves(PlotCard):
         return axes.angle_scale(*axis_deg(k, self._exercise), *names, tight=k != self._first())
 
     # --- what is in it ------------------------------------------------------------------------------------
-    def furnish(self, canvas: Canvas) -> None:
-        self._dots: Layer = canvas.add_layer(self._paint_dots)
-        self._numbers: Layer = canvas.add_layer(self._paint_values, kept=True)
+    def build(self) -> None:
+        placed, scale = self.panels(), self._theme.text_scale
+        self._curves = []
+        for place, (panel, column) in enumerate(placed):
+            own = self.add_plot(panel)
+            if not self._speeds:
+                add_limits(own, self._exercise, column, is_first=place == 0)
+            own.add_grid()
+            if not self._speeds and place == 0:
+                add_targets(own, *self._targets_deg)
+            self.add_axis(own, "left", scale_labels(panel), 12)
+            hatching = own.put(Hatching(own, ()), LINES)
+            self._curves.append((own.add_curves(kept=False), hatching, column))
+        ago = [Label(-float(ago), str(ago)) for ago in (2, 4, 6, 8)]
+        ends = [Label(0.0, self.tr("now")), Label(0.55 - SHOWN_S, self.tr("10 s ago"))]
+        self.add_axis(self.plots[-1], "bottom", [*ends, *ago], 9 * scale)
+        right, top = placed[0][0].box.right(), placed[0][0].box.top() - DOT_PX
+        area = QRectF(right - DOT_PX, top, 2 * DOT_PX, placed[-1][0].box.bottom() + DOT_PX - top)
+        self._dots = Layer(self, area, self._paint_dots, kept=False)
+        area = QRectF(right + DOT_PX, 0.0, self.width() - right - DOT_PX - 1, self.height())
+        self._numbers = Layer(self, area, self._paint_values)
+        self.draw()
 
-    def lay_out(self, canvas: Canvas) -> None:
-        panels = [panel for panel, _ in self.panels()]
-        canvas.lay_out(panels)
-        right, top = panels[0].box.right(), panels[0].box.top()
-        height = panels[-1].box.bottom() - top
-        self._dots.cover(QRectF(right - DOT_PX, top - DOT_PX, 2 * DOT_PX, height + 2 * DOT_PX))
-        self._numbers.cover(QRectF(right + DOT_PX, 0.0, self.width() - right - DOT_PX - 1, self.height()))
-        self._numbers.update()
-
-    def show_marks(self, canvas: Canvas) -> None:
-        canvas.show_marks([self._moving(column) for _, column in self.panels()])
-        self._dots.update()
-
-    def _moving(self, column: int) -> Sequence[Mark]:
+    def draw(self) -> None:
+        """What moves has changed."""
         history = self._history
-        series = (history.speed(column) if self._speeds else history.angle(column)).from_time(history.now_s)
-        curves = Curves([Curve(series, "curve_c" if self._speeds else CURVE_TOKENS[column])])
-        if history.waiting and len(series.value):
-            return [curves, Hatch(float(series.time_s[-1]), 0.0)]
-        return [curves]
+        if not self.plots or not self.isVisible():
+            return
+        for own, (curves, hatching, column) in zip(self.plots, self._curves, strict=True):
+            series = (history.speed(column) if self._speeds else history.angle(column)).from_time(history.now_s)
+            token = "curve_c" if self._speeds else CURVE_TOKENS[column]
+            curves.show([Curve(series, token)])
+            panel = own.panel
+            is_late = history.waiting and len(series.value) > 0
+            if is_late or hatching.stretches:
+                low, high = panel.scale.low, panel.scale.high
+                hatching.show([(float(series.time_s[-1]), 0.0, low, high)] if is_late else ())
+        self._dots.update()
 
     def _paint_dots(self, painter: QPainter) -> None:
         """The newest value of each panel."""
         history = self._history
-        if history.waiting:
-            return
-        for panel, column in self.panels():
-            value = history.speeds[column] if self._speeds else history.angles_deg[column]
-            token = "curve_c" if self._speeds else CURVE_TOKENS[column]
-            Dot(0.0, float(value), token).paint(painter, screen_style(self._theme), panel)
-
-    def _still(self, place: int, panel: Panel, column: int) -> list[Mark]:
-        """What does not move, from the back to the front."""
-        out: list[Mark] = [] if self._speeds else self._limits(column)
-        out.append(Scales())
-        if not self._speeds and column == self._first():
-            out += target_marks(*self._targets_deg)
-        if place == 0:
-            labels = [(-float(ago), str(ago)) for ago in (8, 6, 4, 2)]
-            labels += [(panel.start_s + 0.55, self.tr("10 s ago")), (0.0, self.tr("now"))]
-            out.append(Times(labels, 9.0 * self._theme.text_scale))
-        return out
-
-    def _limits(self, column: int) -> list[Mark]:
-        limit = self._exercise.trick_limit_deg
-        if column != self._first() and math.isfinite(limit):
-            return [StayWithin(limit, stay_words(limit, column))]
-        return zero_marks(column, self._exercise)
-
-    def paint_ground(self, painter: QPainter) -> None:
-        style, panels = screen_style(self._theme), self.panels()
-        for place, (panel, column) in enumerate(reversed(panels)):
-            for mark in self._still(place, panel, column):
-                mark.paint(painter, style, panel)
+        for own, (_, _, column) in zip(self.plots, self._curves, strict=True):
+            value = float(history.speeds[column] if self._speeds else history.angles_deg[column])
+            if not history.waiting and math.isfinite(value):
+                token = "curve_c" if self._speeds else CURVE_TOKENS[column]
+                paint_dot(painter, self.look, own.panel.at(0.0, value), token, 5.0)
 
     def _paint_values(self, painter: QPainter) -> None:
         for (panel, column), place in zip(self.panels(), range(3), strict=False):

@@ -15,9 +15,9 @@ from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import Mark, Name, Scales
+from carpus.ui.plot.chart import Plot
 from carpus.ui.plot.series import Series, longest_step_s
-from carpus.ui.plot.session import SessionPlot, Value, row_at
+from carpus.ui.plot.session import SessionPlot, Value, add_name, row_at
 from carpus.ui.plot.ways import AXIS_LETTERS, AXIS_TOKENS
 from carpus.ui.translate import tr
 
@@ -75,8 +75,9 @@ class MotionPlot(SessionPlot):
         labels = ((top, f"+{_plain(top)}{_gap(unit)}"), (0.0, "0"), (-top, f"{MINUS}{_plain(top)}{_gap(unit)}"))
         return Scale(-1.4 * top, 1.4 * top, (top, 0.0, -top), labels)
 
-    def still(self, place: int, key: int) -> list[Mark]:
-        return [Scales(), Name(self.panel_name(key), above=False)]
+    def furnish(self, plot: Plot, place: int, key: int) -> None:
+        plot.add_grid()
+        add_name(plot, self.panel_name(key))
 
     def panel_name(self, key: int) -> str:
         if self.kind == "zyz":

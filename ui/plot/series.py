@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 import shiboken6
+from pyqtgraph.functions import arrayToQPolygonF
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPaintEngine, QPainter, QPen, QPolygonF
 
 from carpus.core.rounding import written
 from carpus.core.types import FloatArray
 from carpus.ui.plot.axes import Panel, hatch, x_px, y_px
-from carpus.ui.plot.polygon import polygon, runs
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.theme import BAND_ALPHA
 
@@ -78,6 +78,14 @@ class Curve:
     """Where it is lost; else it stays open there."""
     share: float = 1.0
     """Of the usual width of a line."""
+
+
+def runs(flag: np.ndarray) -> list[tuple[int, int]]:
+    """First and one-past-last index of each stretch of True."""
+    wide = np.zeros(len(flag) + 2, dtype=np.bool_)
+    wide[1:-1] = flag
+    edges = np.flatnonzero(wide[1:] != wide[:-1]).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))
 
 
 class Drawing:
@@ -152,7 +160,7 @@ class Drawing:
                 for start in range(own.start + first, own.start + past, longest):
                     part = slice(start, min(start + longest, own.start + past) + 1)
                     x, around = self._x[part], np.concatenate((self._upper[part], self._lower[part][::-1]))
-                    painter.drawPolygon(polygon(np.concatenate((x, x[::-1])), around))
+                    painter.drawPolygon(arrayToQPolygonF(np.concatenate((x, x[::-1])), around))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
     def _paint_lines(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
@@ -174,7 +182,9 @@ class Drawing:
             else:
                 for first, past in runs(solid):
                     ends = self._ends[own.start + first : own.start + past]
-                    painter.drawPolyline(polygon(np.append(ends[0, 0], ends[:, 2]), np.append(ends[0, 1], ends[:, 3])))
+                    painter.drawPolyline(
+                        arrayToQPolygonF(np.append(ends[0, 0], ends[:, 2]), np.append(ends[0, 1], ends[:, 3]))
+                    )
             if len(dashes):  # no Python object per line: Qt reads the array, row by row
                 dashes = np.ascontiguousarray(dashes)
                 painter.drawLines(_wrapped(dashes.ctypes.data, QLineF), len(dashes))
@@ -249,3 +259,78 @@ def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, curve: Curv
             if not any(place.adjusted(-4, 0, 4, 0).intersects(other) for other in numbered):
                 numbered.append(place)
                 painter.drawText(QPointF(left, baseline), text)
+
+
+POINTS_PER_COLUMN = 2
+
+
+LONGEST_STRETCHES = 3.0
+"""Samples that were kept lie up to two stretches apart, a little more where pictures are missing."""
+
+
+def thinned(series: Series, columns: int) -> Series:
+    """At most two samples of each of ``columns`` equal stretches: its smallest and its largest value.
+
+    A stretch without a value keeps one sample of it, so that gaps stay, also those of missing pictures; the widest
+    band of a stretch is kept.
+    """
+    count = len(series.time_s)
+    if count <= POINTS_PER_COLUMN * columns:
+        return series
+    stretch_s = float(np.median(np.diff(series.time_s))) * count / columns
+    series = _with_gaps(series)
+    count = len(series.time_s)
+    size = -(-count // columns)
+    rows = -(-count // size)
+    first = size * np.arange(rows)
+    flat = np.full(rows * size, np.nan)
+    flat[:count] = series.value
+    value = flat.reshape(rows, size)
+    known = np.isfinite(value)
+    inside = np.arange(rows * size).reshape(rows, size) < count
+    some, gap = known.any(axis=1), (~known & inside).any(axis=1)
+    lowest = first + np.where(known, value, np.inf).argmin(axis=1)
+    highest = first + np.where(known, value, -np.inf).argmax(axis=1)
+    unknown = first + (~known & inside).argmax(axis=1)
+    kept = np.zeros(count, dtype=bool)
+    for index in (
+        lowest[some], highest[some], unknown[gap & some], first[~some], np.minimum(first + size, count)[~some] - 1,
+    ):  # fmt: skip
+        kept[index] = True
+    index = np.flatnonzero(kept)
+    sd = None
+    if series.sd is not None:
+        spread = np.full(rows * size, -np.inf)
+        spread[:count] = np.where(np.isfinite(series.sd), series.sd, -np.inf)
+        widest = spread.reshape(rows, size).max(axis=1)[index // size]
+        sd = np.where(np.isfinite(widest), widest, np.nan)
+    return Series(
+        series.time_s[index], series.value[index], sd, series.predicted[index],
+        max(series.longest_step_s, LONGEST_STRETCHES * stretch_s),
+    )  # fmt: skip
+
+
+def within(series: Series, start_s: float, end_s: float) -> Series:
+    """The samples of a stretch of time, with one beyond each end so that the line goes to the edge."""
+    first = max(int(np.searchsorted(series.time_s, start_s)) - 1, 0)
+    last = int(np.searchsorted(series.time_s, end_s, side="right")) + 1
+    if first == 0 and last >= len(series.time_s):
+        return series
+    part = slice(first, last)
+    sd = None if series.sd is None else series.sd[part]
+    return Series(series.time_s[part], series.value[part], sd, series.predicted[part], series.longest_step_s)
+
+
+def _with_gaps(series: Series) -> Series:
+    """A sample without a value in the middle of each step that is too long to be joined."""
+    before = np.flatnonzero(np.diff(series.time_s) > series.longest_step_s)
+    if not len(before):
+        return series
+    middle_s = 0.5 * (series.time_s[before] + series.time_s[before + 1])
+    return Series(
+        np.insert(series.time_s, before + 1, middle_s),
+        np.insert(series.value, before + 1, np.nan),
+        None if series.sd is None else np.insert(series.sd, before + 1, np.nan),
+        np.insert(series.predicted, before + 1, False),
+        series.longest_step_s,
+    )

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QRectF
-from PySide6.QtGui import QPainter
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.core.hand.forearm_rotation import axis_deg, is_from_thumb_up
@@ -19,14 +21,27 @@ from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.core.rounding import written
 from carpus.core.types import FloatArray, TrackStatus
 from carpus.ui import numbers, terms
-from carpus.ui.figures import FINGERS, Figure, Row, spread_labels
+from carpus.ui.figures import FINGERS, Figure, Row, spread_labels, with_side
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import Curves, Mark, Name, Remark, RepetitionMarks, Scales, StayWithin, Target, Times
-from carpus.ui.plot.series import Curve, Series, longest_step_s
+from carpus.ui.plot.chart import (
+    GROUND,
+    ChartText,
+    Curves,
+    Hatching,
+    Label,
+    Plot,
+    UnderMouse,
+    fitted,
+    scale_labels,
+    span,
+)
+from carpus.ui.plot.series import Curve, Series, longest_step_s, thinned, within
 from carpus.ui.plot.style import PlotStyle
-from carpus.ui.theme import CURVE_TOKENS
+from carpus.ui.plot.zoom_chart import ZoomChart
+from carpus.ui.theme import CURVE_TOKENS, Theme
 from carpus.ui.translate import tr
 
 BESIDE_S = 1.0
@@ -38,15 +53,34 @@ BENDING: tuple[Row, ...] = ("knuckle", "middle", "end")
 _BEND_LOW_DEG, _BEND_HIGH_DEG, _SPREAD_DEG = -15.0, 115.0, 32.0
 
 
-def target_marks(positive_deg: float, negative_deg: float) -> list[Mark]:
+def add_targets(plot: Plot, positive_deg: float, negative_deg: float) -> None:
     """The lines of the targets that there are, in degrees their own way: ``Target −40°`` of a supination short of thumb
     up. Their words stand on the far side, where no curve comes from."""
     words = tr("Target {angle}")
-    targets = [(value, way) for value, way in ((positive_deg, 1), (negative_deg, -1)) if math.isfinite(value)]
-    return [
-        Target(value, words.format(angle=numbers.signed_degrees(way * value)), is_below=way < 0)
-        for value, way in targets
-    ]
+    for value, way in ((positive_deg, 1), (negative_deg, -1)):
+        said = words.format(angle=numbers.signed_degrees(way * value)) if math.isfinite(value) else ""
+        plot.add_level(value, "accent", (6.0, 4.0), said, below=way < 0)
+
+
+def add_name(plot: Plot, words: str, *, above: bool = False) -> None:
+    """What a panel is called, at its left; ``above`` beside its upper end."""
+    look, box = plot.look, plot.panel.box
+    scale = look.end_label.pixelSize() / 12.0
+    item = plot.chart.text(words, look.end_label, "text", (0.0, 0.5))
+    item.setPos(box.left() - 102 * scale, box.top() + 6 * scale if above else box.center().y())
+
+
+def add_limits(plot: Plot, exercise: Exercise, key: int, *, is_first: bool) -> None:
+    """The band in which an angle that is not trained should stay, else where the forearm's rotation is counted from."""
+    limit = exercise.trick_limit_deg
+    if not is_first and math.isfinite(limit):
+        plot.add_band(-limit, limit, "norm")
+        room = float(plot.panel.y(limit)) - plot.panel.box.top()
+        if room >= QFontMetricsF(plot.look.end_label).height():  # a low panel has the band alone
+            plot.add_words(limit, stay_words(limit, key))
+    elif key == PRONOSUPINATION:
+        words = tr("0° = thumb up") if is_from_thumb_up(exercise) else tr("rotation from the start")
+        plot.add_words(0.0, words, small=True)
 
 
 def no_value_words() -> str:
@@ -63,13 +97,6 @@ def stay_words(limit_deg: float, key: int) -> str:
     """What is said of an angle that should hardly move."""
     within = tr("should stay within {angle}").format(angle=numbers.degrees(limit_deg))
     return within if key != PRONOSUPINATION else tr("rotation from the start; {within}").format(within=within)
-
-
-def zero_marks(key: int, exercise: Exercise) -> list[Mark]:
-    """Where the forearm's rotation is counted from, at its zero; nothing of the other angles."""
-    if key != PRONOSUPINATION:
-        return []
-    return [Remark(0.0, tr("0° = thumb up") if is_from_thumb_up(exercise) else tr("rotation from the start"))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,18 +185,12 @@ class SessionPlot:
             top += height + between
         return out
 
-    def still(self, place: int, key: int) -> list[Mark]:
-        """What lies behind the curves of the panel at a place from the top."""
-        out: list[Mark] = []
-        limit = self.exercise.trick_limit_deg
-        if place > 0 and math.isfinite(limit):
-            out.append(StayWithin(limit, stay_words(limit, key)))
-        else:
-            out += zero_marks(key, self.exercise)
-        out.append(Scales())
+    def furnish(self, plot: Plot, place: int, key: int) -> None:
+        """Add what lies behind the curves of the panel at a place from the top."""
+        add_limits(plot, self.exercise, key, is_first=place == 0)
+        plot.add_grid()
         if place == 0:
-            out += target_marks(self.target_positive_deg, self.target_negative_deg)
-        return out
+            add_targets(plot, self.target_positive_deg, self.target_negative_deg)
 
     def moving(self, key: int, points: int) -> list[Curve]:
         """The curves of a panel over what is shown, of about so many points each."""
@@ -231,9 +252,10 @@ class HandPlot(SessionPlot):
             top += unit * weight + between
         return out
 
-    def still(self, place: int, key: int) -> list[Mark]:
+    def furnish(self, plot: Plot, place: int, key: int) -> None:
+        plot.add_grid()
         words = group_words()[key] if self.finger else finger_name(str(FINGERS[key]))
-        return [Scales(), Name(words, above=bool(self.finger) and key == 0)]
+        add_name(plot, words, above=bool(self.finger) and key == 0)
 
     def moving(self, key: int, points: int) -> list[Curve]:
         """The joints of a panel; one bound to another, or never seen, only where there is room for it."""
@@ -281,23 +303,11 @@ def _spread_scale(finger: int) -> Scale:
     return Scale(-_SPREAD_DEG, _SPREAD_DEG, (20.0, 0.0, -20.0), spread_labels(20.0, finger), strong_ends=False)
 
 
-def paint_behind(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: Sequence[tuple[Panel, int]]) -> None:
-    """Everything but the curves: repetitions, grid, limits, target, time axis."""
-    repetitions = RepetitionMarks(plot.repetitions, plot.current)
-    for panel, _ in panels:
-        repetitions.paint(painter, style, panel)
-    repetitions.paint_numbers(painter, style, panels[0][0])
-    for place, (panel, key) in enumerate(panels):
-        for mark in plot.still(place, key):
-            mark.paint(painter, style, panel)
-    Times(axes.time_labels(*plot.shown_s)).paint(painter, style, panels[-1][0])
-
-
-def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: Sequence[tuple[Panel, int]]) -> None:
-    """The whole plot at once, as on paper."""
-    paint_behind(painter, style, plot, panels)
-    for panel, key in panels:
-        Curves(plot.moving(key, int(panel.box.width() / style.unit))).paint(painter, style, panel)
+def repetition_words(number: int, repetition: ShownRepetition) -> str:
+    """What stands at a repetition: its number, and why where it does not count."""
+    if repetition.helped:
+        return tr("{number} passive").format(number=number)
+    return str(number) if repetition.counts else tr("{number} out").format(number=number)
 
 
 def value_at(curves: ReportCurves, column: int, time_s: float) -> tuple[float, float]:
@@ -354,76 +364,325 @@ def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str]
     return head, (cells(row) for row in rows.tolist())
 
 
-POINTS_PER_COLUMN = 2
+LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
+PAPER_MARGINS = (106.0, 26.0, 8.0, 22.0)
+"""Left, over, right of and under the panels on paper, in its units, as the room for readings is on the screen alone."""
+HAND_BETWEEN, PAPER_BETWEEN, NUMBERS_ABOVE = 8, 12, 10
+GRIP_PX = 16
+"""Half the width of the target around an edge or the cursor: the grip is 8 px wide, the target 32."""
+SHORTEST_S = 2.0
+"""Shortest stretch of time that is shown."""
 
 
-LONGEST_STRETCHES = 3.0
-"""Samples that were kept lie up to two stretches apart, a little more where pictures are missing."""
+class SessionChart(ZoomChart):
+    """The card with the session's curves: cursor by mouse and keys, edges of a repetition by drag, zoom along the time.
 
-
-def thinned(series: Series, columns: int) -> Series:
-    """At most two samples of each of ``columns`` equal stretches: its smallest and its largest value.
-
-    A stretch without a value keeps one sample of it, so that gaps stay, also those of missing pictures; the widest
-    band of a stretch is kept.
+    Emits ``cursor_moved`` (seconds) and ``edges_moved`` (repetition, start, end).
     """
-    count = len(series.time_s)
-    if count <= POINTS_PER_COLUMN * columns:
-        return series
-    stretch_s = float(np.median(np.diff(series.time_s))) * count / columns
-    series = _with_gaps(series)
-    count = len(series.time_s)
-    size = -(-count // columns)
-    rows = -(-count // size)
-    first = size * np.arange(rows)
-    flat = np.full(rows * size, np.nan)
-    flat[:count] = series.value
-    value = flat.reshape(rows, size)
-    known = np.isfinite(value)
-    inside = np.arange(rows * size).reshape(rows, size) < count
-    some, gap = known.any(axis=1), (~known & inside).any(axis=1)
-    lowest = first + np.where(known, value, np.inf).argmin(axis=1)
-    highest = first + np.where(known, value, -np.inf).argmax(axis=1)
-    unknown = first + (~known & inside).argmax(axis=1)
-    kept = np.zeros(count, dtype=bool)
-    for index in (
-        lowest[some], highest[some], unknown[gap & some], first[~some], np.minimum(first + size, count)[~some] - 1,
-    ):  # fmt: skip
-        kept[index] = True
-    index = np.flatnonzero(kept)
-    sd = None
-    if series.sd is not None:
-        spread = np.full(rows * size, -np.inf)
-        spread[:count] = np.where(np.isfinite(series.sd), series.sd, -np.inf)
-        widest = spread.reshape(rows, size).max(axis=1)[index // size]
-        sd = np.where(np.isfinite(widest), widest, np.nan)
-    return Series(
-        series.time_s[index], series.value[index], sd, series.predicted[index],
-        max(series.longest_step_s, LONGEST_STRETCHES * stretch_s),
-    )  # fmt: skip
+
+    usual_px, least_px = (736, 360), (420, 240)
+    shortest = SHORTEST_S
+
+    cursor_moved = Signal(float)
+    edges_moved = Signal(int, float, float)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, "curves")
+        self._plot: SessionPlot | None = None
+        self._time_s = 0.0
+        self._held = ""
+        """What a drag has taken: an edge (``start``, ``end``), the ``cursor``, or nothing."""
+        self._single = False
+        self._curves: list[tuple[Curves, int]] = []
+        self._cursors: list[Any] = []
+        self._edges: list[Any] = []
+        self._readings: list[ChartText] = []
+        self.setAccessibleName(self.tr("Curves of the session"))
+
+    def show_plot(self, plot: SessionPlot) -> None:
+        """Draw another session, or the same with other repetitions, where it was looked at."""
+        self._plot = replace(plot, window_s=self._window)
+        self.forget()
+
+    def clear(self) -> None:
+        self._plot = self._window = None
+        self.forget()
+
+    def show_single(self, on: bool) -> None:
+        """Only the trained angle, where large text leaves no room for three."""
+        if on != self._single:
+            self._single = on
+            self.forget()
+
+    def set_time(self, time_s: float) -> None:
+        """Put the cursor; what is shown goes on with it."""
+        self._time_s = time_s
+        if self._window is not None and self._plot is not None and not self._held:
+            start_s, end_s = self._window
+            if not start_s <= time_s <= end_s:
+                begin_s = time_s - 0.1 * (end_s - start_s)
+                self.show_window((begin_s, begin_s + end_s - start_s))
+        self._show_time()
+
+    # --- window -------------------------------------------------------------------------------------------
+    def extent(self) -> tuple[float, float] | None:
+        return None if self._plot is None else (0.0, self._plot.end_s)
+
+    def about(self) -> float:
+        return self._time_s
+
+    def show_range(self) -> None:
+        if self._plot is not None:
+            self._plot = replace(self._plot, window_s=self._window)
+            for curves, key in self._curves:
+                curves.show(self._plot.moving(key, int(curves.plot.panel.box.width() / self.look.unit / self._share)))
+            self._show_time()
+
+    @property
+    def _share(self) -> int:
+        """Of the points that a panel has room for: on paper all of them."""
+        return 1 if self.on_paper else 2
+
+    # --- places -------------------------------------------------------------------------------------------
+    def panels(self) -> list[tuple[Panel, int]]:
+        assert self._plot is not None
+        hand, area = isinstance(self._plot, HandPlot), self.area if self.on_paper else QRectF(self.rect())
+        scale = self.look.unit if self.on_paper else self._theme.text_scale
+        left, top, right, bottom = PAPER_MARGINS if self.on_paper else (LEFT_PX, TOP_PX, RIGHT_PX, BOTTOM_PX)
+        between = HAND_BETWEEN if hand else PAPER_BETWEEN if self.on_paper else BETWEEN_PX
+        box = area.adjusted(left * scale, top * scale, -right * scale, -bottom * scale)
+        placed = self._plot.panels(box, between * scale, single=self._single)
+        return placed if self.on_paper else [(replace(panel, box=axes.crisp(panel.box)), key) for panel, key in placed]
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def build(self) -> None:
+        plot = self._plot
+        self.more.setVisible(plot is not None)
+        self._curves, self._cursors, self._edges, self._readings = [], [], [], []
+        if plot is None:
+            return
+        for place, (panel, key) in enumerate(self.panels()):
+            own = self.add_plot(panel)
+            self._add_repetitions(own, plot)
+            plot.furnish(own, place, key)
+            self.add_axis(own, "left", scale_labels(panel), 12)
+            self._curves.append((own.add_curves(), key))
+        self.add_axis(self.plots[0], "top", lambda *_: self._numbers(), NUMBERS_ABOVE)
+        self.add_axis(
+            self.plots[-1], "bottom", lambda *ends: [Label(*one) for one in reversed(axes.time_labels(*ends))], 6
+        )
+        if not self.on_paper:
+            self._add_readings(plot)
+        self.show_range()
+
+    def _add_repetitions(self, own: Plot, plot: SessionPlot) -> None:
+        """Shaded stretches; the current one in its own colour, one that is left out hatched."""
+        shown = plot.repetitions
+        if not shown:
+            return
+        low, high = own.panel.scale.low, own.panel.scale.high
+        for token, some in (
+            ("sunken", [one for k, one in enumerate(shown) if k != plot.current]),
+            ("soft", shown[plot.current : plot.current + 1] if plot.current >= 0 else ()),
+        ):
+            own.add_bars([(one.start_s, one.end_s) for one in some], token)
+        left_out = [(one.start_s, one.end_s, low, high) for one in shown if not one.counts]
+        if left_out:
+            own.put(Hatching(own, left_out), GROUND + 1)
+
+    def _numbers(self) -> list[Label]:
+        """The numbers of the repetitions; where they would touch, some are left out, never the current one."""
+        assert self._plot is not None
+        current, out = self._plot.current, []
+        for number, one in sorted(enumerate(self._plot.repetitions), key=lambda one: one[0] != current):
+            token = "text" if number == current else "text2" if one.counts else "warn"
+            words = repetition_words(number + 1, one)
+            out.append(Label(0.5 * (one.start_s + one.end_s), words, token, strong=True))
+        return out
+
+    def _add_readings(self, plot: SessionPlot) -> None:
+        """What goes with the cursor: lines, edges, dots, numbers at the right, and what is said under the mouse."""
+        first, scale = self.plots[0], self._theme.text_scale
+        if 0 <= plot.current < len(plot.repetitions):
+            one = plot.repetitions[plot.current]
+            for at in (one.start_s, one.end_s):
+                self._edges.append(first.add_cursor(at, "accent"))
+                self._edges[-1].addMarker("o", 0.5, 10.0)
+        self._cursors = [own.add_cursor(self._time_s) for own in self.plots]
+        self._under_mouse = [own.add_cursor(0.0, "text2", 1.0) for own in self.plots]
+        self._dots = self.add_symbols()
+        for own in self.plots:
+            item = self.text("", font(14 * scale, MEDIUM), "text2", (0.0, 0.5))
+            item.setPos(own.panel.box.right() + 12 * scale, own.panel.box.center().y())
+            self._readings.append(item)
+        self._said = UnderMouse(self)
+        self.hover(None)
+
+    def paint_ground(self, painter: QPainter) -> None:
+        plot, look, scale = self._plot, self.look, self._theme.text_scale
+        if plot is None:
+            return
+        painter.setFont(look.label)
+        painter.setPen(look.color("text2"))
+        if plot.repetitions:
+            painter.drawText(QPointF(20, TOP_PX * scale - NUMBERS_ABOVE), self.tr("Repetitions"))
+        words = self.tr("Ctrl+wheel: zoom")
+        if 10 + painter.fontMetrics().horizontalAdvance(words + "0") < self.panels()[-1][0].box.left():
+            painter.drawText(QPointF(10, self.height() - 10 * scale), words)  # before the times
+
+    # --- read-out -----------------------------------------------------------------------------------------
+    def _show_time(self) -> None:
+        plot, time_s = self._plot, self._time_s
+        if plot is None or not self._cursors:
+            return
+        start_s, end_s = plot.shown_s
+        is_shown = start_s <= time_s <= end_s
+        placed = self.panels()
+        many = [plot.values(key, time_s) if is_shown else [] for _, key in placed]
+        dots = [
+            (panel.at(time_s, value.value_deg), pg.mkBrush(self.look.color(value.token)))
+            for (panel, _), values in zip(placed, many, strict=True)
+            for value in values
+            if not value.hidden and value.share == 1.0 and math.isfinite(value.value_deg)
+        ]
+        self._dots.setData(
+            x=[at.x() for at, _ in dots], y=[at.y() for at, _ in dots], brush=[brush for _, brush in dots]
+        )
+        for line, item, (_, key), values in zip(self._cursors, self._readings, placed, many, strict=True):
+            line.setVisible(is_shown)
+            line.setValue(time_s)
+            item.show_rich(self._reading(plot, key, values, len(placed), max(map(len, many))))
+
+    def _reading(self, plot: SessionPlot, key: int, values: Sequence[Value], panels: int, most: int) -> str:
+        """The numbers beside a panel: with its name, or one under the other after a stroke of each curve, or side by
+        side where there is no room for a row each; a hidden joint in the second colour."""
+        scale = self._theme.text_scale
+        if values and not plot.has_readings and not isinstance(plot, HandPlot):
+            (value,) = values
+            face = fitted(font(14 * scale, REGULAR), value.name, (RIGHT_PX - 16) * scale)
+            named = span(value.name, self.look, "text2", face.pixelSize(), REGULAR)
+            if not math.isfinite(value.value_deg):
+                return named
+            angle = span(numbers.degrees(value.value_deg), self.look, "text", 20 * scale, SEMIBOLD)
+            return f"{named}<br>{angle} {span(numbers.spread(value.sd_deg), self.look, 'text2', 14 * scale, MEDIUM)}"
+        finger = plot.finger if isinstance(plot, HandPlot) else 0
+        pitch = self.plots[1].panel.box.top() - self.plots[0].panel.box.top() if panels > 1 else math.inf
+        in_a_line = isinstance(plot, HandPlot) and not finger and 18.0 * scale * most > pitch
+        out = []
+        for value in values:
+            weight, token = (MEDIUM, "text2") if value.hidden else (SEMIBOLD, "text")
+            stroke = span("- -" if value.hidden else "\N{EM DASH}", self.look, value.token, 14 * scale, SEMIBOLD)
+            if in_a_line:
+                said, stroke = numbers.degrees(value.value_deg), ""
+                out.append(span(said, self.look, value.token, 12 * scale, weight))
+            elif finger and key == 1:
+                said = with_side(value.value_deg, finger)
+                below = f"<br>{span(numbers.spread(value.sd_deg), self.look, token, 12 * scale, MEDIUM)}"
+                below = below if math.isfinite(value.value_deg) else ""
+                out.append(f"{stroke} {span(said, self.look, token, 14 * scale, weight)}{below}")
+            else:
+                out.append(f"{stroke} {span(value.words, self.look, token, 14 * scale, weight)}")
+        return ("&nbsp; " if in_a_line else "<br>").join(out)
+
+    def hover(self, at: QPointF | None) -> None:
+        """What is under the mouse: a line through all panels, and the values of the panel it is in."""
+        if self._plot is None or not self._cursors:
+            return
+        inside = at is not None and any(own.panel.box.contains(at) for own in self.plots)
+        shown = at if inside and not self._held else None
+        for line in self._under_mouse:
+            line.setVisible(shown is not None)
+            if shown is not None:
+                line.setValue(self.time_at(shown.x()))
+        self._said.show_at(shown, self.said_at(shown) if shown is not None else ())
+        over_edge = at is not None and self._edge_at(at) != ""
+        pans = inside and self._window is not None
+        shape = Qt.CursorShape.SizeHorCursor if over_edge else Qt.CursorShape.OpenHandCursor
+        self.face.setCursor(shape if over_edge or pans else Qt.CursorShape.ArrowCursor)
+
+    def said_at(self, at: QPointF) -> list[str]:
+        plot = self._plot
+        assert plot is not None
+        time_s = self.time_at(at.x())
+        lines = [numbers.clock_tenths(time_s)]
+        for panel, key in self.panels():
+            if panel.box.contains(at):
+                for value in plot.values(key, time_s):
+                    hidden = self.tr("hidden") if value.hidden and math.isfinite(value.value_deg) else ""
+                    named = value.name if not math.isfinite(value.value_deg) else f"{value.name} {value.words} {hidden}"
+                    named = value.said or named
+                    lines.append(named.strip())
+        return lines
+
+    # --- mouse --------------------------------------------------------------------------------------------
+    def _edge_at(self, point: QPointF) -> str:
+        """``start`` or ``end`` of the current repetition under the mouse, empty for none."""
+        plot = self._plot
+        if plot is None or not 0 <= plot.current < len(plot.repetitions):
+            return ""
+        panel = self.panels()[0][0]
+        if not panel.box.top() <= point.y() <= panel.box.bottom():
+            return ""
+        repetition = plot.repetitions[plot.current]
+        away = {
+            "start": abs(point.x() - float(panel.x(repetition.start_s))),
+            "end": abs(point.x() - float(panel.x(repetition.end_s))),
+        }
+        nearest = min(away, key=lambda edge: away[edge])
+        return nearest if away[nearest] <= GRIP_PX else ""
+
+    def time_at(self, x: float) -> float:
+        panel = self.panels()[0][0]
+        share = (x - panel.box.left()) / max(panel.box.width(), 1.0)
+        return panel.start_s + min(max(share, 0.0), 1.0) * (panel.end_s - panel.start_s)
+
+    def click(self, event: Any) -> None:
+        """Once the cursor, twice the repetitions alone and the whole again."""
+        if self._plot is None:
+            return
+        if event.double():
+            self.show_window(self._plot.repetitions_s if self._plot.window_s is None else None)
+        elif not self._edge_at(event.scenePos()):
+            self.cursor_moved.emit(self.time_at(event.scenePos().x()))
+
+    def drag(self, event: Any) -> bool:
+        """An edge, the cursor, or with nothing to move along the cursor too; anything else moves along the time."""
+        if self._plot is None or event.button() != Qt.MouseButton.LeftButton:
+            return False
+        if event.isStart():
+            at = event.buttonDownScenePos()
+            panel = self.panels()[0][0]
+            at_cursor = abs(float(panel.x(self._time_s)) - at.x()) <= GRIP_PX
+            self._held = self._edge_at(at) or ("cursor" if at_cursor or self._window is None else "")
+            self.hover(None)
+        held, time_s = self._held, self.time_at(event.scenePos().x())
+        if held == "cursor":
+            self.cursor_moved.emit(time_s)
+        elif held:
+            self._move_edge(held, time_s, over=event.isFinish())
+        if event.isFinish():
+            self._held = ""
+        return bool(held)
+
+    def _move_edge(self, edge: str, time_s: float, *, over: bool) -> None:
+        plot = self._plot
+        assert plot is not None
+        moved = with_edge(plot.repetitions[plot.current], edge, time_s)
+        shown = list(plot.repetitions)
+        shown[plot.current] = moved
+        self.show_plot(replace(plot, repetitions=shown))
+        if over:
+            self.edges_moved.emit(plot.current, moved.start_s, moved.end_s)
+
+    # --- for other programs -------------------------------------------------------------------------------
+    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+        assert self._plot is not None
+        return session_table(self._plot, [key for _, key in self.panels()])
 
 
-def within(series: Series, start_s: float, end_s: float) -> Series:
-    """The samples of a stretch of time, with one beyond each end so that the line goes to the edge."""
-    first = max(int(np.searchsorted(series.time_s, start_s)) - 1, 0)
-    last = int(np.searchsorted(series.time_s, end_s, side="right")) + 1
-    if first == 0 and last >= len(series.time_s):
-        return series
-    part = slice(first, last)
-    sd = None if series.sd is None else series.sd[part]
-    return Series(series.time_s[part], series.value[part], sd, series.predicted[part], series.longest_step_s)
-
-
-def _with_gaps(series: Series) -> Series:
-    """A sample without a value in the middle of each step that is too long to be joined."""
-    before = np.flatnonzero(np.diff(series.time_s) > series.longest_step_s)
-    if not len(before):
-        return series
-    middle_s = 0.5 * (series.time_s[before] + series.time_s[before + 1])
-    return Series(
-        np.insert(series.time_s, before + 1, middle_s),
-        np.insert(series.value, before + 1, np.nan),
-        None if series.sd is None else np.insert(series.sd, before + 1, np.nan),
-        np.insert(series.predicted, before + 1, False),
-        series.longest_step_s,
-    )
+def paint_session(painter: QPainter, look: PlotStyle, plot: SessionPlot, box: QRectF) -> None:
+    """The chart on paper, with its words, in a box."""
+    chart = SessionChart(Theme("light"))
+    chart.show_plot(plot)
+    chart.paint_on(painter, look, box)
+    chart.deleteLater()

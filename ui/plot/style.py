@@ -70,3 +70,11 @@ def paper_style(point_px: float) -> PlotStyle:
     """Style of the printed page, always light; ``point_px`` painter units per point."""
     regular, medium = (font(8.5 * point_px, weight, display=False) for weight in (REGULAR, MEDIUM))
     return PlotStyle(LIGHT, regular, medium, 1.2 * point_px, 0.6 * point_px, 0.75 * point_px)
+
+
+def paint_dot(painter: QPainter, style: PlotStyle, at: QPointF, token: str, radius: float) -> None:
+    """A disc with a seam, ``radius`` design pixels."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
+    painter.setBrush(style.color(token))
+    painter.drawEllipse(at, radius * style.unit, radius * style.unit)

@@ -7,22 +7,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pyqtgraph as pg
+from pyqtgraph.functions import arrayToQPolygonF
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
+from carpus.core.hand.exercises import STILL_RADIUS_MM
 from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.rounding import written
 from carpus.core.types import FloatArray, Side
 from carpus.ui import numbers
+from carpus.ui.controls.text import paint_status
 from carpus.ui.figures import FINGERS
-from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot.axes import Panel, Scale, crisp
-from carpus.ui.plot.marks import Mark, paint_dot
-from carpus.ui.plot.polygon import polygon, runs
-from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, write
+from carpus.ui.plot.chart import CURVES, FRONT, GRID, LINES, Chart, InPixels, Layer, Plot
+from carpus.ui.plot.history import SHOWN_S, History
+from carpus.ui.plot.series import runs
+from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, dashed, paint_dot, write
+from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
+EDGE_PX, HEAD_PX, BETWEEN_PX = 20, 34, 14
+STILL_SPAN_MM, FREE_SPAN_MM = 60.0, 600.0
+"""Side of the squares while it is measured: for exercises with a still forearm, and for all others."""
+LIVE_SHARE = 0.22
 BARS_MM = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
 LEAST_SPAN_MM = 40.0
 """A hand that lies still is not looked at more closely."""
@@ -37,6 +47,14 @@ RECENT_S = 1.0
 _OF_FINGER = ("MCP", "PIP", "DIP", "TIP")
 _OF_THUMB = ("CMC", "MCP", "IP", "TIP")
 _JOINT_TOKENS = ("curve_a", "curve_b", "curve_c", "accent")
+UP = (0, 2, 2)
+ACROSS = (1, 0, 1)
+ACROSS_SIGN = (-1.0, 1.0, -1.0)
+"""From above and from the fingers Y of W0 points to the left of the picture, on both hands."""
+AXIS_TOKENS = ("curve_c", "curve_a", "curve_b")
+"""X turns pro/supination, Y flexion, Z deviation: each axis has the colour of its angle."""
+AXIS_LETTERS = ("X", "Y", "Z")
+PLANE_LETTERS = ("XY", "ZX", "ZY")
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +78,18 @@ class WayPlot:
     side: Side
     low_mm: FloatArray
     high_mm: FloatArray
+    room: float = ROOM
+    recent_s: float = RECENT_S
+    """What is drawn strongly before the present place."""
+    axis_share: float = NOW_SHARE
+    """Length of the hand's axes at the present place, of the panel's height."""
+    is_whole: bool = True
+    """All of a session, with the hand's axes along it."""
 
     def per_mm(self, box: QRectF) -> float:
         """Painter units for a millimetre in a panel of this size, the same in all three planes and in both
         directions."""
-        needs = np.maximum(ROOM * (self.high_mm - self.low_mm), LEAST_SPAN_MM)
+        needs = np.maximum(self.room * (self.high_mm - self.low_mm), LEAST_SPAN_MM)
         fits = [(box.width() / needs[ACROSS[plane]], box.height() / needs[UP[plane]]) for plane in range(3)]
         return float(min(min(fit) for fit in fits))
 
@@ -106,68 +131,80 @@ def plane_names(side: Side) -> tuple[tuple[str, str, str, str], ...]:
     """Up, across, title and letters of the three planes."""
     thumb = tr("thumb ←") if side == "right" else tr("thumb →")
     return (
-        (tr("fingers ↑"), thumb, tr("From above"), "XY"),
-        (tr("up ↑"), tr("fingers →"), tr("From the side"), "ZX"),
-        (tr("up ↑"), thumb, tr("From the fingers"), "ZY"),
+        (tr("fingers ↑"), thumb, tr("From above"), PLANE_LETTERS[0]),
+        (tr("up ↑"), tr("fingers →"), tr("From the side"), PLANE_LETTERS[1]),
+        (tr("up ↑"), thumb, tr("From the fingers"), PLANE_LETTERS[2]),
     )
 
 
 def side_by_side(style: PlotStyle, box: QRectF, gap: float) -> list[Panel]:
     """Three panels side by side in a box, none higher than wide, with a line of words over each and one under it
     where there is room."""
-    width = max((box.width() - 2 * gap) / 3, 1.0)
+    width = max(math.floor((box.width() - 2 * gap) / 3), 1.0)
     line = _line(style)
     below = line if box.height() >= ROOMY_LINES * line else 0.0
     height = max(min(width, box.height() - line - below), 1.0)
     if not below:
         height = min(height, (ROOMY_LINES - 2.0) * line - 2.0)  # so that no title is asked for
+    height = max(math.floor(height), 1.0)
     top = box.top() + line + 0.5 * (box.height() - line - below - height)
     places = [crisp(QRectF(box.left() + plane * (width + gap), top, width, height)) for plane in range(3)]
     return [Panel(place, Scale(-1.0, 1.0, (), ()), -1.0, 1.0) for place in places]
 
 
-@dataclass(frozen=True, slots=True)
-class PlaneMark:
-    """What is drawn in one plane up to ``until_s``, NaN for the whole way without an end."""
+class PlaneItem(InPixels):
+    """Ways in one plane up to ``until_s``, NaN for the whole way without an end, with the hand's axes as three lines:
+    their letters and the names of the ways find room that pyqtgraph does not look for."""
 
-    plot: WayPlot
-    plane: int
-    until_s: float = math.nan
+    def __init__(self, plot: Plot, plane: int) -> None:
+        super().__init__(plot, kept=False)
+        self.plane, self.taken = plane, list[QRectF]()
+        self.ways: WayPlot | None = None
+        self.until_s = math.nan
 
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        painter.save()
-        painter.setClipRect(panel.box, Qt.ClipOperation.IntersectClip)
-        if self.plot.axes is not None:
-            self._paint_axes_along(painter, style, panel, self.plot.axes)
-        taken = [_bar_room(style, panel.box)]
+    def show(self, ways: WayPlot | None, until_s: float) -> None:
+        self.ways, self.until_s = ways, until_s
+        self.update()
+
+    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if self.ways is None:
+            return
+        if self.ways.axes is not None and self.ways.is_whole:
+            self._paint_axes_along(painter, style, panel, self.ways.axes)
+        taken = [*self.taken]
         row = self._row()
-        for way in self.plot.ways:
+        for way in self.ways.ways:
             x, y = self._places(panel, way.place_mm)
             self._paint_way(painter, style, way, x, y)
             if row >= 0 and math.isfinite(float(x[row] + y[row])):
-                self._paint_now(painter, style, way, QPointF(float(x[row]), float(y[row])))
-        for way in self.plot.ways:
+                paint_dot(painter, style, QPointF(float(x[row]), float(y[row])), way.token, 4.5)
+        for way in self.ways.ways:
             self._paint_name(painter, style, panel, way, self._places(panel, way.place_mm), taken)
-        if row >= 0 and self.plot.axes is not None:
-            place = self._places(panel, self.plot.ways[0].place_mm[row : row + 1])
+        if row >= 0 and self.ways.axes is not None:
+            place = self._places(panel, self.ways.ways[0].place_mm[row : row + 1])
             at = QPointF(float(place[0][0]), float(place[1][0]))
-            self._paint_axes(painter, style, at, self.plot.axes[row], panel.box.height() * NOW_SHARE, lettered=True)
-        painter.restore()
+            self._paint_axes(
+                painter, style, at, self.ways.axes[row], panel.box.height() * self.ways.axis_share, lettered=True
+            )
 
     def _row(self) -> int:
-        if not math.isfinite(self.until_s) or not len(self.plot.time_s):
+        assert self.ways is not None
+        if not math.isfinite(self.until_s) or not len(self.ways.time_s):
             return -1
-        return int(np.abs(self.plot.time_s - self.until_s).argmin())
+        return int(np.abs(self.ways.time_s - self.until_s).argmin())
 
     def _places(self, panel: Panel, place_mm: FloatArray) -> tuple[FloatArray, FloatArray]:
-        away = place_mm - 0.5 * (self.plot.low_mm + self.plot.high_mm)
-        scale = self.plot.per_mm(panel.box)
+        """Where they are in the panel."""
+        assert self.ways is not None
+        away = place_mm - 0.5 * (self.ways.low_mm + self.ways.high_mm)
+        scale = self.ways.per_mm(panel.box)
         across, up, sign = ACROSS[self.plane], UP[self.plane], ACROSS_SIGN[self.plane]
         center = panel.box.center()
         return center.x() + sign * away[:, across] * scale, center.y() - away[:, up] * scale
 
     def _paint_way(self, painter: QPainter, style: PlotStyle, way: WayLine, x: FloatArray, y: FloatArray) -> None:
         """Solid where it was seen, dashed where it was not; of a way with an end what lies ahead is faint."""
+        assert self.ways is not None
         painter.setBrush(Qt.BrushStyle.NoBrush)
         known = np.isfinite(x) & np.isfinite(y)
         row = self._row()
@@ -181,15 +218,14 @@ class PlaneMark:
                     if not seen:
                         pen.setDashPattern([2.2, 2.2])
                     painter.setPen(pen)
-                    painter.drawPolyline(polygon(x[begin:end], y[begin:end]))
+                    painter.drawPolyline(arrayToQPolygonF(x[begin:end], y[begin:end]))
         if row >= 0:
-            recent = int(np.searchsorted(self.plot.time_s, self.plot.time_s[row] - RECENT_S))
+            recent = int(np.searchsorted(self.ways.time_s, self.ways.time_s[row] - self.ways.recent_s))
             painter.setPen(QPen(style.color(way.token), 2.0 * style.line_width))
             for first, last in runs(known[recent : row + 1]):
-                painter.drawPolyline(polygon(x[recent + first : recent + last], y[recent + first : recent + last]))
-
-    def _paint_now(self, painter: QPainter, style: PlotStyle, way: WayLine, at: QPointF) -> None:
-        paint_dot(painter, style, at, way.token, 4.5)
+                painter.drawPolyline(
+                    arrayToQPolygonF(x[recent + first : recent + last], y[recent + first : recent + last])
+                )
 
     def _paint_name(
         self, painter: QPainter, style: PlotStyle, panel: Panel, way: WayLine,
@@ -215,7 +251,8 @@ class PlaneMark:
                     return
 
     def _paint_axes_along(self, painter: QPainter, style: PlotStyle, panel: Panel, axes: FloatArray) -> None:
-        place_mm = self.plot.ways[0].place_mm
+        assert self.ways is not None
+        place_mm = self.ways.ways[0].place_mm
         known = np.flatnonzero(np.isfinite(place_mm).all(axis=1) & np.isfinite(axes).all(axis=(1, 2)))
         if not len(known):
             return
@@ -230,7 +267,8 @@ class PlaneMark:
     ) -> None:
         across, up, sign = ACROSS[self.plane], UP[self.plane], ACROSS_SIGN[self.plane]
         letters: list[QPointF] = []
-        for axis in range(3):
+        named = PLANE_LETTERS[self.plane]  # the plane's own first: where two would touch, the third goes without
+        for axis in sorted(range(3), key=lambda axis: AXIS_LETTERS[axis] not in named):
             away = QPointF(sign * float(turned[across, axis]) * length, -float(turned[up, axis]) * length)
             if not math.isfinite(away.x() + away.y()):
                 return
@@ -242,37 +280,49 @@ class PlaneMark:
             size = style.label.pixelSize()
             center = at + away * (1.0 + 0.7 * size / max(reach, 1e-6))
             free = all(math.hypot((center - other).x(), (center - other).y()) > size for other in letters)
-            edge = 0.6 * size
-            shown = painter.clipBoundingRect().adjusted(edge, edge, -edge, -edge)
-            inside = not painter.hasClipping() or shown.contains(center)
+            box = QRectF(center.x() - size, center.y() - size, 2 * size, 2 * size)
+            small, edge = box.adjusted(size / 3, size / 3, -size / 3, -size / 3), 0.6 * size
+            inside = QRectF(self.plot.rect()).adjusted(edge, edge, -edge, -edge).contains(center)
+            inside = inside and not any(small.intersects(other) for other in self.taken)
             if lettered and reach >= size and free and inside:
                 letters.append(center)
-                box = QRectF(center.x() - size, center.y() - size, 2 * size, 2 * size)
                 face, middle = font(size, SEMIBOLD, display=False), Qt.AlignmentFlag.AlignCenter
                 write(painter, box, AXIS_LETTERS[axis], face, color, middle)
 
 
-def plane_marks(plot: WayPlot, until_s: float = math.nan) -> list[list[Mark]]:
-    """What is drawn in each of the three squares."""
-    return [[PlaneMark(plot, plane, until_s)] for plane in range(3)]
+class BallItem(InPixels):
+    """Where the point that the wrist turns about must stay, a ring, and where it is, a cross."""
 
+    def __init__(self, plot: Plot, plane: int, words: str) -> None:
+        super().__init__(plot, kept=False)
+        self._plane, self._words = plane, words
+        self._now: tuple[FloatArray, FloatArray, float] | None = None
 
-def paint_planes(painter: QPainter, style: PlotStyle, plot: WayPlot, panels: Sequence[Panel]) -> None:
-    """Squares, their cross of axes and their words, behind the ways."""
-    line = _line(style)
-    for panel, (up, across, title, letters) in zip(panels, plane_names(plot.side), strict=True):
-        box = panel.box
-        painter.setPen(QPen(style.color("line"), style.grid_width))
+    def show(self, home_mm: FloatArray, now_mm: FloatArray, per_mm: float) -> None:
+        self._now = home_mm, now_mm, per_mm
+        self.update()
+
+    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if self._now is None or not np.isfinite(self._now[0] + self._now[1]).all():
+            return
+        home, now = (panel.box.center() + _in_plane(self._plane, place) * self._now[2] for place in self._now[:2])
+        radius = STILL_RADIUS_MM * self._now[2]
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(dashed(style.color("border"), style.unit, (4, 3)))
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawRect(box)
-        painter.drawLine(QPointF(box.center().x(), box.top()), QPointF(box.center().x(), box.bottom()))
-        painter.drawLine(QPointF(box.left(), box.center().y()), QPointF(box.right(), box.center().y()))
-        over = QRectF(box.left(), box.top() - line, box.width(), line)
-        write(painter, over, f"{letters} · {up}", style.label, style.color("text2"))
-        write(painter, over, across, style.label, style.color("text2"), RIGHT_MIDDLE)
-        if is_titled(style, panel):
-            write(painter, over.translated(0.0, box.height() + line), title, style.end_label, style.color("text"))
-        _paint_bar(painter, style, plot, box)
+        painter.drawEllipse(home, radius, radius)
+        painter.setPen(QPen(style.color("text"), 1.5 * style.unit))
+        for dx, dy in ((4.0, 0.0), (0.0, 4.0)):
+            arm = QPointF(dx * style.unit, dy * style.unit)
+            painter.drawLine(now - arm, now + arm)
+        if self._words:
+            at = QPointF(home.x() + 6, home.y() - radius - 4)
+            write(painter, at, self._words, style.label, style.color("text2"))
+
+
+def _in_plane(plane: int, place: FloatArray) -> QPointF:
+    """Of something in W0, as it goes on in the picture."""
+    return QPointF(ACROSS_SIGN[plane] * float(place[ACROSS[plane]]), -float(place[UP[plane]]))
 
 
 def is_titled(style: PlotStyle, panel: Panel) -> bool:
@@ -284,25 +334,182 @@ def _line(style: PlotStyle) -> float:
     return QFontMetricsF(style.label).height() + 4 * style.unit
 
 
-def _bar_room(style: PlotStyle, box: QRectF) -> QRectF:
-    """The corner that the scale bar takes."""
-    return QRectF(box.left(), box.bottom() - 1.6 * _line(style), 0.32 * box.width(), 1.6 * _line(style))
+class PlanesChart(Chart):
+    """Three squares, each with its frame and a cross through its middle."""
+
+    def add_planes(self, panels: Sequence[Panel]) -> list[PlaneItem]:
+        out = []
+        for plane, panel in enumerate(panels):
+            plot = self.add_plot(panel)
+            plot.setBorder(plot.pen("line", self.look.grid_width / self.look.unit))
+            for angle in (0, 90):
+                line = pg.InfiniteLine(0.0, angle, plot.pen("line", self.look.grid_width / self.look.unit))
+                plot.put(line, GRID)
+            out.append(plot.put(PlaneItem(plot, plane), CURVES))
+        return out
 
 
-def _paint_bar(painter: QPainter, style: PlotStyle, plot: WayPlot, box: QRectF) -> None:
-    """How long so many millimetres are, in the lower left corner."""
-    length = plot.bar_mm(box)
-    left, y = box.left() + 8 * style.unit, box.bottom() - 8 * style.unit
-    painter.setPen(QPen(style.color("border"), 1.5 * style.unit))
-    painter.drawLine(QPointF(left, y), QPointF(left + length * plot.per_mm(box), y))
-    words = f"{written(length)}{numbers.NARROW_GAP}mm"
-    write(painter, QPointF(left, y - 4 * style.unit), words, style.label, style.color("text2"))
+class WaysChart(PlanesChart):
+    """The card with the ways of a session, of the wrist with the hand's axes or of finger joints, up to the player's
+    time; on paper all of them, without a title."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme)
+        self._plot: WayPlot | None = None
+        self._title = ""
+        self._time_s = math.nan
+        self._planes: list[PlaneItem] = []
+        self.setAccessibleName(self.tr("Ways in three planes"))
+
+    def show_plot(self, plot: WayPlot, title: str = "") -> None:
+        self._plot, self._title = plot, title
+        self.forget()
+
+    def set_time(self, time_s: float) -> None:
+        self._time_s = time_s
+        for item in self._planes:
+            item.show(self._plot, self._time_s)
+
+    def panels(self) -> list[Panel]:
+        if self.on_paper:
+            return side_by_side(self.look, self.area, 16 * self.look.unit)
+        head = HEAD_PX * self._theme.text_scale
+        box = QRectF(self.rect()).adjusted(EDGE_PX, head, -EDGE_PX, -10)
+        return side_by_side(self.look, box, BETWEEN_PX)
+
+    def build(self) -> None:
+        ways, look, line = self._plot, self.look, _line(self.look)
+        self._planes = []
+        if ways is None:
+            return
+        if not self.on_paper:
+            scale = self._theme.text_scale
+            self.text(self._title, font(14 * scale, SEMIBOLD), "text", (0.0, 0.5)).setPos(EDGE_PX, 19 * scale)
+        panels = self.panels()
+        self._planes = self.add_planes(panels)
+        for panel, item, (up, across, title, letters) in zip(panels, self._planes, plane_names(ways.side), strict=True):
+            box = panel.box
+            self.text(f"{letters} · {up}", look.label, "text2", (0.0, 0.5)).setPos(box.left(), box.top() - line / 2)
+            self.text(across, look.label, "text2", (1.0, 0.5)).setPos(box.right(), box.top() - line / 2)
+            if is_titled(look, panel):
+                self.text(title, look.end_label, "text", (0.0, 0.5)).setPos(box.left(), box.bottom() + line / 2)
+            self._add_bar(item, ways)
+            item.show(ways, math.nan if self.on_paper else self._time_s)
+
+    def _add_bar(self, item: PlaneItem, ways: WayPlot) -> None:
+        """How long so many millimetres are, in the lower left corner."""
+        plot, look, unit = item.plot, self.look, self.look.unit
+        box, line = plot.panel.box, _line(look)
+        item.taken.append(QRectF(0.0, box.height() - 1.6 * line, 0.32 * box.width(), 1.6 * line))
+        length, across, up = ways.bar_mm(box), 2.0 / box.width(), 2.0 / box.height()  # a panel goes from -1 to 1
+        start, y = -1.0 + 8 * unit * across, -1.0 + 8 * unit * up
+        plot.add_line([start, start + length * ways.per_mm(box) * across], [y, y], "border", 1.5, layer=LINES)
+        words = self.text(f"{written(length)}{numbers.NARROW_GAP}mm", look.label, "text2", (0.0, 1.0))
+        words.setPos(box.left() + 8 * unit, box.bottom() - 10 * unit)
 
 
-UP = (0, 2, 2)
-ACROSS = (1, 0, 1)
-ACROSS_SIGN = (-1.0, 1.0, -1.0)
-"""From above and from the fingers Y of W0 points to the left of the picture, on both hands."""
-AXIS_TOKENS = ("curve_c", "curve_a", "curve_b")
-"""X turns pro/supination, Y flexion, Z deviation: each axis has the colour of its angle."""
-AXIS_LETTERS = ("X", "Y", "Z")
+class PathView(PlanesChart):
+    """The card with the path of the wrist and its axes over the last seconds, in three squares of fixed size (figures 3
+    and 5 of the wrist paper)."""
+
+    usual_px, least_px = (520, 242), (380, 180)
+
+    def __init__(self, theme: Theme, history: History) -> None:
+        super().__init__(theme)
+        self._history = history
+        self._side: Side = "right"
+        self._pure = True
+        self._planes: list[PlaneItem] = []
+        self._balls: list[BallItem] = []
+        self.setAccessibleName(self.tr("Path of the wrist"))
+
+    def set_exercise(self, side: Side, pure_wrist: bool) -> None:
+        self._side, self._pure = side, pure_wrist
+        self.forget()
+
+    # --- places -------------------------------------------------------------------------------------------
+    def _head(self) -> QRectF:
+        return QRectF(20, 12, self.width() - 40, 24 * self._theme.text_scale)
+
+    def panels(self) -> list[Panel]:
+        """The squares of the three planes; both axes in millimetres from the forearm's place at rest."""
+        scale = self._theme.text_scale
+        top = self._head().bottom() + 6
+        size = min((self.width() - 40 - 2 * 15) / 3, self.height() - top - 46 * scale)
+        gap = (self.width() - 40 - 3 * size) / 2
+        boxes = [crisp(QRectF(20 + plane * (size + gap), top, size, size)) for plane in range(3)]
+        return [Panel(box, Scale(-1.0, 1.0, (), ()), -1.0, 1.0) for box in boxes]
+
+    def _span_mm(self) -> float:
+        return STILL_SPAN_MM if self._pure else FREE_SPAN_MM
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def build(self) -> None:
+        look, scale = self.look, self._theme.text_scale
+        self.text(self.tr("Path of the wrist, last 10 s"), font(14 * scale, SEMIBOLD), "text", (0.0, 0.5)).setPos(
+            20, self._head().center().y()
+        )
+        self._planes = self.add_planes(self.panels())
+        self._balls = []
+        for plane, (item, (up, across, title, letters)) in enumerate(
+            zip(self._planes, plane_names(self._side), strict=True)
+        ):
+            box, metrics = item.plot.panel.box, QFontMetricsF(look.label)
+            fits = metrics.horizontalAdvance(up) + metrics.horizontalAdvance(across) + 24 <= box.width()
+            height = metrics.height()
+            over = box.top() + 4 * scale
+            beside = over if fits else box.bottom() - 4 * scale - height  # below, the ring may lie
+            for words, anchor, x, y in ((up, 0.0, box.left() + 8, over), (across, 1.0, box.right() - 8, beside)):
+                self.text(words, look.label, "text2", (anchor, 0.0)).setPos(x, y)
+                wide = metrics.horizontalAdvance(words)
+                item.taken.append(QRectF(x - anchor * wide - box.left(), y - box.top(), wide, height))
+            self.text(title, look.end_label).setPos(box.left(), box.bottom() + 4)
+            self.text(letters, look.end_label, "text2", (1.0, 0.0)).setPos(box.right(), box.bottom() + 4)
+            if self._pure:
+                ball = item.plot.put(BallItem(item.plot, plane, self.tr("15 mm") if plane == 0 else ""), FRONT)
+                self._balls.append(ball)
+        words = self.tr("{span} × {span} mm, fixed").format(span=written(self._span_mm()))
+        if self._pure:
+            words += self.tr(" · cross: where the wrist turns; it must stay in the ring")
+        at = self._planes[0].plot.panel.box.bottom() + 26 * scale
+        self.text(words, font(12 * scale, REGULAR), "text2").setPos(20, at)
+        self._said = Layer(self, self._head(), self._paint_forearm)
+        self.draw()
+
+    def draw(self) -> None:
+        """What moves has changed."""
+        if not self.plots or not self.isVisible():
+            return
+        history = self._history
+        way, turned, half = history.path_mm(), history.axes(), np.full(3, self._span_mm() / 2)
+        line = WayLine(way, "accent", "", np.ones(len(way), dtype=bool))
+        time_s = np.linspace(-SHOWN_S, 0.0, len(way))
+        ways = WayPlot(time_s, [line], turned, self._side, -half, half, 1.0, SHOWN_S / 2, LIVE_SHARE, is_whole=False)
+        for item in self._planes:
+            item.show(ways if len(way) else None, 0.0)
+        for ball in self._balls:
+            ball.show(history.centre_home_mm(), history.centre_mm(), ways.per_mm(ball.plot.panel.box))
+        self._said.update()
+
+    def _paint_forearm(self, painter: QPainter) -> None:
+        head, distance = self._head(), self._history.from_home_mm()
+        if not self._pure or not math.isfinite(distance):
+            return
+        moved = distance > STILL_RADIUS_MM
+        pattern = self.tr("arm moved ({distance})") if moved else self.tr("forearm still ({distance})")
+        words = pattern.format(distance=numbers.millimetres(distance))
+        scale = self._theme.text_scale
+        face = font(12 * scale, MEDIUM)
+        write(painter, head, words, face, self._theme.color("warn" if moved else "text2"), RIGHT_MIDDLE)
+        size = 16 * scale
+        left = head.right() - QFontMetricsF(face).horizontalAdvance(words) - size - 6
+        box = QRectF(left, head.center().y() - size / 2, size, size)
+        paint_status(painter, self._theme, "warn" if moved else "good", box)
+
+
+def paint_ways(painter: QPainter, look: PlotStyle, plot: WayPlot, box: QRectF) -> None:
+    """The chart on paper, with its words, in a box."""
+    chart = WaysChart(Theme("light"))
+    chart.show_plot(plot)
+    chart.paint_on(painter, look, box)
+    chart.deleteLater()

@@ -32,7 +32,7 @@ from carpus.ui.controls.layouts import (
 )
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.keys import bind_screen, letter_key
-from carpus.ui.plot.course_view import ProgressChart
+from carpus.ui.plot.course import ProgressChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
 from carpus.ui.words.by_hand import changes, day_words

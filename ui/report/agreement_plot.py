@@ -12,10 +12,10 @@ from PySide6.QtGui import QColor, QImage, QPageLayout, QPageSize, QPainter, QPdf
 
 from carpus.core.formats.new_output import new_bytes
 from carpus.ui.fonts import SEMIBOLD, font
-from carpus.ui.plot.agreement import AgreementPlot
+from carpus.ui.plot.agreement import AgreementChart, AgreementPlot
 from carpus.ui.plot.style import paper_style
 from carpus.ui.report.pdf import ensure_application
-from carpus.ui.theme import LIGHT
+from carpus.ui.theme import LIGHT, Theme
 from carpus.ui.translate import say, tr
 from carpus.ui.words.agreement import angle_name, remark_words, share, tenths
 
@@ -113,5 +113,8 @@ def _paint(painter: QPainter, pairs: Pairs, compared: Compared, limit_deg: float
     style, over_time = paper_style(POINT_PX), compared.shift is not None
     plot = AgreementPlot(pairs, limit_deg, over_time, "curves")
     height = HEIGHT - 24.0 - top
-    plot.paint(painter, style, QRectF(24, top, 500, height))
-    replace(plot, view="differences").paint(painter, style, QRectF(548, top, 556, height))
+    both = (plot, QRectF(24, top, 500, height)), (replace(plot, view="differences"), QRectF(548, top, 556, height))
+    for shown, box in both:
+        chart = AgreementChart(Theme("light"), shown)
+        chart.paint_on(painter, style, box)
+        chart.deleteLater()

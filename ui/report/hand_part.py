@@ -17,7 +17,7 @@ from carpus.ui.translate import tr
 from carpus.ui.words.fingers import FingerRow, column_heads, finger_rows, limits_words
 from carpus.ui.words.ranges import mean_words, repetition_words
 
-ROW_PT, CURVES_PT, LEAST_CURVES_PT, BETWEEN_PT = 21.5, 176.0, 110.0, 6.0
+ROW_PT, CURVES_PT, LEAST_CURVES_PT = 21.5, 176.0, 110.0
 LEAST_SIZE_PT, GAP_PT = 6.0, 6.0
 CHANGE_COLUMN, CHANGE_PT = 8, 92.0
 """The change may take two lines: so wide at most, or as its head."""
@@ -130,9 +130,9 @@ def paint_finger_curves(
     left = page.left + page.width_of(words, TITLE_PT, SEMIBOLD) + 10
     _paint_key(page, left, page.right - page.width_of(aside, 8.5) - 12, top + 11)
     plot = HandPlot(curves, figures.exercise, figures.repetitions, -1, joints=joints)
-    box = page.box(page.left + 80, top + 28, page.right - page.left - 88, height)
+    box = page.box(page.left, top + 8, page.right - page.left, height + 36)
     if not page.is_trial:
-        paint_session(page.painter, page.style, plot, plot.panels(box, BETWEEN_PT * page.point))
+        paint_session(page.painter, page.style, plot, box)
     return top + 28 + height + 16
 
 

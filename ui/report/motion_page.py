@@ -8,8 +8,7 @@ from carpus.ui import numbers
 from carpus.ui.fonts import MEDIUM, REGULAR
 from carpus.ui.plot.motion import MotionKind, MotionPlot, zyz_words
 from carpus.ui.plot.session import paint_session
-from carpus.ui.plot.style import PlotStyle
-from carpus.ui.plot.ways import WayPlot, finger_ways, paint_planes, plane_marks, side_by_side, wrist_way
+from carpus.ui.plot.ways import WayPlot, finger_ways, paint_ways, wrist_way
 from carpus.ui.report.page import Page, paint_to_fit
 from carpus.ui.report.session_page import LOWEST_PT, SessionReport, paint_head, what_words
 from carpus.ui.terms import LEGAL_SENTENCE
@@ -55,12 +54,7 @@ def _paint_ways(page: Page, title: str, plot: WayPlot, top: float, height: float
     page.title(title, top + 11, aside)
     if page.is_trial:
         return top + 16 + height + 8
-    style: PlotStyle = page.style
-    panels = side_by_side(style, page.box(page.left, top + 16, page.right - page.left, height), 12 * page.point)
-    paint_planes(page.painter, style, plot, panels)
-    for panel, marks in zip(panels, plane_marks(plot), strict=True):
-        for mark in marks:
-            mark.paint(page.painter, style, panel)
+    paint_ways(page.painter, page.style, plot, page.box(page.left, top + 16, page.right - page.left, height))
     return top + 16 + height + 8
 
 
@@ -70,9 +64,9 @@ def _paint_curves(
 ) -> float:  # fmt: skip
     page.title(title, top + 11, aside)
     plot = MotionPlot(report.curves, report.figures.exercise, report.figures.repetitions, -1, motion=motion, kind=kind)
-    box = page.box(page.left + 78, top + 29, page.right - page.left - 84, height)
+    box = page.box(page.left, top + 9, page.right - page.left, height + 36)
     if not page.is_trial:
-        paint_session(page.painter, page.style, plot, plot.panels(box, 7 * page.point))
+        paint_session(page.painter, page.style, plot, box)
     return top + 29 + height + 18
 
 

@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF, QSizeF, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
+from PySide6.QtGui import QColor, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
+from PySide6.QtWidgets import QApplication
 
 from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox, SheetLine, SheetText
 from carpus.core.formats.new_output import look_for_folder, new_bytes
@@ -23,13 +24,10 @@ POINTS_PER_INCH = 72.0
 MM_PER_PT = 25.4 / POINTS_PER_INCH
 
 
-def ensure_application() -> QGuiApplication:
-    """The running Qt application, or one without a screen: fonts need one. Keep the result while writing."""
-    running = QGuiApplication.instance()
-    if isinstance(running, QGuiApplication):
-        application = running
-    else:
-        application = QGuiApplication(["carpus", "-platform", "offscreen"])
+def ensure_application() -> QApplication:
+    """The running Qt application, or one without a screen: fonts and charts need one. Keep the result while writing."""
+    running = QApplication.instance()
+    application = running if isinstance(running, QApplication) else QApplication(["carpus", "-platform", "offscreen"])
     load_fonts()
     return application
 

@@ -273,9 +273,9 @@ def _paint_curves(page: Page, report: SessionReport, top: float) -> float:
         report.curves, report.figures.exercise, report.figures.repetitions, -1,
         *report.figures.targets_deg,
     )  # fmt: skip
-    box = page.box(page.left + 70, top + 30, page.right - page.left - 78, 158)
+    box = page.box(page.left, top + 10, page.right - page.left, 158 + 36)
     if not page.is_trial:
-        paint_session(page.painter, page.style, plot, plot.panels(box, 9 * page.point))
+        paint_session(page.painter, page.style, plot, box)
     return top + 30 + 158 + 16
 
 

@@ -17,10 +17,8 @@ from carpus.ui.figures import FINGERS, figure_of
 from carpus.ui.marker_words import finger_name
 from carpus.ui.playback.transport import Playing, Scrubber, Transport, clock_words
 from carpus.ui.plot.motion import MotionPlot
-from carpus.ui.plot.session import HandPlot, SessionPlot
-from carpus.ui.plot.session_view import CurveView
-from carpus.ui.plot.ways import finger_ways, wrist_way
-from carpus.ui.plot.ways_view import WaysView
+from carpus.ui.plot.session import HandPlot, SessionChart, SessionPlot
+from carpus.ui.plot.ways import WaysChart, finger_ways, wrist_way
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
@@ -42,8 +40,8 @@ class ReviewCharts(QWidget):
         self.finger.hide()  # until a session of the whole hand is shown
         for button in self.finger.buttons():
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click must leave Space and the arrows to the player
-        self.curves = CurveView(theme)
-        self.ways = WaysView(theme)
+        self.curves = SessionChart(theme)
+        self.ways = WaysChart(theme)
         self.ways.hide()
         self._column = in_column(self.finger, gap=8, margins=(0, 0, 0, 0), within=self)
         fill(self._column, (self.curves, 1), (self.ways, 1))

@@ -1,30 +1,27 @@
-"""A card whose plots can be looked into: zoom and pan along the one axis they share, read-out, pictures and tables."""
+"""A chart whose plots can be looked into: zoom and pan along the one axis they share, read-out, pictures and tables."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from PySide6.QtCore import QObject, QPoint, QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QGuiApplication, QPainter
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
+from PySide6.QtGui import QContextMenuEvent, QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QFileDialog, QMenu
 
 from carpus.core.errors import CarpusFault
 from carpus.ui.controls.button import icon_button
 from carpus.ui.plot import export
-from carpus.ui.plot.card import PlotCard
-from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.axes import Panel
+from carpus.ui.plot.chart import Chart, Plot
 from carpus.ui.theme import Theme
-
-if TYPE_CHECKING:
-    from carpus.ui.plot.canvas import Canvas
 
 ZOOM_STEP = 1.25
 """How much a notch of the wheel or a key changes what is shown."""
 
 
-class ZoomCard(PlotCard):
+class ZoomChart(Chart):
     """The window is the part of the shared axis that is shown, None for all."""
 
     shortest = 1.0
@@ -33,7 +30,10 @@ class ZoomCard(PlotCard):
     def __init__(self, theme: Theme, file_name: str) -> None:
         super().__init__(theme)
         self._window: tuple[float, float] | None = None
+        self._showing = False
         self.menu = PlotMenu(self, file_name)
+        self.scene().sigMouseMoved.connect(self.hover)
+        self.viewport().grabGesture(Qt.GestureType.PinchGesture)
         self.more = icon_button(theme, "ellipsis", self.tr("Zoom, copy and save"))
         self.more.setParent(self)
         self.more.setProperty("floats", True)  # over a corner in which nothing is written
@@ -59,9 +59,8 @@ class ZoomCard(PlotCard):
     def hover(self, at: QPointF | None) -> None:
         """The mouse is somewhere, or gone."""
 
-    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        """The whole plot on paper, in any unit."""
-        raise NotImplementedError
+    def show_range(self) -> None:
+        """Another part of the axis is shown."""
 
     def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
         """Head and rows of what is shown."""
@@ -84,7 +83,11 @@ class ZoomCard(PlotCard):
             start = min(max(window[0], low), high - span)
             window = None if span >= (high - low) * (1.0 - 1e-9) else (start, start + span)
         self._window = window
-        self.forget()
+        self._showing = True
+        if self.plots:
+            self.plots[0].setXRange(*self.shown(), padding=0.0)
+        self._showing = False
+        self.show_range()
 
     def zoom(self, factor: float, about: float) -> None:
         """Show that many times as much, with ``about`` staying where it is."""
@@ -106,20 +109,46 @@ class ZoomCard(PlotCard):
         start, end = self.shown()
         return min(max(self.about(), start), end)
 
-    def furnish(self, canvas: Canvas) -> None:
-        canvas.unlock(self)
+    def add_plot(self, panel: Panel) -> Plot:
+        """All plots go along together."""
+        first, plot, extent = next(iter(self.plots), None), super().add_plot(panel), self.extent()
+        if extent is None or self.on_paper:
+            return plot
+        plot.setLimits(xMin=extent[0], xMax=extent[1], minXRange=min(self.shortest, extent[1] - extent[0]))
+        plot.unlock(self)
+        if first is not None:
+            plot.setXLink(first)
+        else:
+            plot.sigXRangeChanged.connect(lambda _, ends: self._take_range(*ends))
+        return plot
 
-    def take_range(self, start: float, end: float) -> None:
+    def _take_range(self, start: float, end: float) -> None:
         now, extent = self.shown(), self.extent()
-        if extent is None:
+        if extent is None or self._showing:
             return
         tolerance = 1e-6 * (extent[1] - extent[0])
         if abs(start - now[0]) > tolerance or abs(end - now[1]) > tolerance:
             self.show_window((start, end))
 
-    def resizeEvent(self, event: Any) -> None:
-        self.more.adjustSize()  # where a layout is in the card Qt leaves this to us
-        self.more.move(self.width() - self.more.width() - 6, 2)
+    def viewportEvent(self, event: QEvent) -> bool:
+        """Two fingers go apart or together on the panels."""
+        if event.type() == QEvent.Type.Gesture and self.plots:
+            pinch = event.gesture(Qt.GestureType.PinchGesture)  # type: ignore[attr-defined]
+            if pinch is not None and pinch.scaleFactor() > 0.0:
+                at = self.viewport().mapFromGlobal(pinch.centerPoint().toPoint())
+                self.zoom(1.0 / pinch.scaleFactor(), float(self.plots[0].mapSceneToView(QPointF(at)).x()))
+                return True
+        if event.type() == QEvent.Type.Leave:
+            self.hover(None)
+        return bool(super().viewportEvent(event))
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        self.menu.open(event.globalPos())
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
+        if event is not None:
+            self.more.adjustSize()  # where a layout is in the card Qt leaves this to us
+            self.more.move(self.width() - self.more.width() - 6, 2)
         super().resizeEvent(event)
 
 
@@ -129,7 +158,7 @@ class PlotMenu(QObject):
     told = Signal(object)
     saved = Signal(str)
 
-    def __init__(self, card: ZoomCard, file_name: str) -> None:
+    def __init__(self, card: ZoomChart, file_name: str) -> None:
         super().__init__(card)
         self._card, self._file_name = card, file_name
         self.start_folder = ""

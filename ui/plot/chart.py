@@ -1,0 +1,657 @@
+"""A chart: panels with words and lines on pyqtgraph's scene, one for the screen, for paper and for pictures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import (
+    QFont,
+    QFontMetricsF,
+    QPainter,
+    QPainterPath,
+    QPen,
+    QResizeEvent,
+    QShowEvent,
+    QTransform,
+)
+from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QSizePolicy, QWidget
+
+from carpus.ui.controls.card import paint_card
+from carpus.ui.plot import axes
+from carpus.ui.plot.axes import Panel
+from carpus.ui.plot.series import Curve, Drawing
+from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, dashed, paper_style, screen_style, write
+from carpus.ui.theme import Theme
+
+pg.setConfigOptions(antialias=True, mouseRateLimit=-1)  # Qt joins movements itself; the last of a drag must not be lost
+
+WHEEL_FACTOR = -math.log(1.25) / math.log(1.02) / 120.0
+"""In the terms of pyqtgraph: a notch shows a quarter more or less."""
+ALONG_SHARE = 0.1
+"""A notch sideways goes on by this part of what is shown."""
+GROUND, BAND, GRID, LINES, CURVES, FRONT = -30, -20, -10, -5, 0, 10
+"""What lies over what within a panel."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """ChartText at a value of an axis."""
+
+    value: float
+    text: str
+    token: str = "text2"
+    strong: bool = False
+
+
+class Plot(pg.ViewBox):
+    """A panel with a fixed scale upwards. Nothing in it moves by mouse before it is given ``hands``."""
+
+    hands: Any = None
+
+    def __init__(self, chart: Chart, panel: Panel) -> None:
+        super().__init__(enableMenu=False, enableMouse=False, defaultPadding=0.0)
+        self.disableAutoRange()
+        self.setFlag(self.GraphicsItemFlag.ItemHasNoContents)
+        self.chart, self.panel, self.look = chart, panel, chart.look
+        chart.add(self)
+        self.setGeometry(panel.box)
+        self.setRange(
+            xRange=(panel.start_s, panel.end_s), yRange=(panel.scale.low, panel.scale.high), padding=0.0, update=True
+        )
+
+    @property
+    def own(self) -> Panel:
+        """The panel in its own pixels, as it is ranged now."""
+        (start, end), _ = self.viewRange()
+        return Panel(QRectF(self.rect()), self.panel.scale, start, end)
+
+    def put(self, item: Any, layer: int) -> Any:
+        """Add an item of pyqtgraph."""
+        item.setZValue(layer)
+        item.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        if self.chart.on_paper:
+            item.setExportMode(True, {"antialias": True, "resolutionScale": self.chart.symbol_scale})
+        elif GROUND < layer < CURVES:  # what stays, and is no larger than the panel, is kept as a picture
+            item.setCacheMode(item.CacheMode.DeviceCoordinateCache)
+        self.addItem(item, ignoreBounds=True)
+        return item
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def pen(self, token: str, width: float = 1.0, dash: Sequence[float] = (), alpha: int = 255) -> QPen:
+        """A pen ``width`` design pixels wide whatever the scale."""
+        pen = dashed(self.look.color(token, alpha), width * self.look.unit, dash)
+        pen.setCosmetic(True)
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        return pen
+
+    def add_grid(self) -> None:
+        self.put(Grid(self), GRID)
+
+    def add_bars(self, stretches: Sequence[tuple[float, float]], token: str) -> None:
+        """Stretches of the time in a colour, with a seam; of several colours pyqtgraph's own are pictures, which paper
+        shows in another size."""
+        if stretches:
+            start, end = np.array(stretches).T
+            low, high = self.panel.scale.low, self.panel.scale.high
+            brush, pen = pg.mkBrush(self.look.color(token)), self.pen("surface", 2.0)
+            self.put(pg.BarGraphItem(x0=start, x1=end, y0=low, y1=high, brush=brush, pen=pen), GROUND)
+
+    def add_band(self, low: float, high: float, token: str, hatched: str = "") -> None:
+        """Values from ``low`` to ``high`` filled, and hatched in a second token where there is one."""
+        brush = pg.mkBrush(self.look.color(token))
+        self.put(pg.LinearRegionItem((low, high), "horizontal", brush, pg.mkPen(None), movable=False), BAND)
+        if hatched:
+            self.put(Hatching(self, [(-math.inf, math.inf, low, high)], hatched, 90), BAND)
+
+    def add_level(
+        self, value: float, token: str, dash: Sequence[float] = (8.0, 6.0), words: str = "", *, below: bool = False
+    ) -> Any:
+        """A line at a value, with words at its left end; none where it is unknown."""
+        if not math.isfinite(value):
+            return None
+        line = self.put(pg.InfiniteLine(value, angle=0, pen=self.pen(token, 1.5, dash)), LINES)
+        if words:
+            self.add_words(value, words, token, below=below)
+        return line
+
+    def add_words(
+        self, value: float, words: str, token: str = "text2", *, below: bool = False, small: bool = False
+    ) -> Any:
+        """Words at the left end just over, or under, a value."""
+        unit = self.look.unit
+        face = self.look.label if small else self.look.end_label
+        item = self.chart.text(words, face, token, (0.0, 0.0 if below else 1.0))
+        panel = self.panel
+        item.setPos(panel.box.left() + 6 * unit, float(panel.y(value)) + (3 * unit if below else -2 * unit))
+        return item
+
+    def scene_x(self, at: float) -> float:
+        """Where a time is in the chart, as the panel is ranged now."""
+        (start, end), _ = self.viewRange()
+        return float(self.panel.box.left() + (at - start) / (end - start) * self.panel.box.width())
+
+    def add_line(
+        self, x: Sequence[float], y: Sequence[float], token: str, width: float = 0.0, dash: Sequence[float] = (),
+        connect: str = "all", layer: int = CURVES,
+    ) -> None:  # fmt: skip
+        """A line through points, as wide as curves are unless told."""
+        pen = self.pen(token, width or self.look.line_width / self.look.unit, dash)
+        self.put(pg.PlotCurveItem(np.asarray(x), np.asarray(y), pen=pen, connect=connect), layer)
+
+    def add_curves(self, *, kept: bool = True) -> Curves:
+        """Still without any; ``kept`` as a picture where a cursor goes over them more often than they change."""
+        return self.put(Curves(self, kept=kept), CURVES)  # type: ignore[no-any-return]
+
+    def add_cursor(self, at: float, token: str = "text", width: float = 1.5) -> Any:
+        return self.put(pg.InfiniteLine(at, angle=90, pen=self.pen(token, width)), FRONT)
+
+    # --- mouse --------------------------------------------------------------------------------------------
+    def unlock(self, hands: Any) -> None:
+        """Let the mouse move it along its one free axis."""
+        self.hands = hands
+        self.setMouseEnabled(x=True, y=False)
+        self.state["wheelScaleFactor"] = WHEEL_FACTOR
+
+    def wheelEvent(self, event: Any, axis: int | None = None) -> None:
+        """With Ctrl longer or shorter about the mouse; sideways, or with Shift, along the axis; else the page."""
+        if self.hands is None:
+            event.ignore()
+        elif event.orientation() == Qt.Orientation.Horizontal or event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            (start, end), _ = self.viewRange()
+            self.translateBy(x=-event.delta() / 120.0 * ALONG_SHARE * (end - start))
+            event.accept()
+        elif event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self.childTransform()  # brings it up to date, also before the next painting
+            super().wheelEvent(event, 0)
+        else:
+            event.ignore()
+
+    def mouseDragEvent(self, event: Any, axis: int | None = None) -> None:
+        if self.hands is not None:
+            event.accept()
+            if not self.hands.drag(event):
+                self.childTransform()
+                super().mouseDragEvent(event, 0)
+
+    def mouseClickEvent(self, event: Any) -> None:
+        if self.hands is not None and event.button() == Qt.MouseButton.LeftButton:
+            event.accept()
+            self.hands.click(event)
+
+
+class InPixels(pg.GraphicsObject):
+    """Something among the items of a panel that is drawn in its pixels."""
+
+    def __init__(self, plot: Plot, *, kept: bool = True) -> None:
+        super().__init__()
+        self.plot = plot
+        if kept and not plot.chart.on_paper:
+            self.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+
+    def boundingRect(self) -> QRectF:
+        return QRectF(self.plot.viewRect())
+
+    def viewRangeChanged(self, *_: object) -> None:
+        self.prepareGeometryChange()
+        self.update()
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        inverse, _ = self.plot.childTransform().inverted()
+        painter.setTransform(inverse, True)
+        at = painter.transform()  # what rounding leaves of a scale makes Qt four times slower
+        painter.setTransform(QTransform(round(at.m11(), 9), 0.0, 0.0, round(at.m22(), 9), at.dx(), at.dy()))
+        self.paint_in(painter, self.plot.look, self.plot.own)
+
+    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        raise NotImplementedError
+
+
+class Grid(InPixels):
+    """A line at each value of the scale, the one at zero stronger."""
+
+    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        for value in panel.scale.ticks:
+            y = float(panel.y(value))
+            y = round(y) + 0.5 if style.unit == 1.0 else y
+            painter.setPen(QPen(style.color("line" if value else "border"), style.grid_width))
+            painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
+
+
+class Curves(InPixels):
+    """All curves of a panel with their bands and gaps; how they are drawn is in :class:`Drawing`, which also says why
+    pyqtgraph's own curves, fills and dashes are not."""
+
+    def __init__(self, plot: Plot, *, kept: bool) -> None:
+        super().__init__(plot, kept=kept)
+        self.drawing: Callable[[Panel], tuple[Drawing, int]] | None = None
+
+    def show(self, curves: Sequence[Curve]) -> None:
+        self.show_drawn(lambda panel: (Drawing(self.plot.look, [(panel, curves)]), 0))
+
+    def show_drawn(self, drawing: Callable[[Panel], tuple[Drawing, int]]) -> None:
+        """Of many panels worked out at once, and which of them this is."""
+        self.drawing = drawing
+        self.update()
+
+    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if self.drawing is not None:
+            drawing, number = self.drawing(panel)
+            drawing.paint(painter, style, number)
+
+
+class Hatching(InPixels):
+    """Diagonal lines over stretches (start, end, low, high) of a panel. pyqtgraph has none: a brush with a pattern is
+    stretched with the scale, and is a picture of dots on paper."""
+
+    def __init__(
+        self,
+        plot: Plot,
+        stretches: Sequence[tuple[float, float, float, float]],
+        token: str = "border",
+        alpha: int = 130,
+    ) -> None:
+        super().__init__(plot)
+        self.stretches, self._token, self._alpha = stretches, token, alpha
+
+    def show(self, stretches: Sequence[tuple[float, float, float, float]]) -> None:
+        self.stretches = stretches
+        self.update()
+
+    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        for start, end, low, high in self.stretches:
+            left, right = (float(panel.x(at)) for at in np.clip((start, end), panel.start_s, panel.end_s))
+            top, bottom = float(panel.y(high)), float(panel.y(low))
+            if right > left:
+                axes.hatch(
+                    painter, style, QRectF(left, top, right - left, bottom - top), self._token, self._alpha, shift=0.5
+                )
+
+
+class Layer(pg.GraphicsObject):
+    """Something painted over the panels of a chart, kept as a picture until it is updated: what changes ten times a
+    second and more, of which each as an item of pyqtgraph costs as much as a curve."""
+
+    def __init__(self, chart: Chart, area: QRectF, paint: Callable[[QPainter], None], *, kept: bool = True) -> None:
+        super().__init__()
+        self._paint, self._area = paint, area
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        self.setZValue(FRONT)
+        if kept:
+            self.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+        chart.add(self)
+
+    def boundingRect(self) -> QRectF:
+        return self._area
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        self._paint(painter)
+
+
+class Symbols(pg.ScatterPlotItem):
+    """Symbols over the panels of a chart; pyqtgraph leaves out what is beyond the widget, which paper is not."""
+
+    chart: Chart
+
+    def viewRect(self) -> QRectF:
+        return self.chart.area
+
+    def mouseClickEvent(self, event: Any) -> None:
+        event.ignore()  # it is the panel's
+
+
+class ChartText(pg.TextItem):
+    """Words over the panels, placed by ``setPos``; rich text by :meth:`show_rich`."""
+
+    _rich = ""
+
+    def __init__(self, chart: Chart, words: str, face: QFont, token: str, anchor: tuple[float, float]) -> None:
+        super().__init__(anchor=anchor, color=chart.look.color(token))
+        self.textItem.document().setDocumentMargin(0.0)
+        self.setFont(face)
+        self.setText(words)
+        if not chart.on_paper:
+            self.textItem.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+            self.setFlag(self.GraphicsItemFlag.ItemHasNoContents)
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        self.setZValue(20)
+        chart.add(self)
+
+    def show_rich(self, html: str) -> None:
+        if html != self._rich:  # pyqtgraph compares with what Qt makes of it, which differs always
+            self._rich = html
+            self.textItem.setHtml(html)
+            self.updateTextPos()
+
+
+class Axis(pg.AxisItem):
+    """Words beside a panel at its values, the first before the others: one that would touch another is left out.
+
+    pyqtgraph's axis has one font and one colour for all, and lets words touch or leaves out the whole lot.
+    """
+
+    def __init__(
+        self,
+        plot: Plot,
+        side: str,
+        labels: Callable[[float, float], Iterable[Label]],
+        gap: float,
+        room: float = math.inf,
+    ) -> None:
+        """``gap`` design pixels from the panel; words get smaller where they are longer than the ``room``."""
+        super().__init__(side)
+        self.plot, self._labels, self._gap, self._room = plot, labels, gap, room
+        if not plot.chart.on_paper:
+            self.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+        plot.chart.add(self)
+        self.linkToView(plot)
+        self.linkedViewChanged(plot)
+        self.setZValue(1)
+
+    def boundingRect(self) -> QRectF:
+        box, style, area = self.plot.panel.box, self.plot.look, self.plot.chart.area
+        height = QFontMetricsF(style.end_label).height()
+        if self.orientation == "left":
+            return QRectF(area.left(), box.top() - height, box.left() - area.left(), box.height() + 2 * height)
+        top = box.bottom() if self.orientation == "bottom" else box.top() - self._gap * style.unit - 1.5 * height
+        return QRectF(area.left(), top, area.width(), 1.6 * height + self._gap * style.unit)
+
+    def shape(self) -> QPainterPath:
+        return QPainterPath()
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        style, (start, end), scene = self.plot.look, self.range, self.plot.panel
+        panel = Panel(scene.box, scene.scale, start, end) if self.orientation != "left" else scene
+        unit = style.unit
+        taken: list[tuple[float, float]] = []
+        for label in self._labels(start, end):
+            face = style.end_label if label.strong else style.label
+            metrics = QFontMetricsF(face)
+            width, gap = metrics.horizontalAdvance(label.text), self._gap * unit
+            if self.orientation == "left":
+                middle, least = float(panel.y(label.value)), metrics.capHeight() + 5 * unit
+                low, high, apart = middle - least / 2, middle + least / 2, 0.0
+            else:
+                middle = float(panel.x(label.value))
+                low, high = middle - width / 2, middle + width / 2
+                apart = metrics.height() if self.orientation == "bottom" else 4 * unit
+                if not panel.box.left() - 0.5 <= middle <= panel.box.right() + 0.5:
+                    continue
+            if any(low < other_high + apart and high > other_low - apart for other_low, other_high in taken):
+                continue
+            taken.append((low, high))
+            color = style.color(label.token)
+            if self.orientation == "left":
+                height, right = metrics.height(), panel.box.left() - gap
+                at = QRectF(right - 300 * unit, middle - height / 2, 300 * unit, height)
+                write(painter, at, label.text, fitted(face, label.text, self._room), color, RIGHT_MIDDLE)
+            else:
+                below = self.orientation == "bottom"
+                base = panel.box.bottom() + gap + metrics.ascent() if below else panel.box.top() - gap
+                write(painter, QPointF(low, base), label.text, face, color)
+
+
+def date_labels(labels: Sequence[tuple[float, str]]) -> Callable[[float, float], list[Label]]:
+    """Of the days that are shown the last one, the first one, then those between, the last ones first."""
+
+    def shown(start: float, end: float) -> list[Label]:
+        some = [label for label in labels if start <= label[0] <= end]
+        ends = [some[-1], *some[:1][: len(some) - 1]] if some else []
+        return [*(Label(*one, "text", strong=True) for one in ends), *(Label(*one, strong=True) for one in some[::-1])]
+
+    return shown
+
+
+def fitted(face: QFont, text: str, room_px: float) -> QFont:
+    """The font, or one as small as half of it, with which a text has room."""
+    width = QFontMetricsF(face).horizontalAdvance(text)
+    if width <= room_px or width <= 0.0:
+        return face
+    smaller = QFont(face)
+    smaller.setPixelSize(max(int(face.pixelSize() * room_px / width), face.pixelSize() // 2, 1))
+    return smaller
+
+
+def scale_labels(panel: Panel) -> list[Label]:
+    """Of a fixed scale, its ends first."""
+    scale = panel.scale
+    ends = (max(scale.ticks), min(scale.ticks)) if scale.ticks else ()
+    out = []
+    for value, text in sorted(scale.labels, key=lambda one: one[0] not in ends):
+        strong = scale.strong_ends and value in ends and value != 0.0
+        out.append(Label(value, text, "text" if strong else "text2", strong))
+    return out
+
+
+class Chart(pg.GraphicsView):
+    """A card with panels. A subclass says in :meth:`build` what is in it, for the present ``look`` and ``area``."""
+
+    usual_px, least_px = (736, 360), (420, 200)
+    """Width and height."""
+    is_card = True
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(background=None)
+        self._theme = theme
+        self.look = screen_style(theme)
+        self.area = QRectF()
+        self.on_paper, self.symbol_scale = False, 1.0
+        self.plots: list[Plot] = []
+        self._items: list[Any] = []
+        """The scene does not keep them alive."""
+        self.setCentralWidget(None)
+        # Items of pyqtgraph say too late for an index that they have another size.
+        self.scene().setItemIndexMethod(QGraphicsScene.ItemIndexMethod.NoIndex)
+        self.setAntialiasing(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setViewportUpdateMode(self.ViewportUpdateMode.BoundingRectViewportUpdate)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        theme.changed.connect(self.forget)
+
+    # --- for a subclass -----------------------------------------------------------------------------------
+    def build(self) -> None:
+        """Add plots and words."""
+        raise NotImplementedError
+
+    def paint_ground(self, painter: QPainter) -> None:
+        """What lies under everything, on the screen alone."""
+
+    def sizeHint(self) -> QSize:
+        return QSize(*self.usual_px)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(*self.least_px)
+
+    # --- building -----------------------------------------------------------------------------------------
+    def add_plot(self, panel: Panel) -> Plot:
+        plot = Plot(self, panel)
+        self.plots.append(plot)
+        return plot
+
+    def add(self, item: Any) -> Any:
+        """Put an item over, or beside, the panels."""
+        self._items.append(item)
+        self.scene().addItem(item)
+        return item
+
+    def remove(self, item: Any) -> None:
+        self._items.remove(item)
+        self.scene().removeItem(item)
+
+    def add_axis(
+        self, plot: Plot, side: str, labels: Callable[[float, float], Iterable[Label]] | Iterable[Label], gap: float
+    ) -> Axis:
+        """Words left of, under or over a plot: by what is shown of it, or always the same."""
+        said = labels if callable(labels) else lambda *_, own=tuple(labels): own
+        room = math.inf if self.on_paper else plot.panel.box.left() - gap * self.look.unit - 2.0
+        return Axis(plot, side, said, gap, room)
+
+    def text(self, words: str, face: QFont, token: str = "text", anchor: tuple[float, float] = (0.0, 0.0)) -> ChartText:
+        """Words over the panels; placed by ``setPos``."""
+        return ChartText(self, words, face, token, anchor)
+
+    def add_symbols(
+        self, symbol: str = "o", size: float = 10.0, pen: QPen | None = None, fill: str = "",
+        at: Sequence[QPointF] = (), alpha: int = 255,
+    ) -> Any:  # fmt: skip
+        """Symbols over the panels at places of the chart, ``size`` design pixels wide; discs have a seam."""
+        unit = self.look.unit
+        pen = pg.mkPen(self.look.color("surface"), width=1.5 * unit) if pen is None else pen
+        symbols = Symbols(
+            x=[one.x() for one in at], y=[one.y() for one in at], symbol=symbol, size=size * unit, pen=pen,
+            brush=pg.mkBrush(self.look.color(fill, alpha) if fill else None),
+        )  # fmt: skip
+        symbols.chart = self
+        symbols.setZValue(FRONT)
+        if self.on_paper:
+            symbols.setExportMode(True, {"antialias": True, "resolutionScale": self.symbol_scale})
+        return self.add(symbols)
+
+    def add_beside(self, plot: Plot, labels: Sequence[tuple[float, str, str]]) -> None:
+        """Words (value, text, token) at the right ends of their lines, pushed apart where they would touch, and kept
+        above what stands under the panel; pyqtgraph's axis lets them touch."""
+        panel, unit, face = plot.panel, self.look.unit, self.look.end_label
+        height = QFontMetricsF(face).height()
+        taken, lowest = -math.inf, panel.box.bottom() + height / 2 - len(labels) * height
+        for middle, text, token in sorted((float(panel.y(value)), text, token) for value, text, token in labels):
+            top, lowest = max(min(middle - height / 2, lowest), taken), lowest + height
+            taken = top + height
+            self.text(text, face, token).setPos(panel.box.right() + 12 * unit, top)
+
+    def key_lines(
+        self, entries: Sequence[tuple[str, str, str]], width: float
+    ) -> list[list[tuple[float, str, str, str]]]:
+        """What the signs (symbol, words, token) mean, in as many lines as it needs, each with its left end."""
+        metrics, unit = QFontMetricsF(self.look.end_label), self.look.unit
+        lines: list[list[tuple[float, str, str, str]]] = [[]]
+        across = 8 * unit
+        for sign, words, token in entries:
+            needs = 17 * unit + metrics.horizontalAdvance(words)
+            if lines[-1] and across + needs > width:
+                lines.append([])
+                across = 8 * unit
+            lines[-1].append((across, sign, words, token))
+            across += needs + 18 * unit
+        return lines
+
+    def add_key(self, entries: Sequence[tuple[str, str, str]], box: QRectF) -> None:
+        """At the lower end of a box, in lines: pyqtgraph's legend has one column, or many of the same width. A filled
+        disc is written ``O``."""
+        unit, face = self.look.unit, self.look.end_label
+        height = QFontMetricsF(face).height()
+        for number, line in enumerate(reversed(self.key_lines(entries, box.width()))):
+            middle = box.bottom() - 10 * unit - number * height
+            for left, sign, words, token in line:
+                pen = pg.mkPen(self.look.color(token), width=1.6 * unit)
+                fill = token if sign == "O" else "surface"
+                self.add_symbols(sign.lower(), 9.0, pen, fill, [QPointF(box.left() + left + 5 * unit, middle)])
+                self.text(words, face, "text2", (0.0, 0.5)).setPos(box.left() + left + 17 * unit, middle)
+
+    def forget(self) -> None:
+        """What is shown has changed: build it anew, once it is seen."""
+        if self.isVisible():
+            self.look = screen_style(self._theme)
+            self.area = QRectF(self.rect())
+            self._rebuild()
+            self.resetCachedContent()
+            self.viewport().update()
+
+    def _rebuild(self) -> None:
+        for item in self._items:
+            self.scene().removeItem(item)
+        self._items, self.plots = [], []
+        self.build()
+
+    # --- life ---------------------------------------------------------------------------------------------
+    @property
+    def face(self) -> QWidget:
+        """What the mouse meets."""
+        port: QWidget = self.viewport()
+        return port
+
+    def close(self) -> bool:
+        """As any widget: it may be shown again. pyqtgraph takes the scene apart."""
+        return QGraphicsView.close(self)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self.forget()
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
+        super().resizeEvent(event)
+        if event is not None:
+            self.forget()
+
+    def drawBackground(self, painter: QPainter, area: QRectF) -> None:
+        if self.on_paper:
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self.is_card:
+            painter.fillRect(area, self._theme.color("canvas"))
+            paint_card(painter, self._theme, QRectF(self.rect()))
+        self.paint_ground(painter)
+
+    # --- on paper -----------------------------------------------------------------------------------------
+    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
+        """The same as lines and letters, in any unit: it is built for that, and then again for the screen.
+
+        Lines of pyqtgraph are as wide as they are on the device, so what is built has the device's units.
+        """
+        dots = max(painter.deviceTransform().m11(), 1e-9)
+        self.symbol_scale = painter.transform().m11() / dots
+        self.look = paper_style(style.unit / 0.75 * dots)
+        self.area, self.on_paper = QRectF(0.0, 0.0, box.width() * dots, box.height() * dots), True
+        self.setSceneRect(self.area)
+        try:
+            self._rebuild()
+            painter.save()
+            painter.translate(box.topLeft())
+            painter.scale(1.0 / dots, 1.0 / dots)
+            self.scene().render(painter, self.area, self.area)
+            painter.restore()
+        finally:
+            self.on_paper = False
+            self._rebuild_for_screen()
+
+    def _rebuild_for_screen(self) -> None:
+        self.look = screen_style(self._theme)
+        self.resizeEvent(None)
+        self.forget()
+
+
+def span(words: str, look: PlotStyle, token: str, size_px: float, weight: int) -> str:
+    """Words in a colour, size and weight of their own, for a text of several."""
+    color = look.color(token).name()
+    return f'<span style="color:{color};font-size:{round(size_px)}px;font-weight:{int(weight)}">{escape(words)}</span>'
+
+
+class UnderMouse(pg.TextItem):
+    """Lines of words in a small frame beside a point, within the chart: what is under the mouse."""
+
+    def __init__(self, chart: Chart) -> None:
+        look = chart.look
+        super().__init__(color=look.color("text"), border=look.color("border"), fill=look.color("surface"))
+        self._chart = chart
+        self.textItem.document().setDocumentMargin(6.0)
+        self.setFont(look.end_label)
+        self.setZValue(30)
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        chart.add(self)
+
+    def show_at(self, at: QPointF | None, lines: Sequence[str]) -> None:
+        """Nothing without a point."""
+        self.setVisible(at is not None)
+        if at is None:
+            return
+        self.setText("\n".join(lines))
+        size, area = self.textItem.boundingRect(), QRectF(self._chart.rect()).adjusted(4, 4, -4, -4)
+        left = at.x() + 12 if at.x() + 12 + size.width() <= area.right() else at.x() - 12 - size.width()
+        left = min(max(left, area.left()), max(area.right() - size.width(), area.left()))
+        self.setPos(left, min(max(at.y() - 12 - size.height(), area.top()), area.bottom() - size.height()))
