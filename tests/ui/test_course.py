@@ -41,7 +41,7 @@ def place(chart: ProgressChart, number: int) -> QPointF:
     plot = chart.plots[0]
     row = course.row_of(chart._progress, number, key)
     assert row is not None
-    return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean_deg)))
+    return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean)))
 
 
 def test_a_click_on_a_point_opens_its_session_and_one_beside_it_nothing(qtbot: QtBot, chart: ProgressChart) -> None:
