@@ -7218,6 +7218,13 @@
     </message>
 </context>
 <context>
+    <name>ByHandChart</name>
+    <message>
+        <source>{name} over the days</source>
+        <translation>{name} über die Tage</translation>
+    </message>
+</context>
+<context>
     <name>ByHandFlow</name>
     <message>
         <source>Leave without saving?</source>
@@ -7792,25 +7799,6 @@
     </message>
 </context>
 <context>
-    <name>CurveView</name>
-    <message>
-        <source>Curves of the session</source>
-        <translation>Kurven der Sitzung</translation>
-    </message>
-    <message>
-        <source>Repetitions</source>
-        <translation>Wiederholungen</translation>
-    </message>
-    <message>
-        <source>Ctrl+wheel: zoom</source>
-        <translation>Strg+Rad: Zoom</translation>
-    </message>
-    <message>
-        <source>hidden</source>
-        <translation>verdeckt</translation>
-    </message>
-</context>
-<context>
     <name>DayBox</name>
     <message>
         <source>No appointment yet</source>
@@ -8163,6 +8151,17 @@
     </message>
 </context>
 <context>
+    <name>FaultDetails</name>
+    <message>
+        <source>Details</source>
+        <translation>Details</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>Kopieren</translation>
+    </message>
+</context>
+<context>
     <name>FingerCurves</name>
     <message>
         <source>Joint angles of the last ten seconds, by finger</source>
@@ -8286,13 +8285,6 @@
     <message>
         <source>Start although &amp;doubtful</source>
         <translation>Trotz &amp;Zweifel starten</translation>
-    </message>
-</context>
-<context>
-    <name>HandChart</name>
-    <message>
-        <source>{name} over the days</source>
-        <translation>{name} über die Tage</translation>
     </message>
 </context>
 <context>
@@ -10543,6 +10535,25 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>SessionChart</name>
+    <message>
+        <source>Curves of the session</source>
+        <translation>Kurven der Sitzung</translation>
+    </message>
+    <message>
+        <source>Repetitions</source>
+        <translation>Wiederholungen</translation>
+    </message>
+    <message>
+        <source>Ctrl+wheel: zoom</source>
+        <translation>Strg+Rad: Zoom</translation>
+    </message>
+    <message>
+        <source>hidden</source>
+        <translation>verdeckt</translation>
+    </message>
+</context>
+<context>
     <name>SessionList</name>
     <message>
         <source>Sessions</source>
@@ -11131,7 +11142,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>WaysView</name>
+    <name>WaysChart</name>
     <message>
         <source>Ways in three planes</source>
         <translation>Wege in drei Ebenen</translation>
@@ -11244,7 +11255,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ZoomCard</name>
+    <name>ZoomChart</name>
     <message>
         <source>Zoom, copy and save</source>
         <translation>Vergrößern, kopieren, speichern</translation>
@@ -11278,17 +11289,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
-    </message>
-</context>
-<context>
-    <name>FaultDetails</name>
-    <message>
-        <source>Details</source>
-        <translation>Details</translation>
-    </message>
-    <message>
-        <source>Copy</source>
-        <translation>Kopieren</translation>
     </message>
 </context>
 </TS>

@@ -7218,6 +7218,13 @@
     </message>
 </context>
 <context>
+    <name>ByHandChart</name>
+    <message>
+        <source>{name} over the days</source>
+        <translation>{name} nei giorni</translation>
+    </message>
+</context>
+<context>
     <name>ByHandFlow</name>
     <message>
         <source>Leave without saving?</source>
@@ -7792,25 +7799,6 @@
     </message>
 </context>
 <context>
-    <name>CurveView</name>
-    <message>
-        <source>Curves of the session</source>
-        <translation>Curve della seduta</translation>
-    </message>
-    <message>
-        <source>Repetitions</source>
-        <translation>Ripetizioni</translation>
-    </message>
-    <message>
-        <source>Ctrl+wheel: zoom</source>
-        <translation>Ctrl+rotella: zoom</translation>
-    </message>
-    <message>
-        <source>hidden</source>
-        <translation>nascosto</translation>
-    </message>
-</context>
-<context>
     <name>DayBox</name>
     <message>
         <source>No appointment yet</source>
@@ -8163,6 +8151,17 @@
     </message>
 </context>
 <context>
+    <name>FaultDetails</name>
+    <message>
+        <source>Details</source>
+        <translation>Dettagli</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>Copia</translation>
+    </message>
+</context>
+<context>
     <name>FingerCurves</name>
     <message>
         <source>Joint angles of the last ten seconds, by finger</source>
@@ -8286,13 +8285,6 @@
     <message>
         <source>Start although &amp;doubtful</source>
         <translation>Inizia benché &amp;dubbio</translation>
-    </message>
-</context>
-<context>
-    <name>HandChart</name>
-    <message>
-        <source>{name} over the days</source>
-        <translation>{name} nei giorni</translation>
     </message>
 </context>
 <context>
@@ -10543,6 +10535,25 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>SessionChart</name>
+    <message>
+        <source>Curves of the session</source>
+        <translation>Curve della seduta</translation>
+    </message>
+    <message>
+        <source>Repetitions</source>
+        <translation>Ripetizioni</translation>
+    </message>
+    <message>
+        <source>Ctrl+wheel: zoom</source>
+        <translation>Ctrl+rotella: zoom</translation>
+    </message>
+    <message>
+        <source>hidden</source>
+        <translation>nascosto</translation>
+    </message>
+</context>
+<context>
     <name>SessionList</name>
     <message>
         <source>Sessions</source>
@@ -11131,7 +11142,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>WaysView</name>
+    <name>WaysChart</name>
     <message>
         <source>Ways in three planes</source>
         <translation>Percorsi in tre piani</translation>
@@ -11244,7 +11255,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ZoomCard</name>
+    <name>ZoomChart</name>
     <message>
         <source>Zoom, copy and save</source>
         <translation>Zoom, copia e salva</translation>
@@ -11278,17 +11289,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
-    </message>
-</context>
-<context>
-    <name>FaultDetails</name>
-    <message>
-        <source>Details</source>
-        <translation>Dettagli</translation>
-    </message>
-    <message>
-        <source>Copy</source>
-        <translation>Copia</translation>
     </message>
 </context>
 </TS>
