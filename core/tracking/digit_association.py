@@ -15,7 +15,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digits import lay_out
+from carpus.core.compiled.digit_images import compute_tilts, measure_named
+from carpus.core.compiled.digits import place_digits
 from carpus.core.tracking import association
 from carpus.core.tracking.association import is_jointly_compatible
 from carpus.core.tracking.digit_filter import ANATOMY, DIGIT_SIZE, SEEN, DigitsLinearisation, DigitView
@@ -26,7 +27,6 @@ from carpus.core.tracking.hand_geometry import (
     DISCS,
     SHOWS,
     SLOTS,
-    is_crowded,
 )
 from carpus.core.tracking.joint_limits import SOFT_RAD, outside_limits
 from carpus.core.tracking.kernel import ModeMixture, Update, corrected, partial_update
@@ -35,8 +35,6 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
 _SLOT = np.arange(SLOTS)
-BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
-"""Slots (5, 5) that tilt the discs past them."""
 _LOG_2_PI = float(np.log(2.0 * np.pi))
 
 
@@ -179,23 +177,10 @@ def _impossible(found: UpdatedDigits, scene: DigitScene) -> NDArray[np.bool_]:
     if not chains.size:
         return back
     mean, covariance = found.update.mixture.merged()
-    _, normal, _, _ = lay_out(mean[:, SEEN], np.zeros((CHAINS, 3)))
-    tilt = tilt_to(scene.view, normal, scene.linearised.centre_m)
-    bend = tilt_variance(covariance)
+    _, normal, _, _ = place_digits(mean[:, SEEN], np.zeros((CHAINS, 3)))
+    tilt, bend = compute_tilts(normal, covariance, scene.linearised, scene.view)
     hidden = tilt - STEEPEST_RAD > SURELY_SD * np.sqrt(bend + STEEPEST_SD_RAD**2)
     return back & (hidden | beyond_reach(mean, covariance)[:, None])
-
-
-def tilt_to(view: DigitView, normal: FloatArray, centre_m: FloatArray) -> FloatArray:
-    """Tilt (5, 3) of discs with normals (5, 3, 3) in W2 to the line of sight; ``centre_m`` (5, 3, 3) in camera axes."""
-    across = ((normal @ view.rotation.T) * centre_m).sum(axis=-1)
-    distance = np.sqrt((centre_m * centre_m).sum(axis=-1))
-    return np.asarray(np.arccos(np.clip(-across / distance, -1.0, 1.0)))
-
-
-def tilt_variance(covariance: FloatArray) -> FloatArray:
-    """Variance (5, 3) of the discs' tilts from covariances (5, n, n), for joints that err independently."""
-    return np.asarray(np.cumsum(covariance[:, _SLOT, _SLOT] * BENDS, axis=1)[:, 2:])
 
 
 def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssignment:
@@ -227,62 +212,15 @@ def measured_as_named(
     scene: DigitScene, names: DigitAssignment, settings: TrackerSettings
 ) -> tuple[FloatArray, FloatArray]:
     """What the blobs as named measure (5, 9), NaN where there is none, and its variance (5, 9)."""
-    noise = settings.noise
-    blob = np.maximum(names.assigned, 0)
-    is_named = names.assigned >= 0
-    if len(scene.blobs):
-        measured = np.where(is_named[..., None], scene.blobs.value[blob], np.nan)
-        variance = np.where(is_named[..., None], scene.blobs.variance[blob], 1.0)
-        measured[..., 2] = np.where(names.with_depth, measured[..., 2], np.nan)
-        # Now that the disc is known, so is the size it would have if it were whole.
-        missing = WHOLE_FROM - scene.area_px[blob] / scene.whole_px
-        wander_px = SHADE_SHARE * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
-        expected = scene.linearised.value.reshape(CHAINS, DISCS, 3)
-        radius_px = settings.marker_radius_m * scene.view.camera.fx_px / expected[..., 2]
-        crowded_px = np.where(is_crowded(expected[..., :2], radius_px, CROWDED_RADII), CROWDED_PX, 0.0)
-        own = (noise.pixel_sd_px**2 + SKIN_PX**2 + wander_px**2 + crowded_px**2)[..., None]
-        variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
-        _measure_unresolved(scene, names.assigned, measured, variance)
-    else:
-        measured, variance = np.full((CHAINS, DISCS, 3), np.nan), np.ones((CHAINS, DISCS, 3))
-    return measured.reshape(CHAINS, 9), variance.reshape(CHAINS, 9) * scene.noise_factor
-
-
-def _measure_unresolved(
-    scene: DigitScene, assigned: NDArray[np.int64], measured: FloatArray, variance: FloatArray
-) -> None:
-    """Blobs larger than their discs measure a neighbour without a blob of its own as well (unresolved measurements,
-    Koch and van Keuk 1997): ``measured`` and ``variance`` (5, 3, 3) are changed in place.
-
-    Two discs side by side cover more than one by as much of a disc as their middles lie apart in diameters, all but;
-    either lies half of that from the centre, along the line on which they are expected, as surely as that is known. The
-    depth is of either. A disc that was hidden a moment ago may have been given any blob.
-    """
-    expected, spread = scene.linearised.value.reshape(CHAINS, DISCS, 3), scene.spread
-    face_px = scene.disc_m2 * (scene.view.camera.fx_px / expected[..., 2]) ** 2
-    area_px = scene.area_px[np.maximum(assigned, 0)]
-    alone = (assigned < 0) & scene.has_discs[:, None]
-    known = (assigned >= 0) & (scene.visible >= WAS_SEEN)
-    for chain, disc in np.argwhere(known & (area_px > MERGED_FROM * face_px)).tolist():
-        other = next((d for d in (disc + 1, disc - 1) if 0 <= d < DISCS and alone[chain, d]), None)
-        if other is None:
-            continue
-        alone[chain, other] = False
-        face = face_px[chain, disc]
-        radius_px = math.sqrt(face / math.pi)
-        half_px = radius_px * min((area_px[chain, disc] - scene.whole_px[chain, disc]) / face, 2.0)
-        gap = expected[chain, other, :2] - expected[chain, disc, :2]
-        unsure2 = sum(
-            spread[chain, i, i] + spread[chain, j, j] - 2.0 * spread[chain, i, j]
-            for i, j in ((3 * disc, 3 * other), (3 * disc + 1, 3 * other + 1))
-        )
-        shift = gap * (half_px / math.sqrt(gap @ gap + unsure2))
-        stray2 = half_px**2 * (1.0 + MERGED_SHARE**2) - shift @ shift
-        measured[chain, other, :2] = measured[chain, disc, :2] + shift
-        variance[chain, other, :2] = variance[chain, disc, :2] + stray2
-        measured[chain, disc, :2] -= shift
-        variance[chain, disc, :2] += stray2
-        variance[chain, disc, 2] += (2.0 * half_px * expected[chain, disc, 2] / scene.view.camera.fx_px) ** 2
+    return measure_named(
+        scene,
+        names,
+        settings.noise.pixel_sd_px**2 + SKIN_PX**2,
+        settings.marker_radius_m,
+        (SHADE_SHARE, WHOLE_FROM),
+        (CROWDED_RADII, CROWDED_PX),
+        (WAS_SEEN, MERGED_FROM, MERGED_SHARE),
+    )
 
 
 def updated_as_associated(

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.compiled import digits
+from carpus.core.compiled import digit_images, digits
 from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, predicted
 from carpus.core.tracking.unscented import Spread, Weights, weights_for
@@ -181,5 +181,5 @@ class DigitsLinearisation(Linearisation):
 
 def digits_linearised(points: DigitPoints, view: DigitView, spread: Spread) -> DigitsLinearisation:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
-    value, slope, error, whole, centre_m, by_place = digits.linearised(points, view, bent_weights(spread))
+    value, slope, error, whole, centre_m, by_place = digit_images.linearise_images(points, view, bent_weights(spread))
     return DigitsLinearisation(value, slope, error, points.mean, whole, centre_m, by_place)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.compiled.digit_images import compute_tilts, propagate_palm_error
 from carpus.core.tracking.association import (
     AssociationSettings,
     is_jointly_compatible,
@@ -20,8 +21,6 @@ from carpus.core.tracking.digit_association import (
     beyond_reach,
     far_digits,
     seen_chance,
-    tilt_to,
-    tilt_variance,
     updated_as_associated,
     without,
 )
@@ -304,9 +303,9 @@ def disc_visibility(
     dt_s: float,
 ) -> DiscVisibility:
     """How the discs at ``points`` are to be seen ``dt_s`` after they were ``visible`` (5, 3)."""
-    tilt = tilt_to(seat.view, points.normal, linearised.centre_m)
-    chance = seen_chance(visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s)
-    shift = FingerModel.palm_part(linearised, seat)
+    tilt, variance = compute_tilts(points.normal, points.covariance, linearised, seat.view)
+    chance = seen_chance(visible, tilt, np.sqrt(variance), dt_s)
+    shift = propagate_palm_error(linearised, seat)
     facing = np.maximum(np.cos(tilt), MIN_FACING)
     facing_m2 = facing * (seat.view.camera.fx_px / linearised.centre_m[..., 2]) ** 2
     return DiscVisibility(shift, linearised.spread + shift, chance, tilt, facing_m2)

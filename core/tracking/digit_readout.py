@@ -8,7 +8,8 @@ import numpy as np
 
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import Camera
-from carpus.core.compiled.digits import inherited, lay_out
+from carpus.core.compiled.digit_images import compute_inherited
+from carpus.core.compiled.digits import place_digits
 from carpus.core.tracking.digit_filter import RATES, SEEN, DigitsLinearisation, DigitView
 from carpus.core.tracking.finger_depth import FLEXION
 from carpus.core.tracking.hand_geometry import (
@@ -67,15 +68,15 @@ class DigitReadout:
     ) -> JointMoment:
         """Joints of digits (5, n) with covariance (5, n, n) on that palm; ``linearised`` as the camera saw them."""
         palm, state = seat.palm, mean[:, SEEN]
-        _, normal, joint_m, disc_m = lay_out(state, palm.disc_m[1:])
+        _, normal, joint_m, disc_m = place_digits(state, palm.disc_m[1:])
         if not self._dip_free:
             # As the angles have the end joints, at two thirds of the middle ones: by how much one strays is for the
             # discs alone, and is no measurement of the joint.
             state[1:, _DIP_OFF] = 0.0
-            _, _, joint_m, _ = lay_out(state, palm.disc_m[1:])
+            _, _, joint_m, _ = place_digits(state, palm.disc_m[1:])
         # A knuckle's flexion is against its own metacarpal.
         slots = mean[:, :SLOTS].copy()
-        unsure = covariance[:, :SLOTS, :SLOTS] + inherited(covariance, seat, linearised, normal)
+        unsure = covariance[:, :SLOTS, :SLOTS] + compute_inherited(covariance, seat, linearised, normal)
         slots[:, FLEXION] -= palm.cup_rad
         unsure[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
         if self._skin_offsets:

@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digits import lay_discs
+from carpus.core.compiled.digits import place_discs
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SLOTS
 from carpus.core.types import FloatArray
 
@@ -80,7 +80,7 @@ def search_digits(
     postures = _grid()
     points = np.repeat(state[waiting, None], postures.shape[1], axis=1)
     points[..., :SLOTS] = postures[waiting]
-    disc = dict(zip(waiting, lay_discs(points, root_disc_m[waiting], waiting), strict=True))
+    disc = dict(zip(waiting, place_discs(points, root_disc_m[waiting], waiting), strict=True))
     found: dict[int, FloatArray] = {}
     free = np.ones(len(point_m), dtype=bool)
     while waiting:

@@ -73,7 +73,7 @@ def knuckle_bends(
     back = knuckle[:, None] + state[:, _HEIGHT, None, None] * normal
     reach = ALONG * state[:, _LENGTH, None]
     seen = view.observe(back[:, :, None] + reach[:, None, :, None] * along[:, :, None])  # (A, Q, P, 3)
-    past_m = _nearest_m(samples, seen[..., :2]) - seen[..., 2]
+    past_m = _read_depth_m(samples, seen[..., :2]) - seen[..., 2]
     stray_m = np.where(-(normal @ view.rotation[2]) > FACING_SHARE, NEAR_M, STEEP_M)
     cost = np.minimum(0.5 * (past_m / stray_m[..., None]) ** 2, np.where(past_m > 0.0, MAX_PAST, MAX_BEFORE))
     total = np.where(np.isfinite(past_m), cost, NOTHING).sum(axis=-1)
@@ -98,8 +98,8 @@ def with_bends(mixture: ModeMixture, bends: KnuckleBends) -> ModeMixture:
     return corrected(mixture, linearised, bends.value_rad[:, None], bends.variance_rad2[:, None]).mixture
 
 
-def _nearest_m(samples: SurfaceSamples, pixel: FloatArray) -> FloatArray:
-    """Depth of the nearest reading to pixels (..., 2), NaN where there is none within a step."""
+def _read_depth_m(samples: SurfaceSamples, pixel: FloatArray) -> FloatArray:
+    """Read the depth nearest to pixels (..., 2), NaN where there is none within a step."""
     cell = np.rint(samples.pixel / FINGER_STEP_PX).astype(np.int64)
     low = cell.min(axis=0) - 1
     columns, rows = cell.max(axis=0) - low + 2

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy_prior import AnatomyPrior
@@ -23,7 +22,6 @@ from carpus.core.tracking.digit_filter import (
     SEEN,
     DigitMotion,
     DigitPoints,
-    DigitsLinearisation,
     Forgetting,
     spread_points,
 )
@@ -33,7 +31,6 @@ from carpus.core.tracking.hand_geometry import (
     CONSTANTS,
     CROWDED_PX,
     CROWDED_RADII,
-    DISCS,
     SLOTS,
     PalmInBody,
     is_crowded,
@@ -320,12 +317,3 @@ class FingerModel:
         error stays for as long as its discs are hidden."""
         variance = float(sum(seat.pose_covariance.diagonal()[3:].tolist()))
         return LEARNING / (1.0 + (variance / SURE_TURN_RAD**2) ** 2)
-
-    @staticmethod
-    def palm_part(linearised: DigitsLinearisation, seat: Seat) -> FloatArray:
-        """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
-        by_pose = np.empty((CHAINS, DISCS, 3, 6))
-        by_pose[..., :3] = linearised.by_place
-        by_pose[..., 3:] = linearised.by_place @ so3.skew(seat.view.translation_m - linearised.centre_m)
-        flat = by_pose.reshape(CHAINS, 9, 6)
-        return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))

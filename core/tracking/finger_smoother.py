@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.compiled.digit_images import propagate_palm_error
 from carpus.core.tracking.digit_association import far_digits
 from carpus.core.tracking.digit_filter import (
     ANATOMY,
@@ -200,7 +201,7 @@ def _filtered(
         is_far = bool(step.postures) or bool(far_digits(estimates.merged()[1], step.shown).any())
         for _ in range(1 + (PINNINGS if is_far else 0)):
             linearised = _linearised(model, *nearest.merged(), seat)
-            palm_part = model.palm_part(linearised, seat)
+            palm_part = propagate_palm_error(linearised, seat)
             nearest = corrected(estimates, linearised, step.measured, step.variance, palm_part, partial).mixture
         bent = with_bends(nearest, step.bends) if step.bends.is_any else nearest
         estimates, (mean, covariance), misread = model.within_reach(bent, estimates)

@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digits import within_limits
+from carpus.core.compiled.digits import apply_limits
 from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
@@ -65,7 +65,7 @@ def constrained(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
     Each angle's pull is found by itself, then all pulls of a digit act together, as measurements with independent
     errors.
     """
-    found = within_limits(estimates, slot_limits_rad(slots), _DIRECTION, SOFT_RAD, NEAR_SD)
+    found = apply_limits(estimates, slot_limits_rad(slots), _DIRECTION, SOFT_RAD, NEAR_SD)
     return estimates if found is None else ModeMixture(*found, estimates.probability)
 
 

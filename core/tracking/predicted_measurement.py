@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.compiled.digit_images import project_discs
 from carpus.core.compiled.palm import see_palm
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.tracking.digit_filter import DigitPoints, DigitView
+from carpus.core.tracking.digit_filter import DigitPoints, DigitView, bent_weights
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, PalmInBody
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, partial_update
 from carpus.core.tracking.motion import PalmMotion, palm_ahead
@@ -135,12 +136,8 @@ class PredictedDigits:
 
     def image(self, estimate: PalmEstimate, view: View, spread: Spread) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
-        count = self.points.unroot.shape[-1]
         own_view = DigitView(*view.of_palm(estimate, self.palm.axes, self.palm.origin_m), view.camera)
-        image = own_view.observe(self.points.disc_m)
-        half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
-        by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, spread).scale)
-        return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
+        return project_discs(self.points, own_view, bent_weights(spread).scale)
 
 
 @dataclass(frozen=True)

@@ -110,8 +110,8 @@ DIGIT_STATE = (
 DIGIT_MEASUREMENTS = (
     MeasurementPart(
         "discs", 9, "px, px, m: u, v and depth z of three discs",
-        ("DigitView.observe", "digit_filter.digits_linearised"),
-        ("digit_association.updated_as_associated", "FingerModel.palm_part"),
+        ("digit_images.linearise_images",),
+        ("digit_association.updated_as_associated", "digit_images.propagate_palm_error"),
     ),
     MeasurementPart(
         "knuckle", 1, "rad: flexion at a knuckle whose discs are hidden, by depth",

@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.result import Calibration
+from carpus.core.compiled import digit_images
 from carpus.core.compiled import digits as compiled
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
 from carpus.core.tracking.digit_filter import (
     SEEN,
     DigitPoints,
@@ -27,11 +29,13 @@ from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.joint_limits import _DIRECTION, NEAR_SD, SOFT_RAD, slot_limits_rad
 from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
+from tests.compiled.oracle import digit_images as seen_oracle
 from tests.compiled.oracle import digits as oracle
 from tests.compiled.test_mixture import covariances
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
@@ -103,21 +107,54 @@ def test_points_and_their_images_are_the_oracles(which: tuple[str, int, bool]) -
     points = it.points()
     assert_same(points, oracle.spread_points(it.mean, it.covariance, it.root_m, Spread()))
     linearised = it.linearised()
-    assert_same(linearised, oracle.digits_linearised(points, it.seat.view, Spread()))
-    found = compiled.inherited(it.covariance, it.seat, linearised, points.normal)
-    assert_same(found, oracle.inherited(it.covariance, it.seat, linearised, points.normal))
+    assert_same(linearised, seen_oracle.linearise_images(points, it.seat.view, Spread()))
+    for name, of in {
+        "project_discs": (points, it.seat.view, 1.5),
+        "propagate_palm_error": (linearised, it.seat),
+        "compute_tilts": (points.normal, it.covariance, linearised, it.seat.view),
+        "compute_inherited": (it.covariance, it.seat, linearised, points.normal),
+    }.items():
+        assert_same(getattr(digit_images, name)(*of), getattr(seen_oracle, name)(*of))
+
+
+@pytest.mark.parametrize("blobs", [0, 9])
+def test_what_named_blobs_measure_is_the_oracles(blobs: int) -> None:
+    it, rng = hand("right", 0), np.random.default_rng(3)
+    linearised = it.linearised()
+    value = rng.normal(size=(blobs, 3)) + [300.0, 200.0, 0.7]
+    value[1::3, 2] = np.nan
+    assigned = np.where(rng.uniform(size=(5, 3)) < 0.6, rng.integers(0, max(blobs, 1), (5, 3)), -1)
+    assigned = assigned.astype(np.int64) if blobs else np.full((5, 3), -1)
+    names = DigitAssignment(assigned, (assigned >= 0) & (rng.uniform(size=(5, 3)) < 0.7))
+    whole_px = np.where(rng.uniform(size=(5, 3)) < 0.2, np.nan, 60.0)
+    crowded = replace(linearised, value=np.where(np.arange(9) % 3 == 2, 0.7, linearised.value * 0.05))
+    for seen in (linearised, crowded):
+        scene = DigitScene(
+            it.covariance, seen, seen.spread, seen.spread, rng.uniform(0.3, 0.98, size=(5, 3)),
+            Measurements(value, rng.uniform(0.01, 0.1, size=(blobs, 3))), np.ones(blobs, dtype=bool),
+            rng.uniform(10.0, 90.0, size=blobs), whole_px, whole_px * 1e-6, rng.uniform(0.6, 3.0, size=(5, 9)), 3e5,
+            it.seat.view, 0.2, np.arange(5) < 4,
+        )  # fmt: skip
+        expected = seen_oracle.measured_as_named(scene, names, SETTINGS)
+        assert_same(measured_as_named(scene, names, SETTINGS), expected)
+        for layout in LAYOUTS:
+            scene_so, names_so = laid_out(scene, layout), laid_out(names, layout)
+            assert_same(measured_as_named(scene_so, names_so, SETTINGS), expected)
+        for wrong in (replace(names, assigned=assigned[:4]), replace(names, assigned=np.full((5, 3), blobs))):
+            with pytest.raises(ValueError, match="names"):
+                measured_as_named(scene, wrong, SETTINGS)
 
 
 def test_bones_joints_and_discs_are_the_oracles() -> None:
     it, pose = hand(), hand().mean[:, SEEN]
-    bone, normal, joint_m, disc_m = compiled.lay_out(pose, it.root_m)
+    bone, normal, joint_m, disc_m = compiled.place_digits(pose, it.root_m)
     frames = oracle.digit_frames(pose)
     expected_m = oracle.digit_discs_m(it.root_m, pose[:, None])
     assert_same((bone, normal), frames)
     assert_same((joint_m, disc_m), (oracle.digit_joints_m(it.root_m, pose, frames), expected_m[:, 0]))
     some = [0, 2]
     many = np.repeat(pose[some, None], 4, axis=1) + np.linspace(0.0, 0.3, 4)[:, None]
-    assert_same(compiled.lay_discs(many, it.root_m[some], some), oracle.digit_discs_m(it.root_m[some], many, some))
+    assert_same(compiled.place_discs(many, it.root_m[some], some), oracle.digit_discs_m(it.root_m[some], many, some))
 
 
 @pytest.mark.parametrize("modes", [1, 2])
@@ -130,7 +167,7 @@ def test_limits_are_the_oracles(modes: int, wide: float) -> None:
         asked = it.limited(
             ModeMixture(mean, np.repeat(wide * it.covariance[:, None], modes, axis=1), np.ones((5, modes)))
         )
-        found, expected = compiled.within_limits(*asked), oracle.within_limits(*asked)
+        found, expected = compiled.apply_limits(*asked), oracle.apply_limits(*asked)
         assert (found is None) == (expected is None)
         if found is not None:
             assert_same(found, expected)
@@ -139,8 +176,8 @@ def test_limits_are_the_oracles(modes: int, wide: float) -> None:
 def test_limits_far_from_all_angles_change_nothing() -> None:
     bent = np.where(np.isin(np.arange(21), (1, 2)), 0.6, 0.0)
     sure = ModeMixture(np.tile(bent, (5, 1, 1)), np.tile(1e-7 * np.eye(21), (5, 1, 1, 1)), np.ones((5, 1)))
-    assert oracle.within_limits(*hand().limited(sure)) is None
-    assert compiled.within_limits(*hand().limited(sure)) is None
+    assert oracle.apply_limits(*hand().limited(sure)) is None
+    assert compiled.apply_limits(*hand().limited(sure)) is None
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
@@ -149,12 +186,15 @@ def test_arrays_stored_otherwise_give_the_same(layout: Laid) -> None:
     points, linearised, pose = it.points(), it.linearised(), it.mean[:, SEEN]
     mixture = it.fingers.model.alike(it.mean, it.covariance)
     steps: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
-        (compiled.lay_out, (pose, it.root_m)),
-        (compiled.lay_discs, (pose[1:3, None], it.root_m[1:3], [1, 2])),
+        (compiled.place_digits, (pose, it.root_m)),
+        (compiled.place_discs, (pose[1:3, None], it.root_m[1:3], [1, 2])),
         (compiled.spread_points, (it.mean, it.covariance, it.root_m, weights.scale)),
-        (compiled.linearised, (points, it.seat.view, weights)),
-        (compiled.inherited, (it.covariance, it.seat, linearised, points.normal)),
-        (compiled.within_limits, it.limited(mixture)),
+        (digit_images.linearise_images, (points, it.seat.view, weights)),
+        (digit_images.project_discs, (points, it.seat.view, weights.scale)),
+        (digit_images.propagate_palm_error, (linearised, it.seat)),
+        (digit_images.compute_tilts, (points.normal, it.covariance, linearised, it.seat.view)),
+        (digit_images.compute_inherited, (it.covariance, it.seat, linearised, points.normal)),
+        (compiled.apply_limits, it.limited(mixture)),
     ]
     for step, of in steps:
         assert_same(step(*(laid_out(one, layout) for one in of)), step(*of), 0.0)
@@ -170,9 +210,12 @@ def test_an_unknown_digit_leaves_the_others_known() -> None:
         assert_same(laid_out(found, lambda one: one[others]), laid_out(whole, lambda one: one[others]), 0.0)
     expected = oracle.spread_points(mean, it.covariance, it.root_m, Spread())
     assert_same((points.disc_m, points.normal), (expected.disc_m, expected.normal))
-    assert_same(linearised.value, oracle.digits_linearised(expected, it.seat.view, Spread()).value)
+    assert_same(linearised.value, seen_oracle.linearise_images(expected, it.seat.view, Spread()).value)
+    of = points.normal, it.covariance, linearised, it.seat.view
+    assert np.isnan(digit_images.compute_tilts(*of)[0][2]).any()
+    assert_same(digit_images.compute_tilts(*of), seen_oracle.compute_tilts(*of))
     asked = it.limited(it.fingers.model.alike(mean, it.covariance))
-    assert_same(compiled.within_limits(*asked), oracle.within_limits(*asked))
+    assert_same(compiled.apply_limits(*asked), oracle.apply_limits(*asked))
 
 
 def test_what_is_no_covariance_is_refused() -> None:
@@ -180,7 +223,7 @@ def test_what_is_no_covariance_is_refused() -> None:
     with pytest.raises(np.linalg.LinAlgError):
         spread_points(it.mean, -it.covariance, it.root_m, Spread())
     with pytest.raises(np.linalg.LinAlgError):
-        compiled.inherited(-it.covariance, it.seat, it.linearised(), it.points().normal)
+        digit_images.compute_inherited(-it.covariance, it.seat, it.linearised(), it.points().normal)
 
 
 def test_sizes_that_do_not_fit_are_refused() -> None:
@@ -189,19 +232,25 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
     mixture = it.fingers.model.alike(it.mean, it.covariance)
     _, limits, *rest = it.limited(mixture)
     wrong: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
-        (compiled.lay_out, (it.mean, it.root_m)),
-        (compiled.lay_out, (pose, it.root_m[:4])),
-        (compiled.lay_discs, (pose[1:3, None], it.root_m[1:3], [1])),
+        (compiled.place_digits, (it.mean, it.root_m)),
+        (compiled.place_digits, (pose, it.root_m[:4])),
+        (compiled.place_discs, (pose[1:3, None], it.root_m[1:3], [1])),
         (compiled.spread_points, (pose, it.covariance, it.root_m, 1.0)),
         (compiled.spread_points, (it.mean, it.covariance[:, :20], it.root_m, 1.0)),
         (compiled.spread_points, (it.mean.astype(np.float32), it.covariance, it.root_m, 1.0)),
-        (compiled.linearised, (replace(points, along=points.along[..., :9]), view, weights)),
-        (compiled.linearised, (points, replace(view, rotation=view.rotation[:2]), weights)),
-        (compiled.inherited, (it.covariance[:4], it.seat, linearised, points.normal)),
-        (compiled.inherited, (it.covariance, replace(it.seat, turn_covariance=np.eye(6)), linearised, points.normal)),
-        (compiled.within_limits, (mixture, limits[:, :4], *rest)),
-        (compiled.within_limits, (replace(mixture, covariance=mixture.covariance[..., :20]), limits, *rest)),
+        (digit_images.linearise_images, (replace(points, along=points.along[..., :9]), view, weights)),
+        (digit_images.linearise_images, (points, replace(view, rotation=view.rotation[:2]), weights)),
+        (digit_images.project_discs, (replace(points, disc_m=points.disc_m[:, :12]), view, 1.0)),
+        (digit_images.propagate_palm_error, (linearised, replace(it.seat, pose_covariance=np.eye(3)))),
+        (digit_images.compute_tilts, (points.normal[:, :2], it.covariance, linearised, view)),
+        (digit_images.compute_inherited, (it.covariance[:4], it.seat, linearised, points.normal)),
+        (
+            digit_images.compute_inherited,
+            (it.covariance, replace(it.seat, turn_covariance=np.eye(6)), linearised, points.normal),
+        ),
+        (compiled.apply_limits, (mixture, limits[:, :4], *rest)),
+        (compiled.apply_limits, (replace(mixture, covariance=mixture.covariance[..., :20]), limits, *rest)),
     ]
     for step, of in wrong:
-        with pytest.raises(ValueError, match=r"size|dtype|dimensions"):
+        with pytest.raises(ValueError, match=r"is read|dtype|dimensions"):
             step(*of)

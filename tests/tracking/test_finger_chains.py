@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carpus.core.camera import Camera
-from carpus.core.compiled.digits import BENT, OTHER, lay_out
+from carpus.core.compiled.digits import BENT, OTHER, place_digits
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.anatomy_prior import constants_of
 from carpus.core.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
@@ -62,7 +62,7 @@ def state_of(anatomy: HandAnatomy, joints: FloatArray) -> FloatArray:
 def test_discs_and_joints_are_those_of_the_plain_chains(seed: int, dip_free: bool) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
-    bone, normal, chain, disc_m = lay_out(state, roots)
+    bone, normal, chain, disc_m = place_digits(state, roots)
     assert np.allclose(disc_m, disc_centres(anatomy, joints)[DIGIT_MARKERS], atol=1e-12)
     plain = joint_centres(anatomy, joints)
     assert np.allclose(chain[:, 1:], plain[DIGIT_MARKERS], atol=1e-12)
@@ -88,7 +88,7 @@ def test_slope_by_the_constants_is_that_of_small_differences(seed: int) -> None:
         ahead, back = state.copy(), state.copy()
         ahead[:, constant] += step
         back[:, constant] -= step
-        by_difference = (lay_out(ahead, roots)[3] - lay_out(back, roots)[3]) / (2.0 * step)
+        by_difference = (place_digits(ahead, roots)[3] - place_digits(back, roots)[3]) / (2.0 * step)
         assert np.allclose(slope[..., column], by_difference, atol=1e-8), constant
 
 
@@ -104,7 +104,7 @@ def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
     linearised = digits_linearised(spread_points(mean, covariance, roots, Spread()), view, Spread())
 
     def images(about: FloatArray) -> FloatArray:
-        point = lay_out(about[:, SEEN], roots)[3] @ down.T + view.translation_m
+        point = place_digits(about[:, SEEN], roots)[3] @ down.T + view.translation_m
         z = point[..., 2]
         return np.stack(
             (525.0 * point[..., 0] / z + 319.5, 530.0 * point[..., 1] / z + 239.5, z), axis=-1

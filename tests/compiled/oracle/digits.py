@@ -11,17 +11,13 @@ from numpy.typing import NDArray
 from scipy.special import erfcx
 
 from carpus.core import so3
-from carpus.core.compiled.digits import ACROSS_M, BENT, DEPTH_STAYS_M, FLOOR, INHERITED, NARROW2, OTHER
+from carpus.core.compiled.digits import BENT, FLOOR, OTHER
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.tracking.digit_filter import (
-    DIGIT_SIZE,
     SEEN,
     DigitPoints,
-    DigitsLinearisation,
-    DigitView,
     bent_weights,
 )
-from carpus.core.tracking.digit_readout import Seat
 from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, DISCS, SLOTS
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.unscented import Spread
@@ -208,49 +204,6 @@ def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatAr
     return DigitPoints(digit_discs_m(root_disc_m, point), unroot, along, by_constants, frames.normal, mean, covariance)
 
 
-def digits_linearised(points: DigitPoints, view: DigitView, spread: Spread) -> DigitsLinearisation:
-    """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
-    count, weights = BENT.size, bent_weights(spread)
-    image = view.observe(points.disc_m).reshape(CHAINS, 2 * count + 1, 3 * DISCS)
-    value: FloatArray = weights.mean @ image
-    plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]
-    half = (plus - minus) * (0.5 / weights.scale)  # (5, 6, 9): slope in the axes of the root
-    # The even part of the spread is what nothing linear can follow.
-    bend = 0.5 * (plus + minus) - value[:, None]
-    middle = image[:, :1] - value[:, None]
-    error = 2.0 * weights.covariance[1] * (np.swapaxes(bend, 1, 2) @ bend)
-    error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
-    by_place = view.camera.slope(image[:, 0].reshape(CHAINS, DISCS, 3))
-    by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(CHAINS, 3 * DISCS, -1)
-    own = half - points.along @ np.swapaxes(by_constants, 1, 2)
-    slope = np.zeros((CHAINS, 3 * DISCS, DIGIT_SIZE))
-    slope[:, :, SEEN[BENT]] = np.swapaxes(own, 1, 2) @ points.unroot
-    slope[:, :, SEEN[OTHER]] = by_constants
-    whole = slope @ points.covariance @ np.swapaxes(slope, 1, 2) + error
-    centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
-    return DigitsLinearisation(value, slope, error, points.mean, whole, centre, by_place)
-
-
-def inherited(covariance: FloatArray, seat: Seat, linearised: DigitsLinearisation, normal: FloatArray) -> FloatArray:
-    """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from depths that stay wrong."""
-    camera, joints = seat.view.camera, covariance[:, :SLOTS, :SLOTS]
-    unit = np.empty((CHAINS, DISCS, 3, 1))
-    unit[..., :2, 0] = linearised.centre_m[..., 2:] / (np.array([camera.fx_px, camera.fy_px]) * ACROSS_M)
-    unit[..., 2, 0] = 1.0 / DEPTH_STAYS_M
-    slope = linearised.slope[..., :SLOTS] * unit.reshape(CHAINS, 9, 1)
-    across = np.swapaxes(slope, 1, 2)
-    doubt = INHERITED * np.linalg.inv(joints + NARROW2 * np.eye(SLOTS))
-    response = np.linalg.solve(across @ slope + doubt, across)
-    root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
-    turned = response @ (linearised.by_place @ so3.skew(root_m - linearised.centre_m) * unit).reshape(CHAINS, 9, 3)
-    in_camera = normal @ seat.view.rotation.T
-    moved = -in_camera[..., 2:] * in_camera
-    moved[..., 2] += 1.0
-    seen = linearised.by_place @ moved[..., None] * (DEPTH_STAYS_M * unit)
-    by_disc = (response.reshape(CHAINS, SLOTS, DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
-    return np.asarray(turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2))
-
-
 def _softened(
     mean: FloatArray, variance: FloatArray, edge: FloatArray, soft_rad: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -262,7 +215,7 @@ def _softened(
     return mean + variance * ratio / np.sqrt(total), variance - variance**2 * ratio * (z + ratio) / total
 
 
-def within_limits(
+def apply_limits(
     mixture: ModeMixture, limits: FloatArray, direction: FloatArray, soft_rad: float, near_sd: float
 ) -> tuple[FloatArray, FloatArray] | None:
     """Means and covariances with the limits (5, 5, 2) of the angles heard; None where none is near."""

@@ -1,0 +1,85 @@
+"""Odds that a blob is a marker, eq. (12) of the wrist paper."""
+
+from __future__ import annotations
+
+import cython
+import numpy as np
+from cython.cimports.libc.math import isfinite, log
+from numpy.typing import NDArray
+
+from carpus.core.compiled.palm import given
+
+Array = NDArray[np.float64]
+
+
+def compute_log_odds(
+    predicted: Array,
+    covariance: Array,
+    measured: Array,
+    noise_variance: Array,
+    densities: tuple[float, float, float],
+    gate2: float,
+    impossible: float,
+) -> tuple[Array, NDArray[np.bool_]]:
+    """
+    Compute the log of (12) for every marker over (12) for clutter.
+
+    With innovations y and their covariance S it is the log of N(y; 0, S) over clutter's density: by pixel and depth, or
+    by the pixel alone where there is no depth or it is of something else.
+
+    Parameters
+    ----------
+    predicted, covariance : numpy.ndarray
+        Pixel u, v and depth z of the markers (M, 3), and their covariance (M, 3, 3).
+    measured, noise_variance : numpy.ndarray
+        Those of the blobs (D, 3), NaN where there is no depth, and their variances (D, 3).
+    densities : tuple of float
+        Logs of a marker's prior over clutter's in the picture, of clutter's in depth, and of the chance that a depth is
+        of something else.
+    gate2 : float
+        From which y' S^-1 y on a blob is not that marker.
+    impossible : float
+        The value there.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        The odds (M, D), and whether the blob's depth is believed (M, D).
+    """
+    markers: cython.Py_ssize_t = len(predicted)
+    blobs: cython.Py_ssize_t = len(measured)
+    at: cython.const[cython.double][:, ::1] = given(predicted, "what is predicted", (markers, 3))
+    wide: cython.const[cython.double][:, :, ::1] = given(covariance, "its covariance", (markers, 3, 3))
+    blob: cython.const[cython.double][:, ::1] = given(measured, "what is measured", (blobs, 3))
+    noise: cython.const[cython.double][:, ::1] = given(noise_variance, "its variance", (blobs, 3))
+    prior: cython.double = densities[0]
+    by_depth: cython.double = densities[1]
+    by_outlier: cython.double = densities[2]
+    gate: cython.double = gate2
+    never: cython.double = impossible
+    out, believed = np.empty((markers, blobs)), np.empty((markers, blobs), dtype=np.uint8)
+    value: cython.double[:, ::1] = out
+    with_depth: cython.uchar[:, ::1] = believed
+    j: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    for j in range(markers):
+        for i in range(blobs):
+            # S = L D L': innovations u, v, z and their variances, each given those before it.
+            u = blob[i, 0] - at[j, 0]
+            s_u = wide[j, 0, 0] + noise[i, 0]
+            v_by_u = wide[j, 0, 1] / s_u
+            v = blob[i, 1] - at[j, 1] - v_by_u * u
+            s_v = wide[j, 1, 1] + noise[i, 1] - v_by_u * wide[j, 0, 1]
+            vz = wide[j, 1, 2] - v_by_u * wide[j, 0, 2]
+            z_by_u, z_by_v = wide[j, 0, 2] / s_u, vz / s_v
+            z = blob[i, 2] - at[j, 2] - z_by_u * u - z_by_v * v
+            s_z = wide[j, 2, 2] + noise[i, 2] - z_by_u * wide[j, 0, 2] - z_by_v * vz
+            flat2 = u * u / s_u + v * v / s_v
+            whole2 = flat2 + z * z / s_z
+            has_depth = isfinite(blob[i, 2])
+            flat = prior - 0.5 * (flat2 + log(s_u * s_v))
+            whole = flat + by_depth - 0.5 * (z * z / s_z + log(s_z)) if whole2 <= gate else never
+            flat = never if flat2 > gate else flat + by_outlier if has_depth else flat
+            with_depth[j, i] = has_depth and whole >= flat
+            value[j, i] = whole if whole >= flat else flat  # unknown where that by the pixel is
+    return out, believed.view(np.bool_)
