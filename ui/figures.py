@@ -7,13 +7,15 @@ palm's edge, and that of the middle finger towards the thumb. TAM is the sum of 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from carpus.core.phrase import Phrase, phrase
 from carpus.core.rounding import written
 from carpus.ui import numbers
 from carpus.ui.marker_words import finger_name, long_finger_name
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import inside, say, tr
 
 Row = Literal["knuckle", "middle", "end", "spread", "tam"]
 ROWS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread")
@@ -24,6 +26,12 @@ TOKENS: dict[Row, str] = {
 _JOINTS: dict[Row, str] = {"knuckle": "MCP{}_flexion", "middle": "PIP{}_flexion", "end": "DIP{}_flexion"}
 _THUMB: dict[Row, str] = {
     "knuckle": "MCP1_flexion", "middle": "CMC1_abduction", "end": "IP1_flexion", "spread": "CMC1_extension",
+}  # fmt: skip
+
+
+_ROW_NAMES: Mapping[str, Phrase] = {
+    "lift": phrase("Lift"), "knuckle": phrase("Knuckle"), "middle": phrase("Middle joint"), "end": phrase("End joint"),
+    "spread": phrase("Spread"), "tam": phrase("TAM"),
 }  # fmt: skip
 
 
@@ -90,11 +98,7 @@ FIGURES: tuple[Figure, ...] = tuple(Figure(finger, row) for finger in FINGERS fo
 
 def row_name(row: Row | Literal["lift"]) -> str:
     """``Middle joint``."""
-    return {
-        "lift": tr("Lift"),
-        "knuckle": tr("Knuckle"), "middle": tr("Middle joint"), "end": tr("End joint"), "spread": tr("Spread"),
-        "tam": tr("TAM"),
-    }[row]  # fmt: skip
+    return say(_ROW_NAMES[row])
 
 
 def _long_name(figure: Figure) -> str:

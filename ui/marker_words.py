@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from carpus.core.phrase import phrase
 from carpus.core.words import marker_in_words
 from carpus.ui.translate import say, tr
 
@@ -12,19 +13,21 @@ def marker_name(marker: str) -> str:
     return name[:1].upper() + name[1:]
 
 
+_FINGERS = {
+    "1": (phrase("Thumb"), phrase("Thumb")), "2": (phrase("Index"), phrase("Index finger")),
+    "3": (phrase("Middle"), phrase("Middle finger")), "4": (phrase("Ring"), phrase("Ring finger")),
+    "5": (phrase("Little"), phrase("Little finger")),
+}  # fmt: skip
+
+
 def finger_name(finger: str) -> str:
     """``Ring`` for 4."""
-    return {"1": tr("Thumb"), "2": tr("Index"), "3": tr("Middle"), "4": tr("Ring"), "5": tr("Little")}.get(
-        finger, finger
-    )
+    return say(_FINGERS[finger][0])
 
 
 def long_finger_name(finger: str) -> str:
     """``Ring finger`` for 4, ``Thumb`` for 1."""
-    return {
-        "1": tr("Thumb"), "2": tr("Index finger"), "3": tr("Middle finger"), "4": tr("Ring finger"),
-        "5": tr("Little finger"),
-    }.get(finger, finger)  # fmt: skip
+    return say(_FINGERS[finger][1])
 
 
 def finger_of(marker: str) -> int:

@@ -7,9 +7,18 @@ from datetime import date
 
 import numpy as np
 
-from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, exercise_named, known_exercise
+from carpus.core.hand.exercises import (
+    ARC_NAMES,
+    MOVEMENTS,
+    PRONOSUPINATION,
+    SIDES,
+    Exercise,
+    exercise_named,
+    known_exercise,
+)
 from carpus.core.hand.forearm_rotation import is_from_thumb_up, read_wrist_angles
 from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 from carpus.ui import language, numbers
 from carpus.ui.translate import say, tr
@@ -56,27 +65,12 @@ def onset_words(onset: str, day: date | None) -> str:
 
 def movement_name(movement: str) -> str:
     """``Flexion``, ``Radial``, ``Whole arc``."""
-    return {
-        "radial": tr("Radial"),
-        "ulnar": tr("Ulnar"),
-        "flexion": tr("Flexion"),
-        "extension": tr("Extension"),
-        "supination": tr("Supination"),
-        "pronation": tr("Pronation"),
-        "arc": tr("Whole arc"),
-    }.get(movement, movement)
+    return say(MOVEMENTS[movement].name)
 
 
 def deficit_name(movement: str) -> str:
     """``Extension deficit``: what is missing to neutral."""
-    return {
-        "radial": tr("Radial deviation deficit"),
-        "ulnar": tr("Ulnar deviation deficit"),
-        "flexion": tr("Flexion deficit"),
-        "extension": tr("Extension deficit"),
-        "supination": tr("Supination deficit"),
-        "pronation": tr("Pronation deficit"),
-    }.get(movement, movement)
+    return say(MOVEMENTS[movement].deficit)
 
 
 def lacking(size: str) -> str:
@@ -97,12 +91,7 @@ def end_words(mean_deg: float, movement: str = "", sd_deg: float = math.nan) -> 
 
 def movement_long_name(movement: str) -> str:
     """As :func:`movement_name`, with the noun where the short word alone is not one."""
-    return {
-        "radial": tr("Radial deviation"),
-        "ulnar": tr("Ulnar deviation"),
-        "supination": tr("Forearm supination"),
-        "pronation": tr("Forearm pronation"),
-    }.get(movement, movement_name(movement))
+    return say(MOVEMENTS[movement].noun)
 
 
 def direction_names(angle: int, exercise: Exercise) -> tuple[str, str]:
@@ -141,28 +130,35 @@ def movement_at_zero(angle: int, exercise: Exercise) -> str:
 
 def arc_name(angle: int) -> str:
     """The whole arc of one angle, where more than one is shown."""
-    return {0: tr("Side arc"), 1: tr("Bending arc"), 2: tr("Forearm rotation")}[angle]
+    return say(ARC_NAMES[angle])
+
+
+_HANDS = {"right": phrase("Right hand"), "left": phrase("Left hand"), "both": phrase("Both hands")}
+_SIDES = {"right": phrase("Right"), "left": phrase("Left"), "both": phrase("Both")}
+_AFFECTED = {
+    "right": phrase("Right hand affected"), "left": phrase("Left hand affected"), "both": phrase("Both hands affected"),
+}  # fmt: skip
+_HANDED = {"right": phrase("right-handed"), "left": phrase("left-handed"), "both": phrase("both-handed")}
 
 
 def hand_name(side: str) -> str:
     """``Right hand``."""
-    return {"right": tr("Right hand"), "left": tr("Left hand"), "both": tr("Both hands")}.get(side, side)
+    return say(_HANDS.get(side, side))
 
 
 def side_name(side: str) -> str:
     """``Right``."""
-    return {"right": tr("Right"), "left": tr("Left"), "both": tr("Both")}.get(side, side)
+    return say(_SIDES.get(side, side))
+
+
+def hand_dominance(dominance: str) -> str:
+    """``right-handed``; empty where nobody knows."""
+    return say(_HANDED.get(dominance, ""))
 
 
 def affected_phrase(side: str, dominance: str) -> str:
     """``Right hand affected · right-handed``."""
-    affected = {
-        "right": tr("Right hand affected"),
-        "left": tr("Left hand affected"),
-        "both": tr("Both hands affected"),
-    }.get(side, "")
-    handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(dominance, "")
-    return " · ".join(part for part in (affected, handed) if part)
+    return " · ".join(filter(None, (say(_AFFECTED.get(side, "")), hand_dominance(dominance))))
 
 
 def start_angle_words(angles_rad: FloatArray) -> str:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 
 from carpus.core.measures.change import RetestStudy
+from carpus.core.phrase import Phrase, phrase
 from carpus.ui import numbers
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 
 def verdict_token(verdict: str) -> str:
@@ -20,36 +21,37 @@ def no_change_words() -> str:
     return tr("no change proven")
 
 
+_VERDICTS: Mapping[str, Phrase] = {
+    "improved": phrase("improved"), "worse": phrase("worse"), "no_change": phrase("no change proven"),
+    "not_judged": phrase("not judged"),
+}  # fmt: skip
+_REASONS: Mapping[str, Phrase] = {
+    "side": phrase("the other hand"),
+    "protocol": phrase("other markers"),
+    "exercise": phrase("another exercise"),
+    "few_repetitions_before": phrase("fewer than 3 repetitions"),
+    "few_repetitions_after": phrase("fewer than 3 repetitions"),
+    "unknown": phrase("not measured"),
+    "simulated": phrase("a simulated hand"),
+    "not_counted": phrase("marked as not counting"),
+    "doubtful": phrase("measured although the markers were doubtful"),
+    "distance": phrase("the camera was at another distance"),
+    "start_angle": phrase("another start angle was given"),
+    "forearm_moved": phrase("the forearm moved"),
+    "hidden": phrase("hidden in part"),
+    "angle_order": phrase("angles in another order"),
+    "only_passive": phrase("no active repetition"),
+}
+
+
 def verdict_word(verdict: str) -> str:
     """The verdict as the table says it."""
-    return {
-        "improved": tr("improved"),
-        "worse": tr("worse"),
-        "no_change": no_change_words(),
-        "not_judged": tr("not judged"),
-    }.get(verdict, "")
+    return say(_VERDICTS.get(verdict, ""))
 
 
 def reason_words(reasons: Sequence[str]) -> str:
     """Why two sessions are not judged, or one is left out, in a few words; empty for no reason."""
-    words = {
-        "side": tr("the other hand"),
-        "protocol": tr("other markers"),
-        "exercise": tr("another exercise"),
-        "few_repetitions_before": tr("fewer than 3 repetitions"),
-        "few_repetitions_after": tr("fewer than 3 repetitions"),
-        "unknown": tr("not measured"),
-        "simulated": tr("a simulated hand"),
-        "not_counted": tr("marked as not counting"),
-        "doubtful": tr("measured although the markers were doubtful"),
-        "distance": tr("the camera was at another distance"),
-        "start_angle": tr("another start angle was given"),
-        "forearm_moved": tr("the forearm moved"),
-        "hidden": tr("hidden in part"),
-        "angle_order": tr("angles in another order"),
-        "only_passive": tr("no active repetition"),
-    }
-    return ", ".join(dict.fromkeys(words.get(reason, reason) for reason in reasons))
+    return ", ".join(dict.fromkeys(say(_REASONS[reason]) for reason in reasons))
 
 
 def counted_once_words(earlier_results: int) -> str:

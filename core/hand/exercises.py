@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
@@ -19,6 +20,31 @@ SIDES: tuple[tuple[Movement, Movement], ...] = (
     ("radial", "ulnar"), ("flexion", "extension"), ("supination", "pronation"),
 )  # fmt: skip
 """Name of the positive and of the negative direction of each angle."""
+
+
+@dataclass(frozen=True, slots=True)
+class MovementWords:
+    """A movement in a word, with its noun where that word alone is none, and what is missing to neutral that way."""
+
+    name: Phrase
+    noun: Phrase
+    deficit: Phrase
+
+
+_FLEXION, _EXTENSION, _ARC = phrase("Flexion"), phrase("Extension"), phrase("Whole arc")
+MOVEMENTS: Mapping[str, MovementWords] = {
+    "radial": MovementWords(phrase("Radial"), phrase("Radial deviation"), phrase("Radial deviation deficit")),
+    "ulnar": MovementWords(phrase("Ulnar"), phrase("Ulnar deviation"), phrase("Ulnar deviation deficit")),
+    "flexion": MovementWords(_FLEXION, _FLEXION, phrase("Flexion deficit")),
+    "extension": MovementWords(_EXTENSION, _EXTENSION, phrase("Extension deficit")),
+    "supination": MovementWords(phrase("Supination"), phrase("Forearm supination"), phrase("Supination deficit")),
+    "pronation": MovementWords(phrase("Pronation"), phrase("Forearm pronation"), phrase("Pronation deficit")),
+    "arc": MovementWords(_ARC, _ARC, _ARC),
+}
+ARC_NAMES = (phrase("Side arc"), phrase("Bending arc"), phrase("Forearm rotation"))
+"""The whole arc of each angle, where more than one is shown."""
+STILL_NAMES = (phrase("Side movement"), phrase("Up and down"), phrase("Rotation from the start"))
+"""Each angle where it should stay still."""
 
 AXIS_TICK_DEG = (40.0, 80.0, 80.0)
 AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)

@@ -31,7 +31,7 @@ from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_s
 from carpus.core.results.further_measures import Attempts, further_measures
 from carpus.core.results.measure import Group, Measure, Unknown, measure_values
 from carpus.core.results.norms import total_shares
-from carpus.core.results.ranges import joint_ranges, still_measures, wrist_ranges
+from carpus.core.results.ranges import joint_ranges, measure_still_angles, wrist_ranges
 from carpus.core.results.repetition_rows import (
     ACTIVE,
     PASSIVE,
@@ -219,7 +219,7 @@ class SessionFigures:
         return sum(repetition.counts for repetition in self.repetitions)
 
     @property
-    def trained(self) -> str:
+    def main_angle(self) -> str:
         """The joint or the wrist's angle that the exercise trains; empty where it trains none."""
         exercise = self.exercise
         return exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
@@ -284,7 +284,7 @@ def session_figures(
         passive = attempts.compute("ranges", lambda: wrist_ranges(seen, helped), ())
         passive += attempts.compute("ranges of joints", lambda: joint_ranges(seen.tracks, helped, seen.exercise), ())
     strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.half]
-    still = attempts.compute("other movements", lambda: still_measures(own), ())
+    still = attempts.compute("other movements", lambda: measure_still_angles(own), ())
     speeds: tuple[Measure, ...] = ()
     if trained is not None:
         speeds = attempts.compute("speed", lambda: speed_measures(trained.name, strokes), ())

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import Measure, is_total
-from carpus.core.results.norms import grade_of
+from carpus.core.results.norms import grade_share
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,10 +106,10 @@ def _positive(row: SessionFigure) -> str:
     return words.get(row.measure, "more")
 
 
-def _named(row: Measure) -> str:
+def _name_in_table(row: Measure) -> str:
     """A measure by its name in the table: of a joint and of a total, an end is no movement."""
     if row.group == "share":
-        return ", ".join(filter(None, (row.what, grade_of(row))))
+        return ", ".join(filter(None, (row.what, grade_share(row))))
     if row.group != "range" or row.angle >= 0:
         return row.what
     return (_TOTAL_MEASURES if is_total(row.of) else _JOINT_MEASURES).get(row.what, row.what)
@@ -126,6 +126,6 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[SessionFigure]:
         if row.group == "still" or (row.group == "speed" and not row.count):
             continue
         yield SessionFigure(
-            *common, _named(row), f"{row.of}, passive" if row.passive else row.of, row.unit, row.mean, row.sd,
+            *common, _name_in_table(row), f"{row.of}, passive" if row.passive else row.of, row.unit, row.mean, row.sd,
             row.best, row.measurement_sd, row.count, row.at_least, row.seen_share, row.inferred,
         )  # fmt: skip

@@ -111,6 +111,6 @@ def total_shares(
     return tuple(out)
 
 
-def grade_of(share: Measure) -> Grade | None:
+def grade_share(share: Measure) -> Grade | None:
     """Grade a share of a finger's total; None for one that was not seen whole."""
     return None if share.at_least else total_grade(share.mean)

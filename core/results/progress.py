@@ -69,7 +69,7 @@ class Comparison:
         return self.after.key
 
     @property
-    def of_joint(self) -> bool:
+    def is_of_joint(self) -> bool:
         return self.after.angle < 0
 
     @property
@@ -82,14 +82,14 @@ class Comparison:
         return self.verdict in ("improved", "worse")
 
     @property
-    def limited(self) -> tuple[bool, bool]:
+    def are_bounds(self) -> tuple[bool, bool]:
         """Whether the value before and the one after are lower bounds, since the joint was hidden in part."""
-        return (self.before.at_least, self.after.at_least) if self.of_joint else (False, False)
+        return (self.before.at_least, self.after.at_least) if self.is_of_joint else (False, False)
 
     @property
     def at_least(self) -> bool:
         """Whether the gain is a lower bound."""
-        return self.limited == (False, True)
+        return self.are_bounds == (False, True)
 
     @property
     def shown_difference_deg(self) -> float:

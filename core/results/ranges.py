@@ -161,7 +161,7 @@ def thumb_keys() -> tuple[MeasureKey, ...]:
 STILL = "largest size"
 
 
-def still_measures(seen: SeenSession) -> tuple[Measure, ...]:
+def measure_still_angles(seen: SeenSession) -> tuple[Measure, ...]:
     """Measure how far the angles went that should stay still; none where the exercise sets no limit."""
     if not math.isfinite(seen.exercise.trick_limit_deg):
         return ()

@@ -52,7 +52,7 @@ class SideBySide:
     def main(self) -> Comparison | None:
         """What answers the question: the trained arc where it differs, the largest other difference, else the arc."""
         arcs = [one for one in self.ranges if one.after.what == "arc"]
-        trained = [one for one in arcs if (one.after.of if one.of_joint else "") == self.first.exercise.joint]
+        trained = [one for one in arcs if (one.after.of if one.is_of_joint else "") == self.first.exercise.joint]
         largest = sorted((one for one in self.ranges if one.is_beyond), key=lambda one: -abs(one.difference_deg))
         best: list[Comparison | None] = [*(one for one in trained if one.is_beyond), *largest, *trained, *arcs, None]
         return best[0]

@@ -265,7 +265,9 @@ def test_a_session_of_few_frames_a_second_has_its_figures(fps: float) -> None:
     assert not [one.what for one in found.group("task") if one.unknown == "failed"]
 
 
-@pytest.mark.parametrize("broken", ["further_measures.held_tremor", "figures.still_measures", "figures.quality_of"])
+@pytest.mark.parametrize(
+    "broken", ["further_measures.held_tremor", "figures.measure_still_angles", "figures.quality_of"]
+)
 def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
     broken: str, figures: SessionFigures, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -12,7 +12,7 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.further_measures import _distance_sd_m, session_reaches
 from carpus.core.results.measure import Measure, measure_values
 from carpus.core.results.measures_table import measure_rows
-from carpus.core.results.norms import SHARE_OF_OTHER, grade_of, total_shares
+from carpus.core.results.norms import SHARE_OF_OTHER, grade_share, total_shares
 from carpus.ui.words.further import further_rows, main_words, measure_name, short_words
 from carpus.ui.words.ranges import table_rows
 from carpus.ui.words.session import method
@@ -104,7 +104,7 @@ def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
     for share in shares:
         row = figures.find(share.of, "arc")
         assert share.mean == row.mean / (140.0 if share.of == "TAM1" else 260.0)
-        assert (grade_of(share) is None) == row.at_least
+        assert (grade_share(share) is None) == row.at_least
     other = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
     beside = total_shares(figures.joint_ranges, figures.exercise, other.joint_ranges)
     assert all(share.what == SHARE_OF_OTHER for share in beside)

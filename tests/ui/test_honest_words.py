@@ -257,7 +257,7 @@ def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is
     made = figures_once(session())
     assert repetition_words(replace(made, unseen_s=6.2)).endswith("6 s not seen and not counted")
     assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
-    lost = measure_values("speed", made.trained, "peak speed", "deg/s", (math.nan,), unknown="too_slow")
+    lost = measure_values("speed", made.main_angle, "peak speed", "deg/s", (math.nan,), unknown="too_slow")
     slow = replace(made, measures=tuple(lost if row.key == lost.key else row for row in made.measures))
     assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (
         "too slow to judge"

@@ -92,12 +92,12 @@ class Watched:
     @classmethod
     def of(cls, session: Session, figures: SessionFigures) -> Watched:
         time_s = session.timestamp_s - session.timestamp_s[:1]
-        return cls(session, figures, time_s, seen_angle(session, figures.trained or WRIST_ANGLES[FLEXION]))
+        return cls(session, figures, time_s, seen_angle(session, figures.main_angle or WRIST_ANGLES[FLEXION]))
 
 
 def value_words(watched: Watched, row: int) -> str:
     """``Flexion 37° ± 2°`` where the trained angle was seen."""
-    of = watched.figures.trained or WRIST_ANGLES[FLEXION]
+    of = watched.figures.main_angle or WRIST_ANGLES[FLEXION]
     value = float(watched.value_deg[row]) if 0 <= row < len(watched.value_deg) else math.nan
     if not math.isfinite(value):
         return tr("not seen")

@@ -104,7 +104,7 @@ def _end(row: Measure) -> str:
 
 def _is_bound(one: Comparison) -> bool:
     """Whether a difference is a lower bound, since one of the two was hidden in part."""
-    return one.is_beyond and one.limited[0] != one.limited[1]
+    return one.is_beyond and one.are_bounds[0] != one.are_bounds[1]
 
 
 def unfair_words(both: SideBySide) -> str:
@@ -172,8 +172,8 @@ def value_words(row: Measure) -> str:
 
 
 def _range_row(one: Comparison, both: SideBySide) -> BesideRow:
-    known = math.isfinite(one.difference_deg) and (one.is_beyond or not any(one.limited))
-    in_part = not one.of_joint and (one.after.at_least or one.before.at_least)
+    known = math.isfinite(one.difference_deg) and (one.is_beyond or not any(one.are_bounds))
+    in_part = not one.is_of_joint and (one.after.at_least or one.before.at_least)
     limited = tr("limited by the camera's view") if in_part else ""
     words = "; ".join(part for part in (_judgement(one, both), limited) if part)
     said = difference(one.shown_difference_deg) if known else numbers.UNKNOWN

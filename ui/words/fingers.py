@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from carpus.core.phrase import Phrase, phrase
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import Measure, MeasureKey, is_total, turn_round
-from carpus.core.results.norms import SHARE_OF_OTHER, Grade, grade_of, total_norm, total_shares
+from carpus.core.results.norms import SHARE_OF_OTHER, Grade, grade_share, total_norm, total_shares
 from carpus.core.results.progress import compare
 from carpus.core.results.ranges import finger_keys, spread_keys, thumb_keys
 from carpus.core.rounding import written
@@ -23,6 +24,22 @@ from carpus.ui.words.session import since_sessions
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
 AT_LEAST = "≥"
 """Before a range that a hidden joint may have exceeded; always explained beside the table."""
+
+
+_GRADES = {
+    "excellent": phrase("excellent"), "good": phrase("good"), "fair": phrase("fair"), "poor": phrase("poor"),
+    None: phrase("not graded"),
+}  # fmt: skip
+_COMPARED = {
+    "tam": (phrase("TAM"), phrase("TAM")), "spread": (phrase("spread"), phrase("Spreading")),
+    "middle": (phrase("PIP"), phrase("Middle joints")),
+}  # fmt: skip
+"""What an exercise is about, in the head of a column and before a list of fingers."""
+_OF_FINGERS = {
+    "knuckle": phrase("knuckles of {fingers}"), "middle": phrase("middle joints of {fingers}"),
+    "end": phrase("end joints of {fingers}"), "spread": phrase("spreading of {fingers}"),
+}  # fmt: skip
+_OF_THUMB: dict[Row, Phrase] = {"knuckle": phrase("MCP"), "middle": phrase("Lift"), "end": phrase("IP")}
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,9 +88,7 @@ def _shares(figures: SessionFigures, other: SessionFigures | None) -> tuple[Meas
 
 def grade_words(grade: Grade | None) -> str:
     """``good``; a total that was not seen whole has no grade."""
-    if grade is None:
-        return tr("not graded")
-    return {"excellent": tr("excellent"), "good": tr("good"), "fair": tr("fair"), "poor": tr("poor")}[grade]
+    return say(_GRADES[grade])
 
 
 def _share_cell(share: Measure | None) -> FingerCell:
@@ -81,7 +96,7 @@ def _share_cell(share: Measure | None) -> FingerCell:
         return FingerCell("")
     words = f"{written(100.0 * share.mean)}{numbers.NARROW_GAP}%"
     at_least = f"{AT_LEAST}{numbers.NARROW_GAP}" if share.at_least else ""
-    return FingerCell(f"{at_least}{words}", grade_words(grade_of(share)))
+    return FingerCell(f"{at_least}{words}", grade_words(grade_share(share)))
 
 
 def of_other_hand(figures: SessionFigures, other: SessionFigures | None) -> bool:
@@ -95,9 +110,7 @@ def column_heads(
 ) -> list[str]:
     """Heads after the finger's name: the columns, the share of the total, last time, the change."""
     day = numbers.since(previous.when, figures.when) if previous else ""
-    compared = {"tam": tr("TAM"), "spread": tr("spread"), "middle": tr("PIP")}[compared_row(figures)]
-    if trains_thumb(figures):
-        compared = tr("lift")
+    compared = tr("lift") if trains_thumb(figures) else say(_COMPARED[compared_row(figures)][0])
     if not trains_joints(figures):
         day = ""
     return [
@@ -156,12 +169,8 @@ def limits_words(figures: SessionFigures) -> str:
     parts = []
     for row, names in limited.items():
         if names:
-            pattern = {
-                "knuckle": tr("knuckles of {fingers}"), "middle": tr("middle joints of {fingers}"),
-                "end": tr("end joints of {fingers}"), "spread": tr("spreading of {fingers}"),
-            }[row]  # fmt: skip
             who = tr("all fingers") if len(names) == len(FINGERS) else ", ".join(names)
-            parts.append(pattern.format(fingers=who))
+            parts.append(say(_OF_FINGERS[row]).format(fingers=who))
     parts += lifted
     words = []
     if parts:
@@ -202,7 +211,7 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
     if main and not trains_joints(figures):
         return f"{main}."
     compared = compared_row(figures)
-    what = {"tam": tr("TAM"), "spread": tr("Spreading"), "middle": tr("Middle joints")}[compared]
+    what = say(_COMPARED[compared][1])
     shown = compared_figures(figures)
     if trains_thumb(figures):
         what = tr("Thumb")
@@ -250,8 +259,7 @@ def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str)
 def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
     """The range of one joint or finger in words."""
     row = figures.find(figure.joint, "arc")
-    thumb: dict[Row, str] = {"knuckle": tr("MCP"), "middle": tr("Lift"), "end": tr("IP")}
-    joint = thumb.get(figure.row, "") if figure.finger == 1 else ""
+    joint = say(_OF_THUMB.get(figure.row, "")) if figure.finger == 1 else ""
     if row is None and figure.row == "tam":
         return FingerCell("")
     if row is None:

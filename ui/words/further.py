@@ -113,16 +113,16 @@ def _value(item: Measure) -> str:
 def main_words(figures: SessionFigures) -> str:
     """What is said of a reach or of opposition in a line: ``out in 1.19 s at 548 mm/s``; empty for other exercises."""
 
-    def said(of: str, what: str) -> str:
+    def describe(of: str, what: str) -> str:
         item = _known(figures, of, what)
         return numbers.UNKNOWN if item is None else _value(item)
 
     if figures.exercise.is_task and _known(figures, "reach", "movement time") is not None:
         words = tr("Out in {time}, fastest {speed}, way {straight} of straight, opened {opening}, wrist {wrist}")
         return words.format(
-            time=said("reach", "movement time"), speed=said("reach", "peak speed"),
-            straight=said("reach", "straightness"), opening=said("TIP1-TIP2", "largest aperture"),
-            wrist=said("wrist", "wrist extension at grasp"),
+            time=describe("reach", "movement time"), speed=describe("reach", "peak speed"),
+            straight=describe("reach", "straightness"), opening=describe("TIP1-TIP2", "largest aperture"),
+            wrist=describe("wrist", "wrist extension at grasp"),
         )  # fmt: skip
     touches = _touches(figures)
     hidden = sum(bool(item.unknown) for item in touches)

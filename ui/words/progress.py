@@ -47,13 +47,13 @@ def headline(progress: Progress) -> tuple[str, str]:
         answer = tr("{name} has lost {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "no_change":
         answer = tr("No change proven since {day}.").format(day=day)
-    elif main.of_joint and min(first.counted, last.counted) >= FEWEST_FOR_SPREAD:
+    elif main.is_of_joint and min(first.counted, last.counted) >= FEWEST_FOR_SPREAD:
         return tr("Not judged: the joints were hidden in part."), tr("What is hidden does not count.")
     else:
         why = reason_words(main.reasons)
         return tr("Not judged: {why}.").format(why=why or tr("too few repetitions to compare")), ""
     others = [item for item in progress.comparisons if item is not main and item.verdict != "not_judged"]
-    if main.of_joint:  # of many joints only those that changed
+    if main.is_of_joint:  # of many joints only those that changed
         others = [item for item in others if item.is_beyond]
     turned = any(item.after.what in terms.FOREARM for item in progress.comparisons)
     zero = [terms.thumb_up_words()] if turned else []
@@ -73,7 +73,7 @@ def range_name(row: Measure, *, several: bool) -> str:
 
 
 def _subject(item: Comparison) -> str:
-    if item.of_joint:
+    if item.is_of_joint:
         figure = figure_of(item.after.of)
         finger = inside(long_finger_name(str(figure.finger)))
         return tr("{joint} of the {finger}").format(joint=figure.row_name, finger=finger)
@@ -92,7 +92,7 @@ def _basis(item: Comparison) -> str:
 
 
 def _rest(item: Comparison) -> str:
-    name = _subject(item) if item.of_joint else terms.movement_long_name(item.after.what)
+    name = _subject(item) if item.is_of_joint else terms.movement_long_name(item.after.what)
     if item.is_beyond:
         change = difference(item.shown_difference_deg)
         if item.at_least:
@@ -103,7 +103,7 @@ def _rest(item: Comparison) -> str:
 
 def before_after(item: Comparison) -> str:
     """``34° → 57°``; ``≥`` before a figure that a hidden joint may have exceeded."""
-    signs = [f"≥{numbers.NARROW_GAP}" if limited else "" for limited in item.limited]
+    signs = [f"≥{numbers.NARROW_GAP}" if limited else "" for limited in item.are_bounds]
     before, after = _ends(item)
     return f"{signs[0]}{before} → {signs[1]}{after}"
 
@@ -111,14 +111,14 @@ def before_after(item: Comparison) -> str:
 def _ends(item: Comparison) -> tuple[str, str]:
     """Both means; of the wrist a side that was not reached lacks something."""
     before, after = item.before, item.after
-    if item.of_joint:
+    if item.is_of_joint:
         return numbers.degrees(before.mean), numbers.degrees(after.mean)
     return terms.end_words(before.mean, after.what), terms.end_words(after.mean, after.what)
 
 
 def change_line(item: Comparison) -> str:
     """``23° more, error 10°``; a joint that was hidden has no difference, at most a least one."""
-    if item.of_joint and item.verdict == "not_judged":
+    if item.is_of_joint and item.verdict == "not_judged":
         return tr("hidden in part, or too few")
     if item.at_least:
         return tr("at least {change}, error {limit}").format(

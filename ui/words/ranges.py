@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from carpus.core.hand.exercises import STILL_NAMES
+from carpus.core.measures.repetitions import Uncounted
+from carpus.core.phrase import Phrase, phrase
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import Measure, turn_round
 from carpus.core.results.norms import wrist_norm
@@ -15,6 +19,21 @@ from carpus.ui import numbers, terms
 from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import say, tr
 from carpus.ui.verdicts import change_short, change_with_limit, reason_words
+
+_UNMEASURED: Mapping[str, Phrase] = {
+    "hidden": phrase("not seen well enough"),
+    "cut_by_start": phrase("the recording began in it"),
+    "cut_by_gap": phrase("the hand went out of sight in it"),
+    "cut_by_end": phrase("the recording ended in it"),
+}
+_UNCOUNTED: Mapping[Uncounted, Phrase] = {
+    "too_short": phrase("it is too short"),
+    "nothing_seen": phrase("what is trained was not seen"),
+    "small_range": phrase("less than 10° of movement"),
+    "cut_by_gap": phrase("the hand went out of sight during the movement"),
+    "no_return": phrase("it never went there and back"),
+    "too_quick": phrase("each was quicker than 0.4 s"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +72,7 @@ def table_rows(
     """Arc first, then its two ends, what should have stayed still, and the speed."""
     changes = {item.key: item for item in compare(previous, figures)} if previous else {}
     out = [_range_row(row, figures, previous, other, changes.get(row.key)) for row in figures.wrist_ranges]
-    out += [_still_row(row, figures, previous) for row in figures.group("still")]
+    out += [_row_of_still_angle(row, figures, previous) for row in figures.group("still")]
     speed = figures.speed("peak speed")
     if speed is not None and (speed.count or speed.unknown):
         out.append(_speed_row(speed, figures, previous, other))
@@ -82,16 +101,10 @@ def repetition_words(figures: SessionFigures) -> str:
     parts = [words]
     if helped := sum(repetition.helped for repetition in figures.repetitions):
         parts.append(tr("1 passive beside it") if helped == 1 else tr("{count} passive beside it").format(count=helped))
-    unmeasured = {
-        "hidden": tr("not seen well enough"),
-        "cut_by_start": tr("the recording began in it"),
-        "cut_by_gap": tr("the hand went out of sight in it"),
-        "cut_by_end": tr("the recording ended in it"),
-    }
     for number, repetition in enumerate(figures.repetitions, 1):
         if not (repetition.counts or repetition.helped):
             said = "" if repetition.reason == PASSIVE else repetition.reason
-            reason = said or unmeasured[repetition.unmeasured]
+            reason = said or say(_UNMEASURED[repetition.unmeasured])
             parts.append(tr("number {number} left out: {reason}").format(number=number, reason=reason))
     return _with_unseen(parts, figures)
 
@@ -102,16 +115,7 @@ def _without_passive(figures: SessionFigures) -> list[str]:
 
 def _why_none(figures: SessionFigures) -> str:
     whole = tr("one range over the whole recording; no repetitions")
-    why = {
-        "too_short": tr("it is too short"),
-        "nothing_seen": tr("what is trained was not seen"),
-        "small_range": tr("less than 10° of movement"),
-        "cut_by_gap": tr("the hand went out of sight during the movement"),
-        "no_return": tr("it never went there and back"),
-        "too_quick": tr("each was quicker than 0.4 s"),
-        None: "",
-    }[figures.uncounted]
-    return f"{whole}: {why}" if why else whole
+    return f"{whole}: {say(_UNCOUNTED[figures.uncounted])}" if figures.uncounted else whole
 
 
 def _with_unseen(parts: list[str], figures: SessionFigures) -> str:
@@ -177,20 +181,12 @@ def _range_row(
     )
 
 
-def still_names() -> dict[str, str]:
-    """What should stay still, by angle."""
-    return {
-        "deviation": tr("Side movement"), "flexion": tr("Up and down"),
-        "pronosupination": tr("Rotation from the start"),
-    }  # fmt: skip
-
-
-def _still_row(row: Measure, figures: SessionFigures, previous: SessionFigures | None) -> TableRow:
+def _row_of_still_angle(row: Measure, figures: SessionFigures, previous: SessionFigures | None) -> TableRow:
     limit = figures.exercise.trick_limit_deg
     inside = row.mean <= limit
     before = previous.find(*row.key) if previous else None
     return TableRow(
-        movement=still_names()[row.of],
+        movement=say(STILL_NAMES[row.angle]),
         today=tr("{angle} at most").format(angle=numbers.degrees(row.mean)),
         best="",
         other_hand="",

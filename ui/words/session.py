@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from datetime import datetime
 
-from carpus.core.hand.exercises import SIDES, STILL_RADIUS_MM
+from carpus.core.hand.exercises import SIDES, STILL_NAMES, STILL_RADIUS_MM
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import Measure, is_total
@@ -14,9 +14,9 @@ from carpus.core.results.progress import Comparison, compare
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
-from carpus.ui.words.ranges import is_deficit, prints_spread, speed_words, still_names
+from carpus.ui.words.ranges import is_deficit, prints_spread, speed_words
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
@@ -217,7 +217,7 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
     for row in figures.group("still"):
         words = tr("{angle} at most (limit {limit})")
         words = words.format(angle=numbers.degrees(row.mean), limit=numbers.degrees(limit))
-        lines.append((still_names()[row.of], words, row.mean <= limit))
+        lines.append((say(STILL_NAMES[row.angle]), words, row.mean <= limit))
     if warnings(figures):
         lines.append((tr("Warning"), tr("at the top of the page"), False))
     return lines
