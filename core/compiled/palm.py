@@ -31,7 +31,6 @@ HOME = cython.declare(cython.Py_ssize_t, 0)
 WRIST = cython.declare(cython.Py_ssize_t, 5)
 FLOOR = cython.declare(cython.double, 1e-14)
 _NONE = np.zeros((3, 3))
-POSE = np.array([0, 1, 2, 6, 7, 8], dtype=np.int64)
 
 
 def switch_modes(motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, digits: Any) -> NDArray[np.float64]:
@@ -150,10 +149,14 @@ def move_palm(
     j: cython.Py_ssize_t
     k: cython.Py_ssize_t
 
-    moving, turned, on_the_way = np.eye(MOVING), np.empty((3, 3)), np.empty((3, 3))
+    moving, turns = np.eye(MOVING), np.empty((5, 3, 3))
     forward: cython.double[:, ::1] = moving
-    turn: cython.double[:, ::1] = turned
-    jacobian: cython.double[:, ::1] = on_the_way
+    each: cython.double[:, :, ::1] = turns
+    turn: cython.double[:, ::1] = each[0]
+    jacobian: cython.double[:, ::1] = each[1]
+    square: cython.double[:, ::1] = each[2]
+    along: cython.double[:, ::1] = each[3]
+    along_square: cython.double[:, ::1] = each[4]
     fill_rotation(omega[0] * dt, omega[1] * dt, omega[2] * dt, turn)
     fill_right_jacobian(omega[0] * dt, omega[1] * dt, omega[2] * dt, jacobian)
     for i in range(3):
@@ -163,9 +166,6 @@ def move_palm(
             forward[TURN + i, RATE + j] = dt * jacobian[i, j]
 
     # Turning is pushed about the axes on the way, not about those at the end: Jr, as in F.
-    square: cython.double[:, ::1] = np.empty((3, 3))
-    along: cython.double[:, ::1] = np.empty((3, 3))
-    along_square: cython.double[:, ::1] = np.empty((3, 3))
     multiply_transposed(jacobian, jacobian, square)
     multiply(jacobian, hidden, along)
     multiply_transposed(along, along, along_square)
@@ -201,7 +201,7 @@ def move_palm(
                 relaxed[k, i, j] = relaxed[k, j, i] = rest[tissue_of[k], i, j] * (
                     1.0 - kept[k, SKIN + i] * kept[k, SKIN + j]
                 )
-    return moving, driven, left, relaxing, turned
+    return moving, driven, left, relaxing, turns[0]
 
 
 def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDArray[np.float64], ...]:
@@ -239,9 +239,12 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
     hidden: cython.const[cython.double][:, ::1] = given(view.hidden, "what calibration hides", (DISCS, SEEN))
     w0_cam: cython.const[cython.double][:, ::1] = given(view.rotation_w0_cam, "the camera's rotation", (3, 3))
     at: cython.const[cython.double][::1] = given(view.translation_w0_cam_m, "the camera's place", (3,))
-    of_mean: cython.const[cython.double][::1] = given(weights.mean, "weights of the sigma points", (13,))
-    of_covariance: cython.const[cython.double][::1] = given(weights.covariance, "their other weights", (13,))
-    scale: cython.double = weights.scale
+    numbers: cython.const[cython.double][::1] = given(weights.numbers, "weights of the sigma points", (5,))
+    of_middle: cython.double = numbers[0]
+    of_others: cython.double = numbers[1]
+    scatter_of_middle: cython.double = numbers[2]
+    scatter_of_others: cython.double = numbers[3]
+    scale: cython.double = numbers[4]
     camera = view.camera
     fx: cython.double = camera.fx_px
     fy: cython.double = camera.fy_px
@@ -253,38 +256,50 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
     p: cython.Py_ssize_t
-    pose: cython.const[cython.longlong][::1] = POSE
-    root: cython.double[:, ::1] = np.empty((6, 6))
-    unroot: cython.double[:, ::1] = np.empty((6, 6))
+    # Room to work in, few arrays cut up: to make one costs as much as to fill it.
+    roots: cython.double[:, :, ::1] = np.empty((2, 6, 6))
+    root: cython.double[:, ::1] = roots[0]
+    unroot: cython.double[:, ::1] = roots[1]
+    turns: cython.double[:, :, ::1] = np.empty((3, 3, 3))
+    turned: cython.double[:, ::1] = turns[0]
+    there: cython.double[:, ::1] = turns[1]
+    in_camera: cython.double[:, ::1] = turns[2]
+    threes: cython.double[:, ::1] = np.empty((DISCS + 2, 3))
+    place: cython.double[:, ::1] = threes[:DISCS]
+    shift: cython.double[::1] = threes[DISCS]
+    turn: cython.double[::1] = threes[DISCS + 1]
+    images: cython.double[:, ::1] = np.empty((25, SEEN))
+    sigma: cython.double[:, ::1] = images[:13]
+    half: cython.double[:, ::1] = images[13:19]
+    bend: cython.double[:, ::1] = images[19:]
+    wide: cython.double[:, ::1] = np.zeros((SEEN + 2, SIZE))
+    cross: cython.double[:, ::1] = wide[:SEEN]
+    middle: cython.double[::1] = wide[SEEN]
+    unknown: cython.double[::1] = wide[SEEN + 1]
     for i in range(6):
         for j in range(6):
-            root[i, j] = spread[pose[i], pose[j]]
+            root[i, j] = spread[of_pose(i), of_pose(j)]
         root[i, i] += FLOOR
     if not inverse_root(root, unroot):
         raise np.linalg.LinAlgError("Matrix is not positive definite")
 
     # Pixel u, v and depth z of all discs from every sigma point: the middle one, those along each column of the root
     # and those against it.
-    sigma: cython.double[:, ::1] = np.empty((13, SEEN))
-    place: cython.double[:, ::1] = np.empty((DISCS, 3))
-    step: cython.double[::1] = np.zeros(6)
-    turned: cython.double[:, ::1] = np.empty((3, 3))
-    there: cython.double[:, ::1] = np.empty((3, 3))
-    in_camera: cython.double[:, ::1] = np.empty((3, 3))
     for d in range(DISCS):
         for i in range(3):
             place[d, i] = palm[d, i] + state[SHAPE + 3 * d + i] + state[SKIN + 3 * d + i]
     for p in range(12, -1, -1):
         column, reach = (p + 5) % 6, 0.0 if p == 0 else scale if p <= 6 else -scale
-        for i in range(6):
-            step[i] = reach * root[column, i] if i >= column else 0.0
-        fill_rotation(step[3], step[4], step[5], turned)
+        for i in range(3):
+            shift[i] = reach * root[column, i] if i >= column else 0.0
+            turn[i] = reach * root[column, 3 + i] if 3 + i >= column else 0.0
+        fill_rotation(turn[0], turn[1], turn[2], turned)
         multiply(rotation, turned, there)
         multiply(w0_cam, there, in_camera)
         for i in range(3):
             origin = at[i]
             for j in range(3):
-                origin += w0_cam[i, j] * (state[POSITION + j] + step[j])
+                origin += w0_cam[i, j] * (state[POSITION + j] + shift[j])
             for d in range(DISCS):
                 sigma[p, 3 * d + i] = (
                     origin
@@ -301,24 +316,22 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
     line: cython.double[::1] = value[0]
     h: cython.double[:, ::1] = slope[0]
     missed: cython.double[:, ::1] = error[0]
-    half: cython.double[:, ::1] = np.empty((6, SEEN))
-    bend: cython.double[:, ::1] = np.empty((6, SEEN))
     for a in range(SEEN):
-        line[a] = of_mean[0] * sigma[0, a]
+        line[a] = of_middle * sigma[0, a]
         for p in range(1, 13):
-            line[a] += of_mean[p] * sigma[p, a]
+            line[a] += of_others * sigma[p, a]
         for p in range(6):
             half[p, a] = (sigma[1 + p, a] - sigma[7 + p, a]) * (0.5 / scale)
             bend[p, a] = 0.5 * (sigma[1 + p, a] + sigma[7 + p, a]) - line[a]
     for a in range(SEEN):
         for b in range(a + 1):
-            total = of_covariance[0] * (sigma[0, a] - line[a]) * (sigma[0, b] - line[b])
+            total = scatter_of_middle * (sigma[0, a] - line[a]) * (sigma[0, b] - line[b])
             for p in range(6):
-                total += 2.0 * of_covariance[1] * bend[p, a] * bend[p, b]
+                total += 2.0 * scatter_of_others * bend[p, a] * bend[p, b]
             missed[a, b] = missed[b, a] = total
         for i in range(6):
             for p in range(i, 6):
-                h[a, pose[i]] += half[p, a] * unroot[p, i]
+                h[a, of_pose(i)] += half[p, a] * unroot[p, i]
     for d in range(DISCS):
         u, v, z = sigma[0, 3 * d], sigma[0, 3 * d + 1], sigma[0, 3 * d + 2]
         for j in range(3):
@@ -336,13 +349,11 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
     expected, own = np.empty((DISCS, 3)), np.empty((DISCS, 3, 3))
     out_mean: cython.double[:, ::1] = expected
     out_covariance: cython.double[:, :, ::1] = own
-    middle: cython.double[::1] = np.zeros(SIZE)
-    cross: cython.double[:, ::1] = np.zeros((SEEN, SIZE))
     add_product(h, spread, cross)
-    unknown: cython.double = 0.0  # NaN where any number is: the product passes over what h does not ask for
+    # Zeros, or NaN where any number is: the product passes over what h does not ask for.
     for i in range(SIZE):
         for j in range(SIZE):
-            unknown += 0.0 * spread[i, j]
+            unknown[j] += 0.0 * spread[i, j]
     for p in range(modes):
         for j in range(SIZE):
             middle[j] += weight[0, p] * mean[0, p, j]
@@ -353,10 +364,10 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
             for j in range(SIZE):
                 out_mean[d, i] += h[a, j] * middle[j]
             for j in range(3):
-                total = missed[a, 3 * d + j] + unknown
-                for b in range(SIZE):
-                    total += cross[a, b] * h[3 * d + j, b]
-                out_covariance[d, i, j] = total
+                out_covariance[d, i, j] = missed[a, 3 * d + j]
+            for b in range(SIZE):
+                for j in range(3):
+                    out_covariance[d, i, j] += unknown[b] + cross[a, b] * h[3 * d + j, b]
     return value, slope, error, expected, own
 
 
@@ -404,6 +415,15 @@ def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
     fill_rotation(x, y, z, by)
     multiply(rotation, by, there)
     return turned, value, whole[0], apart
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def of_pose(i: cython.Py_ssize_t) -> cython.Py_ssize_t:
+    """Where a number of the pose stands: those of the position, then those of the turn."""
+    return POSITION + i if i < 3 else TURN + i - 3
 
 
 @cython.cfunc

@@ -1,4 +1,4 @@
-"""Point-to-plane fit of the palm's pose to depth readings of the back of the hand, compiled."""
+"""Point-to-plane fit of the palm's pose to depth readings of the back of the hand."""
 
 from __future__ import annotations
 
@@ -11,13 +11,22 @@ from cython.cimports.libc.math import fabs
 
 from carpus.core.compiled.palm import given
 
+# Where the numbers stand in the palm's error vector.
+SIZE = cython.declare(cython.Py_ssize_t, 54)
+POSITION = cython.declare(cython.Py_ssize_t, 0)
+TURN = cython.declare(cython.Py_ssize_t, 6)
+BACK = cython.declare(cython.Py_ssize_t, 30)
+RELIEF = cython.declare(cython.Py_ssize_t, 51)
 
-def fit_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: Any) -> tuple[Any, ...] | None:
+
+def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: Any) -> tuple[Any, ...] | None:
     """
-    Fit the pose of the calibrated surface to readings, from the estimate's pose on, by Gauss-Newton.
+    Measure the palm's error by a fit of its calibrated surface, from the estimate's pose on, by Gauss-Newton.
 
     A step solves J' W J s = J' W h for s, the turns about X and Y and the shift along Z about the surface's middle,
-    with h the height of each reading over the plane of the node under it and W Huber's weight of it.
+    with h the height of each reading over the plane of the node under it and W Huber's weight of it. Its covariance is
+    that of s for readings that share their errors as far as their patches overlap, and what no number of readings takes
+    away.
 
     Parameters
     ----------
@@ -28,36 +37,34 @@ def fit_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: 
     surface : BackSurface
         Planes of the nodes, in the axes of the body.
     view : View
-        Where the camera is in W0.
+        Where the camera is in W0, and what its depth is worth.
     settings : SurfaceSettings
-        Steps, limits and the fewest readings.
+        Steps, limits and noise.
 
     Returns
     -------
-    tuple of numpy.ndarray, float and int, or None
-        Turn (3,) in rad and shift (3,) in metres in the axes of the body; (J' W J)^-1 (3, 3); J' W times the turns and
-        shifts of the whole pose (3, 6); J' W W J where every reading errs by itself (3, 3), and where they share as
-        much of their errors as their patches overlap (3, 3); the weighted mean square of h in m^2; how many readings
-        were used. None where these are too few.
+    tuple of numpy.ndarray and int, or None
+        Turns in rad and height in metres that the estimate is wrong by (3,), their covariance (3, 3), their slope
+        (3, 54) by the palm's error vector, and how many readings were used; None where these are too few.
     """
     count: cython.Py_ssize_t = len(samples.depth_m)
     rows: cython.Py_ssize_t = surface.height_m.shape[0]
     columns: cython.Py_ssize_t = surface.height_m.shape[1]
     pixel: cython.const[cython.double][:, ::1] = given(samples.pixel, "the readings' pixels", (count, 2))
     depth: cython.const[cython.double][::1] = given(samples.depth_m, "the readings' depths", (count,))
-    rotation: cython.double[:, ::1] = given(estimate.rotation_w2_w0, "the palm's rotation", (3, 3)).copy()
-    position: cython.double[::1] = given(estimate.position_m, "the palm's place", (3,)).copy()
+    state: cython.const[cython.double][::1] = given(estimate.value, "the palm's state", (SIZE,))
+    started: cython.const[cython.double][:, ::1] = given(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
     in_w0: cython.const[cython.double][:, ::1] = given(view.rotation_w0_cam, "the camera's rotation", (3, 3))
     origin: cython.const[cython.double][::1] = given(view.translation_w0_cam_m, "the camera's place", (3,))
-    plane: cython.const[cython.double][:, ::1] = given(
-        surface.plane, "the planes of the surface", ((rows + 2) * (columns + 2), 4)
-    )
+    nodes = (rows + 2) * (columns + 2)
+    plane: cython.const[cython.double][:, ::1] = given(surface.plane, "the planes of the surface", (nodes, 4))
     node: cython.const[cython.double][:, ::1] = given(surface.to_node, "the grid of the surface", (4, 2))
     middle: cython.const[cython.double][::1] = given(surface.middle_m, "the middle of the surface", (3,))
-    fx: cython.double = view.camera.fx_px
-    fy: cython.double = view.camera.fy_px
-    cx: cython.double = view.camera.cx_px
-    cy: cython.double = view.camera.cy_px
+    camera, sensor = view.camera, view.camera.sensor
+    fx: cython.double = camera.fx_px
+    fy: cython.double = camera.fy_px
+    cx: cython.double = camera.cx_px
+    cy: cython.double = camera.cy_px
     huber: cython.double = settings.huber_m
     most: cython.double = settings.most_m
 
@@ -66,7 +73,10 @@ def fit_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: 
     k: cython.Py_ssize_t
     a: cython.Py_ssize_t
     b: cython.Py_ssize_t
+    # Of each reading its place in W0, height and weight, and by how much turns and shifts bring it off its plane.
     place: cython.double[:, ::1] = np.empty((count, 3))
+    height: cython.double[:, ::1] = np.empty((count, 2))
+    by_pose: cython.double[:, ::1] = np.empty((count, 6))
     for i in range(count):
         x = (pixel[i, 0] - cx) / fx * depth[i] - origin[0]
         y = (pixel[i, 1] - cy) / fy * depth[i] - origin[1]
@@ -74,18 +84,20 @@ def fit_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: 
         for k in range(3):
             place[i, k] = x * in_w0[0, k] + y * in_w0[1, k] + z * in_w0[2, k]
 
-    height: cython.double[::1] = np.empty(count)
-    weight: cython.double[::1] = np.empty(count)
-    by_pose: cython.double[:, ::1] = np.empty((count, 6))
-    turned, shifted, inverse = np.zeros(3), np.zeros(3), np.zeros((3, 3))
-    total_turn: cython.double[::1] = turned
-    total_shift: cython.double[::1] = shifted
-    solved: cython.double[:, ::1] = inverse
-    square: cython.double[:, ::1] = np.empty((3, 3))
-    side: cython.double[::1] = np.empty(3)
-    row: cython.double[::1] = np.empty(3)
-    turn: cython.double[:, ::1] = np.empty((3, 3))
-    before: cython.double[:, ::1] = np.empty((3, 3))
+    small: cython.double[:, :, ::1] = np.zeros((5, 3, 3))
+    rotation: cython.double[:, ::1] = small[0]
+    square: cython.double[:, ::1] = small[1]
+    inverse: cython.double[:, ::1] = small[2]
+    turn: cython.double[:, ::1] = small[3]
+    before: cython.double[:, ::1] = small[4]
+    vectors: cython.double[:, ::1] = np.zeros((5, 3))
+    position: cython.double[::1] = vectors[0]
+    side: cython.double[::1] = vectors[1]
+    row: cython.double[::1] = vectors[2]
+    turned: cython.double[::1] = vectors[3]
+    shifted: cython.double[::1] = vectors[4]
+    rotation[:] = started
+    position[:] = state[POSITION : POSITION + 3]
     used: cython.Py_ssize_t = 0
     for _ in range(settings.steps):
         square[:] = 0.0
@@ -102,7 +114,7 @@ def fit_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: 
             h = x * nx + y * ny + z * nz + plane[j, 3]
             w = huber / max(fabs(h), huber) if fabs(h) < most else 0.0
             used += fabs(h) < most
-            height[i], weight[i] = h, w
+            height[i, 0], height[i, 1] = h, w
             by_pose[i, 0], by_pose[i, 1], by_pose[i, 2] = y * nz - z * ny, z * nx - x * nz, x * ny - y * nx
             by_pose[i, 3], by_pose[i, 4], by_pose[i, 5] = nx, ny, nz
             row[0], row[1], row[2] = by_pose[i, 0], by_pose[i, 1], nz
@@ -112,58 +124,95 @@ def fit_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: 
                     square[a, b] += row[a] * w * row[b]
         if used < settings.least:
             return None
-        invert(square, solved)
-        x = solved[0, 0] * side[0] + solved[0, 1] * side[1] + solved[0, 2] * side[2]
-        y = solved[1, 0] * side[0] + solved[1, 1] * side[1] + solved[1, 2] * side[2]
-        z = solved[2, 0] * side[0] + solved[2, 1] * side[1] + solved[2, 2] * side[2]
-        total_turn[0] += x
-        total_turn[1] += y
+        invert(square, inverse)
+        x = inverse[0, 0] * side[0] + inverse[0, 1] * side[1] + inverse[0, 2] * side[2]
+        y = inverse[1, 0] * side[0] + inverse[1, 1] * side[1] + inverse[1, 2] * side[2]
+        z = inverse[2, 0] * side[0] + inverse[2, 1] * side[1] + inverse[2, 2] * side[2]
         # The turn is about the middle of the surface; the estimate's error is a turn about its origin.
         row[0], row[1], row[2] = -y * middle[2], x * middle[2], z - x * middle[1] + y * middle[0]
+        turned[0] += x
+        turned[1] += y
         for k in range(3):
-            total_shift[k] += row[k]
+            shifted[k] += row[k]
             position[k] += rotation[k, 0] * row[0] + rotation[k, 1] * row[1] + rotation[k, 2] * row[2]
         fill_rotation(x, y, 0.0, turn)
-        multiply(rotation, turn, before)
-        rotation[:] = before
+        before[:] = rotation
+        multiply(before, turn, rotation)
 
-    patch: cython.double = view.camera.sensor.patch_px
-    sums = np.zeros((3, 6)), np.zeros((3, 3)), np.zeros((3, 3))
-    of_pose: cython.double[:, ::1] = sums[0]
-    alone: cython.double[:, ::1] = sums[1]
-    alike: cython.double[:, ::1] = sums[2]
-    near: cython.double[:, ::1] = np.empty((5, used))  # u and v in patches, and the rows of J' W
-    overlapping: cython.double[:, ::1] = np.zeros((3, used))
-    spread2: cython.double = 0.0
-    total: cython.double = 0.0
+    # Of those used, J' W times turns and shifts of the whole pose, and J' W E W J for errors E of unit variance, of
+    # which two readings share a part as far as their patches, as wide as one, overlap.
+    patch: cython.double = sensor.patch_px
+    shared: cython.double = 1.0 if sensor.averages else settings.shared
+    near: cython.double[:, ::1] = np.empty((used, 5))  # u and v in patches, and the row of W J
+    of_pose: cython.double[:, ::1] = np.zeros((3, 6))
+    alike: cython.double[:, ::1] = square
+    alike[:] = 0.0
+    square_sum: cython.double = 0.0
+    weights: cython.double = 0.0
     j = 0
     for i in range(count):
-        spread2 += weight[i] * height[i] * height[i]
-        total += weight[i]
-        if not fabs(height[i]) < most:
+        h, w = height[i, 0], height[i, 1]
+        square_sum += w * h * h
+        weights += w
+        if not fabs(h) < most:
             continue
-        near[0, j], near[1, j] = pixel[i, 0] / patch, pixel[i, 1] / patch
+        near[j, 0], near[j, 1] = pixel[i, 0] / patch, pixel[i, 1] / patch
+        near[j, 2], near[j, 3], near[j, 4] = w * by_pose[i, 0], w * by_pose[i, 1], w * by_pose[i, 5]
         for a in range(3):
-            near[2 + a, j] = weight[i] * by_pose[i, a if a < 2 else 5]
             for k in range(6):
-                of_pose[a, k] += near[2 + a, j] * by_pose[i, k]
+                of_pose[a, k] += near[j, 2 + a] * by_pose[i, k]
         j += 1
-    # Every pair once: a reading's patch, as wide as one, overlaps another's by (1 - |du|) (1 - |dv|).
     for i in range(used):
+        side[0], side[1], side[2] = 0.5 * near[i, 2], 0.5 * near[i, 3], 0.5 * near[i, 4]
         for j in range(i):
-            share = max(1.0 - fabs(near[0, j] - near[0, i]), 0.0) * max(1.0 - fabs(near[1, j] - near[1, i]), 0.0)
-            overlapping[0, j] += share * near[2, i]
-            overlapping[1, j] += share * near[3, i]
-            overlapping[2, j] += share * near[4, i]
-    for i in range(used):
+            across, down = 1.0 - fabs(near[j, 0] - near[i, 0]), 1.0 - fabs(near[j, 1] - near[i, 1])
+            if across > 0.0 and down > 0.0:
+                for a in range(3):
+                    side[a] += shared * across * down * near[j, 2 + a]
         for a in range(3):
             for b in range(3):
-                alone[a, b] += near[2 + a, i] * near[2 + b, i]
-                alike[a, b] += near[2 + a, i] * overlapping[b, i] + overlapping[a, i] * near[2 + b, i]
+                alike[a, b] += near[i, 2 + a] * side[b] + side[a] * near[i, 2 + b]
+
+    value, covariance, slope = np.empty(3), np.empty((3, 3)), np.zeros((3, SIZE))
+    wrong: cython.double[::1] = value
+    spread: cython.double[:, ::1] = covariance
+    out: cython.double[:, ::1] = slope
+    ordered: cython.double[::1] = np.sort(samples.depth_m)
+    depth_m = 0.5 * (ordered[(count - 1) // 2] + ordered[count // 2])
+    reading_m: cython.double = sensor.reading.fixed_m + sensor.reading.square_per_m * depth_m * depth_m
+    reading_m = max(settings.reading_per_m * depth_m * depth_m, reading_m)
+    scatter2: cython.double = settings.goes_on * max(square_sum / weights, reading_m * reading_m)
+    # What stays and changes slowly over the picture tilts and lifts the surface as a whole.
+    stays_px: cython.double = sensor.stays_px
+    up_m: cython.double = sensor.stays.fixed_m + sensor.stays.square_per_m * depth_m * depth_m if stays_px else 0.0
+    turn_rad = up_m * fx / (max(stays_px, 1.0) * depth_m)
+    turn_sd: cython.double = settings.turn_sd_rad
+    up_sd: cython.double = settings.up_sd_m
+    multiply(inverse, alike, before)
+    multiply(before, inverse, spread)
     for a in range(3):
         for b in range(3):
-            alike[a, b] += alone[a, b]
-    return turned, shifted, inverse, *sums, spread2 / total, used
+            spread[a, b] *= scatter2
+        spread[a, a] += turn_sd * turn_sd + turn_rad * turn_rad if a < 2 else up_sd * up_sd + up_m * up_m
+    # Of the whole pose: a shift along the surface and a turn about its normal also move what is read.
+    by_turn: cython.double[:, ::1] = turn
+    for a in range(3):
+        for k in range(3):
+            by_turn[a, k] = (
+                inverse[a, 0] * of_pose[0, k] + inverse[a, 1] * of_pose[1, k] + inverse[a, 2] * of_pose[2, k]
+            )
+            row[k] = inverse[a, 0] * of_pose[0, 3 + k]
+            row[k] += inverse[a, 1] * of_pose[1, 3 + k] + inverse[a, 2] * of_pose[2, 3 + k]
+        out[a, TURN] = by_turn[a, 0] + middle[1] * row[2] - middle[2] * row[1]
+        out[a, TURN + 1] = by_turn[a, 1] + middle[2] * row[0] - middle[0] * row[2]
+        out[a, TURN + 2] = by_turn[a, 2] + middle[0] * row[1] - middle[1] * row[0]
+        out[a, BACK + a] = out[a, RELIEF + a] = 1.0
+        # What the estimate's own relief explains of it is no error.
+        wrong[a] = -state[RELIEF + a] - state[BACK + a]
+        for k in range(3):
+            out[a, POSITION + k] = started[k, 0] * row[0] + started[k, 1] * row[1] + started[k, 2] * row[2]
+            wrong[a] += row[k] * shifted[k] + out[a, TURN + k] * turned[k]
+    return value, covariance, slope, used
 
 
 @cython.cfunc

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from carpus.core.assignment import nearest_within
 from carpus.core.camera import Camera
-from carpus.core.detection.blobs import outlines, refined_centres
+from carpus.core.compiled.blobs import BlobWindows, mask_paper
 from carpus.core.detection.components import Components, components
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.stencil import packed, stencil_for, unpacked, window_pixels
+from carpus.core.detection.stencil import stencil_for
 from carpus.core.types import ByteImage, FloatArray, Frame
 
 SMALL_RADIUS_M = 0.004
@@ -135,13 +135,13 @@ def learn_appearance(
     looks = _appearance(hsv, on_paper, ring, settings)
     middle_radius, size = float(np.median(radius_px)), 1.0
     for _ in range(LEARNING_ROUNDS):
-        blobs = _paper_blobs(hsv, looks, settings, middle_radius * size)
+        blobs = _paper_blobs(hsv, looks, middle_radius * size)
         found = _blobs_under(click_px, CLICK_REACH_RADII * radius_px, blobs)
         if not np.any(found >= 0):
             break
         centre = np.full(click_px.shape, np.nan)
         there = found >= 0
-        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], middle_radius * size, settings)
+        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], middle_radius * size)
         size = _size(radius / radius_px[there], settings)
         on_paper, around = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
         for point, reach in zip(centre[there], radius, strict=True):
@@ -149,11 +149,11 @@ def learn_appearance(
             around |= disc_mask(shape, point, 2.2 * reach) & ~disc_mask(shape, point, 1.45 * reach)
         looks = _appearance(hsv, on_paper, around & ~_grown(blobs.labels > 0), settings)
     looks = replace(looks, radius_m=size * settings.marker_radius_m)
-    return _measured_by_discs(looks, hsv, centre, size * radius_px, settings), centre
+    return _measured_by_discs(looks, hsv, centre, size * radius_px), centre
 
 
-def _paper_blobs(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings, radius_px: float) -> Components:
-    return components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), radius_px))
+def _paper_blobs(hsv: ByteImage, looks: MarkerAppearance, radius_px: float) -> Components:
+    return components(paper_mask(hsv, paper_looks(looks), looks.darkest_value), lambda at: np.full(len(at), radius_px))
 
 
 def _size(ratio: FloatArray, settings: DetectionSettings) -> float:
@@ -163,25 +163,22 @@ def _size(ratio: FloatArray, settings: DetectionSettings) -> float:
 
 
 def _measured(
-    color_rgb: ByteImage, blobs: Components, found: NDArray[np.int64], radius_px: float, settings: DetectionSettings
+    color_rgb: ByteImage, blobs: Components, found: NDArray[np.int64], radius_px: float
 ) -> tuple[FloatArray, FloatArray]:
     """Centres (B, 2) and radii (B,) of the discs under the blobs ``found``, by unmixing at their edges.
 
     While the paper's colours are only partly known a blob is smaller than its disc.
     """
-    stencil = stencil_for(radius_px)
-    pixels, inside, middle = window_pixels(stencil, blobs.centre_px[found], blobs.labels.shape)
-    outline = outlines(blobs.labels.reshape(-1).take(pixels), blobs.label[found], inside, stencil)
-    offset, area = refined_centres(unpacked(packed(color_rgb).take(pixels)), outline, stencil, settings)
-    return middle + offset, np.sqrt(area / np.pi)
+    centre, area = BlobWindows(blobs.select(found), stencil_for(radius_px)).locate_centres(color_rgb)
+    return centre, np.sqrt(area / np.pi)
 
 
 def _measured_by_discs(
-    looks: MarkerAppearance, hsv: ByteImage, centre: FloatArray, radius_px: FloatArray, settings: DetectionSettings
+    looks: MarkerAppearance, hsv: ByteImage, centre: FloatArray, radius_px: FloatArray
 ) -> MarkerAppearance:
     """The appearance with what the found discs reach by it: share of area, likeness to the reference."""
     there = np.isfinite(centre[:, 0])
-    blobs = _paper_blobs(hsv, looks, settings, float(np.median(radius_px)))
+    blobs = _paper_blobs(hsv, looks, float(np.median(radius_px)))
     found = _blobs_under(centre[there], CLICK_REACH_RADII * radius_px[there], blobs)
     found = found[found >= 0]
     if found.size == 0:
@@ -196,19 +193,22 @@ def _measured_by_discs(
     return replace(looks, least_share=float(ratio.min()), most_share=float(ratio.max()), least_similarity=least)
 
 
-def paper_mask(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
-    """1 where a pixel has the colour of the paper, speckle removed."""
-    _, lit = cv2.threshold(cv2.extractChannel(hsv, 2), looks.darkest_value, 255.0, cv2.THRESH_BINARY)
-    mask = cv2.bitwise_and(is_blue(hsv, looks, settings), lit)
-    return np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, _CROSS), dtype=np.uint8)
+def paper_looks(looks: MarkerAppearance) -> NDArray[np.uint8]:
+    """255 for each look (65536,), hue + 256 saturation, that is likelier on paper, else 0."""
+    likely = back_project(EVERY_LOOK[None], looks.paper_lookup)[0]
+    return np.asarray(255 * (likely > 255.0 * PAPER_SHARE), dtype=np.uint8)
 
 
-def is_blue(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
-    """255 where hue and saturation are the paper's, else 0."""
-    likely = back_project(hsv, looks.paper_lookup)
-    return np.asarray(cv2.threshold(likely, 255.0 * PAPER_SHARE, 255.0, cv2.THRESH_BINARY)[1], dtype=np.uint8)
+def paper_mask(hsv: ByteImage, is_paper: NDArray[np.uint8], darkest_value: float) -> ByteImage:
+    """255 where a pixel has a look of the paper and is lit, speckle removed."""
+    return np.asarray(
+        cv2.morphologyEx(mask_paper(hsv, is_paper, darkest_value), cv2.MORPH_OPEN, _CROSS), dtype=np.uint8
+    )
 
 
+_LOOK = np.arange(1 << 16)
+EVERY_LOOK = np.stack((_LOOK & 255, _LOOK >> 8, 0 * _LOOK), axis=1).astype(np.uint8)
+"""Hue and saturation of each look (65536, 3)."""
 _CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
 
 

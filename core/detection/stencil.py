@@ -9,11 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
-
-from carpus.core.types import ByteImage, FloatArray
 
 WEDGES = 8
 
@@ -34,23 +31,19 @@ EDGE_PX = 6
 class Stencil:
     """A round window of P pixels about a blob, ordered by their distance from its middle.
 
-    ``row`` and ``column`` (P,) offsets from the middle, at most ``half``; ``core`` and ``near`` the first so many
-    pixels: those of the disc's own colour, those within the sensor's window (at least the core); ``reach`` (P,) which
-    may belong to the disc; ``rim`` the pixels around it, ``wedge`` (R, WEDGES) the R pixels of the rim seen in eight
-    overlapping quarter circles, 0 or 1; ``pick`` (P,) where in rows of P times WEDGES each pixel finds the wedge in
-    whose middle it lies; ``moments`` (P, 3) the columns 1, u, v.
+    ``offset`` (P, 2) v and u from the middle; ``core`` and ``near`` the first so many pixels: those of the disc's own
+    colour, those within the sensor's window (at least the core); ``reach`` (P,) those that may belong to the disc;
+    ``rim`` the pixels around it, ``wedge`` (R, WEDGES) 1 for the R pixels of the rim that are seen in each of eight
+    overlapping quarter circles; ``direction`` (P,) the quarter circle in whose middle each pixel lies.
     """
 
-    half: int
-    row: NDArray[np.int64]
-    column: NDArray[np.int64]
+    offset: NDArray[np.int32]
     core: slice
     reach: NDArray[np.bool_]
     near: slice
     rim: slice
-    wedge: NDArray[np.float32]
-    pick: NDArray[np.int64]
-    moments: NDArray[np.float32]
+    wedge: NDArray[np.float64]
+    direction: NDArray[np.uint8]
 
 
 def stencil_for(radius_px: float, edge_px: int | None = None) -> Stencil:
@@ -88,43 +81,11 @@ def _stencil(quarters: int, edge_px: int) -> Stencil:
     apart = np.abs((angle - middle[:, None] + np.pi) % (2.0 * np.pi) - np.pi)
     is_seen = width + 1e-9 >= apart[:, rim].T
     return Stencil(
-        half,
-        row,
-        column,
+        np.stack((row, column), axis=1).astype(np.int32),
         first(core),
         distance <= reach,
         first(max(edge_px, core)),
         rim,
-        np.ascontiguousarray(is_seen, dtype=np.float32),
-        np.arange(row.size) * WEDGES + apart.argmin(axis=0),
-        np.stack((np.ones(row.size), column, row), axis=1).astype(np.float32),
+        np.ascontiguousarray(is_seen, dtype=np.float64),
+        apart.argmin(axis=0).astype(np.uint8),
     )
-
-
-def window_pixels(
-    stencil: Stencil, centre_px: FloatArray, shape: tuple[int, ...]
-) -> tuple[NDArray[np.int64], NDArray[np.bool_] | None, FloatArray]:
-    """Flat indices (B, P) into a picture of ``shape``, which of them are inside it (None when all are), and the
-    middles (B, 2)."""
-    height, width = shape
-    middle = np.rint(centre_px)
-    at = middle.astype(np.int64)
-    half = stencil.half
-    if all(half <= u < width - half and half <= v < height - half for u, v in at.tolist()):
-        flat = at[:, 1] * width + at[:, 0]
-        return flat[:, None] + (stencil.row * width + stencil.column), None, middle
-    column, row = at[:, :1] + stencil.column, at[:, 1:] + stencil.row
-    inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
-    return np.clip(row, 0, height - 1) * width + np.clip(column, 0, width - 1), inside, middle
-
-
-def packed(picture: ByteImage) -> NDArray[np.uint32]:
-    """A picture of three channels as one number a pixel, flat: a window's pixels are then fetched in one go."""
-    return cv2.cvtColor(picture, cv2.COLOR_RGB2RGBA).reshape(-1).view(np.uint32)
-
-
-def unpacked(pixels: NDArray[np.uint32]) -> NDArray[np.float32]:
-    """The channels (B, P, 4) of packed pixels (B, P), the last one 1."""
-    channels = pixels.view(np.uint8).reshape(*pixels.shape, 4).astype(np.float32)
-    channels[..., 3] = 1.0
-    return channels

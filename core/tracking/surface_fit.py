@@ -11,11 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core import so3
-from carpus.core.compiled.surface import fit_surface
+from carpus.core.compiled.surface import measure_surface
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected
-from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate, View, error_reset
+from carpus.core.tracking.palm_state import SIZE, PalmEstimate, View, error_reset
 from carpus.core.types import FloatArray, SurfaceSamples
 
 _NO_NOISE = np.full((1, 3), 1e-12)
@@ -64,32 +63,8 @@ def surface_measurement(
     estimate: PalmEstimate, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
 ) -> SurfaceMeasurement | None:
     """Fit the surface to the readings, from the estimate's pose on; None where too few lie on it."""
-    fit = fit_surface(estimate, samples, surface, view, settings)
-    if fit is None:
-        return None
-    turned, shifted, inverse, by_reading, alone, alike, spread2, count = fit
-    sensor, depth_m = view.camera.sensor, _median(samples.depth_m)
-    reading_m = max(settings.reading_per_m * depth_m**2, float(sensor.reading_sd_m(np.array(depth_m))))
-    scatter2 = max(spread2, reading_m**2)
-    shared = 1.0 if sensor.averages else settings.shared
-    covariance = settings.goes_on * scatter2 * (inverse @ (shared * alike + (1.0 - shared) * alone) @ inverse)
-    # What stays and changes slowly over the picture tilts and lifts the surface as a whole.
-    up_m = float(sensor.stays_sd_m(np.array(depth_m))) if sensor.stays_px else 0.0
-    turn_rad = up_m * view.camera.fx_px / (max(sensor.stays_px, 1.0) * depth_m)
-    covariance[0, 0] += settings.turn_sd_rad**2 + turn_rad**2
-    covariance[1, 1] += settings.turn_sd_rad**2 + turn_rad**2
-    covariance[2, 2] += settings.up_sd_m**2 + up_m**2
-    # Of the whole pose: a shift along the surface and a turn about its normal also move what is read.
-    by_pose = inverse @ by_reading
-    by_shift = by_pose[:, 3:]
-    by_turn = by_pose[:, :3] + by_shift @ so3.skew(surface.middle_m).T
-    out = np.zeros((3, SIZE))
-    out[:, TURN] = by_turn
-    out[:, POSITION] = by_shift @ estimate.rotation_w2_w0.T
-    out[:, RELIEF] = out[:, BACK] = np.eye(3)
-    # What the estimate's own relief explains of it is no error.
-    value = by_shift @ shifted + by_turn @ turned - estimate.value[RELIEF] - estimate.value[BACK]
-    return SurfaceMeasurement(value, covariance, out, count)
+    found = measure_surface(estimate, samples, surface, view, settings)
+    return None if found is None else SurfaceMeasurement(*found)
 
 
 def calibrated_covariance(surface: BackSurface, view: View, settings: SurfaceSettings) -> FloatArray:
@@ -131,9 +106,3 @@ def reset_and_levelled(
     found = surface_measurement(estimate, samples, surface, view, settings)
     after = None if found is None else levelled_mixture(mixture, found, partial, settings)
     return (estimate, mixture, False) if after is None else (*error_reset(estimate, after), True)
-
-
-def _median(value: FloatArray) -> float:
-    """As ``numpy.median`` of finite numbers, which takes ten times as long."""
-    ordered = np.sort(value)
-    return float(0.5 * (ordered[(ordered.size - 1) // 2] + ordered[ordered.size // 2]))

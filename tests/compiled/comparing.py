@@ -36,8 +36,8 @@ def laid_out(value: Any, layout: Callable[[np.ndarray], np.ndarray]) -> Any:
 
 
 def every_second(array: np.ndarray) -> np.ndarray:
-    """The same numbers, every second of a larger array's."""
-    wide = np.full((*array.shape[:-1], 2 * array.shape[-1]), -1, dtype=array.dtype)
+    """The same numbers, every second of a larger array's; between them they stand in reverse."""
+    wide = np.repeat(array[..., ::-1], 2, axis=-1)
     wide[..., ::2] = array
     return wide[..., ::2]
 

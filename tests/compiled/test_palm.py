@@ -125,8 +125,6 @@ def test_sizes_and_types_that_do_not_fit_are_refused() -> None:
         with pytest.raises(ValueError, match=r"where|dtype"):
             compiled.see_palm(palm, modes, seen, WEIGHTS)
     with pytest.raises(ValueError, match="where"):
-        compiled.see_palm(estimate, mixture, view, weights_for(5, Spread()))
-    with pytest.raises(ValueError, match="where"):
         compiled.reset_errors(replace(estimate, value=estimate.value[:-1]), mixture)
     for step in (compiled.switch_modes, lambda *those: compiled.move_palm(*those[:3], None, those[3])):
         with pytest.raises(ValueError, match="where"):

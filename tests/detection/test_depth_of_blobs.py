@@ -77,6 +77,13 @@ def test_a_few_strange_readings_do_not_pull() -> None:
     assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
 
 
+def test_a_reading_far_from_a_discs_others_is_no_part_of_its_depth() -> None:
+    depth = depth_picture()
+    for u, v in np.rint(PALM_PX).astype(int):
+        depth[v + 1, u] += 0.4  # not the middle, where the disc's size is looked up
+    np.testing.assert_allclose(detected(depth).depth_m, DISTANCE_M, rtol=1e-9)
+
+
 def sloped(depth: FloatArray) -> None:
     rows, columns = on_disc()
     depth[rows, columns] += 0.0011 * (columns - PALM_PX[DISC, 0])

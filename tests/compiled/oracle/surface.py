@@ -6,7 +6,7 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface
-from carpus.core.tracking.palm_state import PalmEstimate, View
+from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate, View
 from carpus.core.tracking.surface_fit import SurfaceSettings
 from carpus.core.types import FloatArray, SurfaceSamples
 
@@ -14,9 +14,9 @@ KEPT = np.array([0, 1, 5])
 """Turn about X and Y and shift along Z among turn and shift."""
 
 
-def fit_surface(
+def measure_surface(
     estimate: PalmEstimate, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
-) -> tuple[FloatArray | float | int, ...] | None:
+) -> tuple[FloatArray | int, ...] | None:
     """What the compiled function tells."""
     in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
     in_w0 = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam
@@ -40,9 +40,23 @@ def fit_surface(
         position, rotation = position + rotation @ shift, rotation @ so3.exp(turn)
     kept, pixel = weighed[:, near], samples.pixel[near]
     overlap = np.maximum(1.0 - np.abs(pixel[:, None] - pixel) / view.camera.sensor.patch_px, 0.0).prod(axis=-1)
-    spread2 = float(weight @ over**2 / weight.sum())
-    sums = weighed @ by_pose.T, kept @ kept.T, kept @ overlap @ kept.T
-    return turned, shifted, inverse, *sums, spread2, int(np.count_nonzero(near))
+    sensor, depth_m = view.camera.sensor, np.median(samples.depth_m)
+    shared = 1.0 if sensor.averages else settings.shared
+    together = shared * kept @ overlap @ kept.T + (1.0 - shared) * kept @ kept.T
+    reading_m = max(settings.reading_per_m * depth_m**2, float(sensor.reading_sd_m(depth_m)))
+    scatter2 = max(float(weight @ over**2 / weight.sum()), reading_m**2)
+    up_m = float(sensor.stays_sd_m(depth_m)) if sensor.stays_px else 0.0
+    turn_rad = up_m * view.camera.fx_px / (max(sensor.stays_px, 1.0) * depth_m)
+    stays = np.array([settings.turn_sd_rad**2 + turn_rad**2] * 2 + [settings.up_sd_m**2 + up_m**2])
+    by_whole = inverse @ (weighed @ by_pose.T)
+    by_shift = by_whole[:, 3:]
+    by_turn = by_whole[:, :3] + np.cross(middle, by_shift)
+    slope = np.zeros((3, SIZE))
+    slope[:, TURN], slope[:, POSITION] = by_turn, by_shift @ estimate.rotation_w2_w0.T
+    slope[:, RELIEF] = slope[:, BACK] = np.eye(3)
+    value = by_shift @ shifted + by_turn @ turned - estimate.value[RELIEF] - estimate.value[BACK]
+    covariance = settings.goes_on * scatter2 * (inverse @ together @ inverse) + np.diag(stays)
+    return value, covariance, slope, int(np.count_nonzero(near))
 
 
 def planes_under(place: FloatArray, surface: BackSurface) -> FloatArray:
