@@ -69,7 +69,7 @@ def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop)
 
 def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Desktop) -> None:
     journey, screen = desktop.journey, desktop.journey.beside.screen
-    newest, older = (line.session_id for line in journey.sessions.screen.list.rows.lines)
+    newest, older = (line.entry.session_id for line in journey.sessions.screen.list.rows.lines)
     journey.review.show(newest)
     qtbot.waitUntil(lambda: journey.review.screen.shown)
     assert journey.review.screen.card.beside_button.isEnabled()

@@ -157,7 +157,7 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     two = store(library, set_up(linden, "Linden 42"), after=timedelta(hours=1))
     path = library.entry(one).path
     stored.set_aside(one, "discs lost")
-    assert {line.session_id: line.set_aside for line in stored.lines(linden)} == {one: "discs lost", two: ""}
+    assert {line.entry.session_id: line.set_aside for line in stored.lines(linden)} == {one: "discs lost", two: ""}
     assert library.figures(library.entry(one)).not_counted
     stored.set_aside(one, "")
     assert not library.figures(library.entry(one)).not_counted
@@ -168,10 +168,10 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     stored.move(one, heron)
     path = library.entry(one).path
     assert read_session(path).header.subject_id == "Heron 17"
-    assert [line.session_id for line in stored.lines(linden)] == [two]
-    assert [line.session_id for line in stored.lines(heron)] == [one]
+    assert [line.entry.session_id for line in stored.lines(linden)] == [two]
+    assert [line.entry.session_id for line in stored.lines(heron)] == [one]
     recover(library)
-    assert [line.session_id for line in stored.lines(heron)] == [one], "the files do not undo it"
+    assert [line.entry.session_id for line in stored.lines(heron)] == [one], "the files do not undo it"
     records, cards = Records(library), StoredPatients(library)
     records.archive_session(one)
     assert stored.lines(heron) == []

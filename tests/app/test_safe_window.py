@@ -88,7 +88,7 @@ def test_a_session_is_looked_at_given_away_archived_and_erased_from_the_list(qtb
     journey.sessions.screen.open_chosen()
     qtbot.waitUntil(lambda: journey.review.screen.shown)
     last = read_log(desktop.library.store)[-1]
-    assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.session_id))
+    assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.entry.session_id))
 
     heron = patient(desktop, "Heron 17")
     journey.sessions.show(linden(desktop))

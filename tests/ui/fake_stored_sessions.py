@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import datetime, timedelta
+from pathlib import Path
 
+from carpus.core.records.values import SessionEntry
 from carpus.ui.sessions.listing import SessionLine
 from carpus.ui.sessions.stored import StoredSessions
 
@@ -15,8 +17,9 @@ class FakeStoredSessions(StoredSessions):
     def __init__(self, count: int = 6) -> None:
         start = datetime(2026, 11, 20, 11, 30)
         self.all = [
-            SessionLine(f"s{number}", start - timedelta(days=3 * number), "WRIST_FE", "right", 84.0)
+            SessionLine(SessionEntry(name, Path("s.h5"), when, when, name, "WRIST_FE", "right", 2520, 84.0))
             for number in range(count)
+            for name, when in [(f"s{number}", start - timedelta(days=3 * number))]
         ]
         self.done: list[tuple[str, ...]] = []
 
@@ -24,7 +27,7 @@ class FakeStoredSessions(StoredSessions):
         return list(self.all)
 
     def with_figures(self, line: SessionLine) -> SessionLine:
-        number = int(line.session_id[1:])
+        number = int(line.entry.session_id[1:])
         if number == 4:
             return replace(line, damaged=True)
         words = "mean of 9 repetitions; number 7 left out: pain"
@@ -37,7 +40,7 @@ class FakeStoredSessions(StoredSessions):
         return 0
 
     def _change(self, session_id: str, **values: object) -> None:
-        self.all = [replace(one, **values) if one.session_id == session_id else one for one in self.all]  # type: ignore[arg-type]
+        self.all = [replace(one, **values) if one.entry.session_id == session_id else one for one in self.all]  # type: ignore[arg-type]
 
     def set_aside(self, session_id: str, reason: str) -> None:
         self.done.append(("aside", session_id, reason))
@@ -45,8 +48,11 @@ class FakeStoredSessions(StoredSessions):
 
     def move(self, session_id: str, patient_id: str) -> None:
         self.done.append(("move", session_id, patient_id))
-        self.all = [one for one in self.all if one.session_id != session_id]
+        self.all = [one for one in self.all if one.entry.session_id != session_id]
 
     def rename_exercise(self, session_id: str, exercise: str) -> None:
         self.done.append(("rename", session_id, exercise))
-        self._change(session_id, exercise=exercise)
+        self.all = [
+            replace(one, entry=replace(one.entry, exercise=exercise)) if one.entry.session_id == session_id else one
+            for one in self.all
+        ]

@@ -34,7 +34,7 @@ def screen(
 
 def chosen(screen: SessionsScreen) -> str:
     line = screen.chosen()
-    return line.session_id
+    return line.entry.session_id
 
 
 def test_any_session_is_opened_by_enter_or_double_click(qtbot: QtBot, screen: SessionsScreen) -> None:

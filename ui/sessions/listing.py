@@ -5,14 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import datetime
 from itertools import pairwise
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QBrush, QFontMetricsF, QMouseEvent, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
-from carpus.core.types import Side
+from carpus.core.records.values import SessionEntry
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, font
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
@@ -33,12 +32,7 @@ class SessionLine:
     """One row of the list of sessions. What must be read from the file is empty until it has been: ``figure`` the main
     one in words, ``counted`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
 
-    session_id: str
-    when: datetime
-    exercise: str
-    side: Side
-    duration_s: float
-    simulated: bool = False
+    entry: SessionEntry
     of_practice: bool = False
     set_aside: str = ""
     """Why it does not count; empty when it does."""
@@ -55,7 +49,7 @@ class SessionLine:
 
 def remark(line: SessionLine) -> str:
     """What must be known of a session before its figures."""
-    if line.simulated and not line.of_practice:
+    if line.entry.simulated and not line.of_practice:
         return tr("does not count: simulated")
     if line.set_aside:
         return tr("set aside: {reason}").format(reason=line.set_aside)
@@ -66,8 +60,9 @@ def remark(line: SessionLine) -> str:
 
 def cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, str, str, str, str]:
     """The texts of a row, which is told from the other ``lines``; what is not known yet is empty."""
-    day = f"{numbers.short_date(line.when)} {numbers.time_beside(line.when, *(other.when for other in lines))}"
-    what = f"{terms.exercise_name(line.exercise)}, {inside(terms.side_name(line.side))}"
+    entry, others = line.entry, (other.entry.recorded for other in lines)
+    day = f"{numbers.short_date(entry.recorded)} {numbers.time_beside(entry.recorded, *others)}"
+    what = f"{terms.exercise_name(entry.exercise)}, {inside(terms.side_name(entry.hand))}"
     return day, what, line.figure, line.counted, remark(line) or line.corrected.rstrip(".")
 
 
@@ -93,29 +88,29 @@ class SessionModel(QAbstractListModel):
     def show_lines(self, lines: Sequence[SessionLine]) -> None:
         self.beginResetModel()
         self.lines = tuple(lines)
-        there = [line.session_id for line in lines]
+        there = [line.entry.session_id for line in lines]
         self.ticked = tuple(one for one in self.ticked if one in there)
         self.endResetModel()
 
     def toggle(self, row: int) -> None:
         """Tick a session, or take its tick away; with a third one the first gives way."""
-        session_id = self.lines[row].session_id
+        session_id = self.lines[row].entry.session_id
         before = self.ticked
         rest = tuple(one for one in before if one != session_id)
         self.ticked = rest if session_id in before else (*rest, session_id)[-MOST_TICKED:]
         for number, line in enumerate(self.lines):
-            if (line.session_id in before) != (line.session_id in self.ticked):
+            if (line.entry.session_id in before) != (line.entry.session_id in self.ticked):
                 self.dataChanged.emit(self.index(number), self.index(number))
 
     def show_line(self, line: SessionLine) -> None:
         for number, old in enumerate(self.lines):
-            if old.session_id == line.session_id:
+            if old.entry.session_id == line.entry.session_id:
                 self.lines = (*self.lines[:number], line, *self.lines[number + 1 :])
                 self.dataChanged.emit(self.index(number), self.index(number))
 
     def find(self, session_id: str) -> int:
         """Row of a session, -1 when not shown."""
-        return next((number for number, line in enumerate(self.lines) if line.session_id == session_id), -1)
+        return next((number for number, line in enumerate(self.lines) if line.entry.session_id == session_id), -1)
 
     def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: B008
         return 0 if parent.isValid() else len(self.lines)
@@ -125,7 +120,7 @@ class SessionModel(QAbstractListModel):
             return None
         line = self.lines[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            ticked = self.tr("ticked") if line.session_id in self.ticked else ""
+            ticked = self.tr("ticked") if line.entry.session_id in self.ticked else ""
             return ", ".join(part for part in (*cells(line, self.lines), ticked) if part)
         return line if role == Qt.ItemDataRole.UserRole else None
 
@@ -146,7 +141,7 @@ class SessionRowPainter(QStyledItemDelegate):
         theme, line = self._theme, self._model.lines[index.row()]
         box = QRectF(option.rect)
         state = option.state
-        counts = not (line.set_aside or line.damaged or (line.simulated and not line.of_practice))
+        counts = not (line.set_aside or line.damaged or (line.entry.simulated and not line.of_practice))
         painter.save()
         if state & QStyle.StateFlag.State_Selected:
             painter.fillRect(box, theme.color("soft"))
@@ -157,7 +152,7 @@ class SessionRowPainter(QStyledItemDelegate):
             painter.fillRect(box, QBrush(theme.color("line"), Qt.BrushStyle.BDiagPattern))
         painter.setPen(QPen(theme.color("line"), 1))
         painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
-        self._paint_tick(painter, box, ticked=line.session_id in self._model.ticked)
+        self._paint_tick(painter, box, ticked=line.entry.session_id in self._model.ticked)
         texts = cells(line, self._model.lines)
         rooms = _rooms(box, theme, remarked=bool(texts[4]))
         for number, text in enumerate(texts):

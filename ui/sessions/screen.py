@@ -120,10 +120,10 @@ class SessionsScreen(QWidget):
         self.archive_button.clicked.connect(lambda: self.archive_wanted.emit(self._patient_id))
         self.aside_sheet.kept.connect(self._set_aside)
         self.move_sheet.chosen.connect(
-            lambda patient_id: self._do(lambda line: self._move(line.session_id, patient_id), self.moved.emit)
+            lambda patient_id: self._do(lambda line: self._move(line.entry.session_id, patient_id), self.moved.emit)
         )
         self.rename_sheet.chosen.connect(
-            lambda exercise: self._do(lambda line: self._stored.rename_exercise(line.session_id, exercise))
+            lambda exercise: self._do(lambda line: self._stored.rename_exercise(line.entry.session_id, exercise))
         )
 
     # --- showing ------------------------------------------------------------------------------------------
@@ -170,11 +170,11 @@ class SessionsScreen(QWidget):
         self._right.setVisible(line is not None)
         if line is None:
             return
-        self.what.setText(terms.exercise_name(line.exercise))
+        self.what.setText(terms.exercise_name(line.entry.exercise))
         self.figure.setText(line.figure or ("–" if line.damaged else self.tr("Reading…")))
         facts = (
-            cells(line, self.list.rows.lines)[0], terms.hand_name(line.side),
-            numbers.clock(line.duration_s + 0.5), line.counted_words, line.corrected.rstrip("."),
+            cells(line, self.list.rows.lines)[0], terms.hand_name(line.entry.hand),
+            numbers.clock(line.entry.duration_s + 0.5), line.counted_words, line.corrected.rstrip("."),
         )  # fmt: skip
         self.facts.setText(" · ".join(fact for fact in facts if fact))
         self.remark.say(" · ".join(part for part in (remark(line), line.warning) if part))
@@ -198,7 +198,7 @@ class SessionsScreen(QWidget):
             self.pair_wanted.emit(*ticked)
 
     def _show_ticks(self) -> None:
-        lines = [line for line in self.list.rows.lines if line.session_id in self.list.rows.ticked]
+        lines = [line for line in self.list.rows.lines if line.entry.session_id in self.list.rows.ticked]
         words = {
             0: self.tr("Tick two to compare them"), 1: self.tr("Tick one more to compare"),
             2: self.tr("Compare the 2 ticked"),
@@ -209,7 +209,7 @@ class SessionsScreen(QWidget):
     def _emit_chosen(self, signal) -> None:  # type: ignore[no-untyped-def]
         line = self.chosen()
         if line is not None:
-            signal.emit(line.session_id)
+            signal.emit(line.entry.session_id)
 
     def _set_aside_or_back(self) -> None:
         line = self.chosen()
@@ -219,7 +219,7 @@ class SessionsScreen(QWidget):
             self.aside_sheet.begin()
 
     def _set_aside(self, reason: str) -> None:
-        self._do(lambda line: self._stored.set_aside(line.session_id, reason))
+        self._do(lambda line: self._stored.set_aside(line.entry.session_id, reason))
 
     def _ask_move(self) -> None:
         words = self.tr("It then counts in the other patient’s progress, and no more in that of {name}.")
@@ -234,8 +234,8 @@ class SessionsScreen(QWidget):
         line = self.chosen()
         if line is None:
             return
-        alike = exercises_of(exercise_named(line.exercise).protocol)
-        others = [one.id for one in alike if one.id != line.exercise]
+        alike = exercises_of(exercise_named(line.entry.exercise).protocol)
+        others = [one.id for one in alike if one.id != line.entry.exercise]
         self.rename_sheet.begin(
             self.tr("Which exercise was it?"),
             self.tr("Repetitions and figures are worked out anew. The recording itself is not changed."),
@@ -246,7 +246,7 @@ class SessionsScreen(QWidget):
     def _ask_erase(self) -> None:
         line = self.chosen()
         if line is not None:
-            self.erase_wanted.emit(line.session_id)
+            self.erase_wanted.emit(line.entry.session_id)
 
     def _move(self, session_id: str, patient_id: str) -> str:
         self._stored.move(session_id, patient_id)
@@ -259,7 +259,7 @@ class SessionsScreen(QWidget):
 
         def done(result: object) -> None:
             self.changed.emit()
-            self.begin(self._patient_id, self._pseudonym, line.session_id)
+            self.begin(self._patient_id, self._pseudonym, line.entry.session_id)
             self.first().setFocus(Qt.FocusReason.OtherFocusReason)
             told(result)
 

@@ -10,7 +10,6 @@ from carpus.core.records.changes import fingerprint
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import SessionEntry
 from carpus.ui.sessions.listing import SessionLine
 from carpus.ui.words.fingers import main_figure
 from carpus.ui.words.progress import corrected_words
@@ -27,13 +26,10 @@ class StoredSessions:
 
     def lines(self, patient_id: str) -> Sequence[SessionLine]:
         """Newest first, without what only the files know."""
-        return [self._line(entry, patient_id == PRACTICE_PATIENT) for entry in self._library.sessions(patient_id)]
-
-    def _line(self, entry: SessionEntry, of_practice: bool) -> SessionLine:
-        return SessionLine(
-            entry.session_id, entry.recorded, entry.exercise, entry.hand, entry.duration_s,
-            entry.simulated, of_practice, self._aside(entry.session_id),
-        )  # fmt: skip
+        return [
+            SessionLine(one, patient_id == PRACTICE_PATIENT, self._aside(one.session_id))
+            for one in self._library.sessions(patient_id)
+        ]
 
     def _aside(self, session_id: str) -> str:
         try:
@@ -43,11 +39,10 @@ class StoredSessions:
         return (choices.not_counted_reason or "by hand") if choices.not_counted else ""
 
     def with_figures(self, line: SessionLine) -> SessionLine:
-        entry = self._library.entry(line.session_id)
         try:
-            figures = self._library.figures(entry)
+            figures = self._library.figures(line.entry)
         except SessionUnreadable:
-            return replace(line, damaged=True, away=not entry.path.exists())
+            return replace(line, damaged=True, away=not line.entry.path.exists())
         counted = f"{figures.counted} / {len(figures.repetitions)}" if figures.repetitions else ""
         said = [] if line.of_practice else warnings(figures)
         return replace(
