@@ -8,7 +8,7 @@ import math
 import random
 import time
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import fields
 from datetime import UTC, date, datetime
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -153,38 +153,56 @@ class Patients:
         return {str(row.id): moment(row.archived, row.added_s) for row in rows}
 
 
-_WRITTEN = {one.name: get_type_hints(Patient)[one.name] for one in fields(Patient) if not one.kw_only}
-"""What a person writes down of a patient, each with the kind that its column is read as."""
+Written = Mapping[str, Any]
+"""What a person writes down of a value, each a column by its name, with the type that it is read as."""
+
+
+def _written(kind: Any) -> Written:
+    types = get_type_hints(kind)
+    return {one.name: types[one.name] for one in fields(kind) if not one.kw_only}
+
+
+_PATIENT, _HOME_PLAN = _written(Patient), _written(HomePlan)
+
+
+def _as_stored(value: object, written: Written) -> dict[str, Any]:
+    """Texts and numbers as they are, days by ISO 8601 and empty for none, several texts in a line each."""
+    columns = {name: getattr(value, name) for name in written}
+    for name, one in columns.items():
+        if one is None or isinstance(one, date):
+            columns[name] = one.isoformat() if one is not None else ""
+        elif isinstance(one, tuple):
+            columns[name] = "\n".join(one)
+    return columns
+
+
+def _as_written(row: Row[Any], written: Written) -> dict[str, Any]:
+    """What :func:`_as_stored` stored; of a choice the first where another program stored what is none."""
+    read = {name: getattr(row, name) for name in written}
+    for name, hint in written.items():
+        origin: Any = get_origin(hint)
+        if origin is Literal:
+            read[name] = one_of(get_args(hint), read[name])
+        elif origin is tuple:
+            read[name] = tuple(read[name].split("\n"))
+        elif hint not in (str, int):  # a day, which may be missing where None may stand for it
+            read[name] = date.fromisoformat(read[name]) if hint is date else day_of(read[name])
+    return read
 
 
 def columns(patient: Patient) -> dict[str, Any]:
     """What is written of a patient as it is stored. Raises :class:`NameUnsuited`."""
     kept = patient.as_kept()
-    search = f"{kept.pseudonym} {kept.name} {kept.diagnosis} {kept.note}"
-    return {
-        **{name: _stored(getattr(kept, name)) for name in _WRITTEN},
-        "folded": folded(kept.pseudonym), "search": folded(search),
-    }  # fmt: skip
-
-
-def _stored(value: str | date | None) -> str:
-    return value if isinstance(value, str) else value.isoformat() if value is not None else ""
+    search = folded(f"{kept.pseudonym} {kept.name} {kept.diagnosis} {kept.note}")
+    return _as_stored(kept, _PATIENT) | {"folded": folded(kept.pseudonym), "search": search}
 
 
 def _patient(row: Row[Any]) -> Patient:
-    written = {name: _read(kind, getattr(row, name)) for name, kind in _WRITTEN.items()}
     return Patient(
-        **written | {"pseudonym": row.pseudonym.strip() or "?"}, patient_id=row.id, session_count=row.sessions,
-        result_count=row.results, last_session=moment(row.last, row.last_s) if row.last else None,
-        last_exercise=row.last_exercise, version=row.version,
+        **_as_written(row, _PATIENT) | {"pseudonym": row.pseudonym.strip() or "?"}, patient_id=row.id,
+        session_count=row.sessions, result_count=row.results, last_exercise=row.last_exercise, version=row.version,
+        last_session=moment(row.last, row.last_s) if row.last else None,
     )  # fmt: skip
-
-
-def _read(kind: Any, stored: str) -> Any:
-    """A column as a text, one of some choices, or a day."""
-    if get_origin(kind) is Literal:
-        return one_of(get_args(kind), stored)
-    return stored if kind is str else day_of(stored)
 
 
 def enter_by_hand(store: Store, patient_id: str, values: Iterable[HandValue]) -> None:
@@ -237,26 +255,13 @@ def goal(patient_id: str, exercise: str, side: Side, positive_deg: float, negati
 
 def home_plan(store: Store, patient_id: str) -> HomePlan | None:
     """What a patient was last given to do at home; None for nothing."""
-    found = store.sound(store.rows(select(HOME_PLAN).where(HOME_PLAN.c.patient_id == patient_id)), _home_plan)
-    return next(iter(found), None)
-
-
-def _home_plan(row: Row[Any]) -> HomePlan:
-    return HomePlan(
-        tuple(row.exercises.split("\n")), row.times, row.rounds, date.fromisoformat(row.made), day_of(row.again),
-        row.at, row.note, row.language,
-    )  # fmt: skip
+    rows = store.rows(select(HOME_PLAN).where(HOME_PLAN.c.patient_id == patient_id))
+    return next(iter(store.sound(rows, lambda row: HomePlan(**_as_written(row, _HOME_PLAN)))), None)
 
 
 def keep_home_plan(store: Store, patient_id: str, plan: HomePlan) -> None:
     """In place of the one before."""
-    again = plan.again.isoformat() if plan.again is not None else ""
-    row = kept(
-        HOME_PLAN, f"{patient_id}:home", patient_id=patient_id, exercises="\n".join(plan.exercises), times=plan.times,
-        rounds=plan.rounds, made=plan.made.isoformat(), again=again, at=plan.at, note=plan.note,
-        language=plan.language,
-    )  # fmt: skip
-    store.do([row])
+    store.do([kept(HOME_PLAN, f"{patient_id}:home", patient_id=patient_id, **_as_stored(plan, _HOME_PLAN))])
 
 
 def storable(value: float) -> float | None:
