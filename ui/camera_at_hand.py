@@ -167,6 +167,11 @@ class AtCameraFlow(Flow):
     def back(self) -> None:
         raise NotImplementedError
 
+    def to_settings(self) -> None:
+        """Back to the camera's card, from which one came; behind it are the patients."""
+        self.to_patient()
+        self.context.way.show("settings", "camera")
+
     def leave(self) -> None:
         """Let the camera go; what was taken and not kept is forgotten."""
         self._name_sheet.dismiss()

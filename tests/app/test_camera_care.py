@@ -146,6 +146,9 @@ def test_settings_of_a_camera_that_was_out_say_so_with_the_date(qtbot: QtBot, de
     assert "all lengths are 2.6 % too long" in journey.card.screen.words.text()
     assert "Checked" in card._state.text()
     assert "2.6 % too long" in card._state.text()
+    for expected in ("settings", "patients"):
+        journey.way.back()
+        assert journey.place == expected, "back the way one came"
 
 
 def test_a_check_of_a_camera_without_a_number_is_kept_under_its_name(

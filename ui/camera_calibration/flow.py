@@ -58,9 +58,9 @@ class BoardFlow(AtCameraFlow):
         self.context.way.go("board")
 
     def up(self) -> None:
-        """From showing and the result to the beginning, and from there to the patients."""
+        """From showing and the result to the beginning, and from there to the settings."""
         if self.screen.is_beginning:
-            self.to_patient()
+            self.to_settings()
         else:
             self.back()
 

@@ -51,11 +51,11 @@ class CardFlow(AtCameraFlow):
         self.context.way.go("card")
 
     def up(self) -> None:
-        """From a check to its beginning, and from there to the patients."""
+        """From a check to its beginning, and from there to the settings."""
         if self.screen.is_measuring:
             self.back()
         else:
-            self.to_patient()
+            self.to_settings()
 
     def back(self) -> None:
         self.leave()
