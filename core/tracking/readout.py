@@ -8,25 +8,23 @@ with the place the part that no number of pictures takes away: the filter counts
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.compiled.readout import read_wrist, seat_fingers
 from carpus.core.hand import clinical_angles
-from carpus.core.hand.clinical_angles import wrist_axes_sensitivity
-from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
-from carpus.core.tracking.palm_state import POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate, View
-from carpus.core.tracking.soft_tissue import LOOSE
+from carpus.core.hand.clinical_angles import ZYZ_UNDEFINED_BELOW_RAD, side_sign, wrist_axes_sensitivity
+from carpus.core.tracking.hand_geometry import JointMoment, PalmInBody
+from carpus.core.tracking.palm_state import SHAPE, PalmEstimate, View
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _NONE = np.empty(0)
 _NOWHERE = np.empty((0, 3))
-_IDENTITY = np.eye(3)
-_AXES = np.arange(3)
 _DORSAL = np.array([0.0, 0.0, 1.0])
-_READ = slice(TURN.start, SHAPE.stop)
-_SHAPE_SIZE = SHAPE.stop - SHAPE.start
 _TILT_KNOWN = 1e-3
 """Share of the best known direction below which depths tell nothing of a turn: about the line of sight."""
 
@@ -35,6 +33,16 @@ SHAPE_MOVED_M = 3e-4
 """The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
 METACARPAL_M = 0.055
 """Of ring and little finger, from the joint at its base to its head (clinical reference 3.3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class WristAxes:
+    """Axes of W (3, 3) as columns in the tracked body, by how much they turn (3, 18) with each number of the shape, and
+    the shape (18,) of which they are."""
+
+    axes: FloatArray
+    sensitivity: FloatArray
+    shape_m: FloatArray
 
 
 class Readout:
@@ -50,81 +58,47 @@ class Readout:
         self._disc_m = calibration.marker_position_w0_m
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
         self._has_start = bool(np.any(calibration.start_angles_rad))
-        self._axes_shape = np.full(_SHAPE_SIZE, np.inf)
-        self._axes = np.eye(3)
-        self._sensitivity = np.zeros((3, _SHAPE_SIZE))
+        self._axes: WristAxes | None = None
 
-    def _axes_of(self, estimate: PalmEstimate) -> tuple[FloatArray, FloatArray]:
+    def _axes_near(self, estimate: PalmEstimate) -> WristAxes:
+        """The axes of a shape so near to the estimate's that they follow it to first order."""
         shape = estimate.value[SHAPE]
-        moved_m = shape - self._axes_shape
-        if np.abs(moved_m).max() > SHAPE_MOVED_M:  # so too at first
-            self._work_out_axes(shape)
-            moved_m = np.zeros(_SHAPE_SIZE)
-        return self._axes @ so3.exp(self._sensitivity @ moved_m), self._sensitivity
-
-    def _work_out_axes(self, shape: FloatArray) -> None:
-        self._axes, self._sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
-        self._axes_shape = shape.copy()
+        if self._axes is None or np.abs(shape - self._axes.shape_m).max() > SHAPE_MOVED_M:
+            axes, sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
+            self._axes = WristAxes(axes, sensitivity, shape.copy())
+        return self._axes
 
     def seat(
         self, estimate: PalmEstimate, view: View
     ) -> tuple[PalmInBody, FloatArray, FloatArray, FloatArray, FloatArray]:
         """The palm as refined, for the fingers; how the camera sees W of it, rotation (3, 3) and translation (3,); in
         camera axes the covariances of the body's place and turn (6, 6) and of the turn of the palm's axes (3, 3)."""
-        axes, sensitivity = self._axes_of(estimate)
-        error = np.zeros((3, SIZE))
-        error[_AXES, TURN.start + _AXES] = 1.0
-        error[:, SHAPE] = axes @ sensitivity
-        disc_m = self._disc_m + estimate.shape_m
-        # Ring and little metacarpal flex and take their fingers along; what else a disc moves is skin.
-        disc_m[LOOSE, 1:] += estimate.skin_m[LOOSE, 1:]
-        cup, cup_sd = NO_CUP.copy(), NO_CUP.copy()
-        cup[-2:] = -estimate.skin_m[LOOSE, 2] / METACARPAL_M
-        down = SKIN.start + 3 * LOOSE + 2
-        cup_sd[-2:] = np.sqrt(estimate.covariance[down, down]) / METACARPAL_M
-        palm = PalmInBody.of(disc_m, axes, self._side, cup, cup_sd)
-        body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
-        to_camera = np.zeros((6, 6))
-        to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
-        pose = to_camera @ estimate.covariance[POSE[:, None], POSE] @ to_camera.T
-        turn = body_cam @ (error @ estimate.covariance @ error.T) @ body_cam.T
-        return palm, *view.of_palm(estimate, palm.axes, palm.origin_m), pose, turn
+        sign = side_sign(self._side)
+        axes, origin_m, disc_m, cup, cup_sd, rotation, translation_m, pose, turn = seat_fingers(
+            self._axes_near(estimate), self._disc_m, estimate, view, sign, METACARPAL_M
+        )
+        return PalmInBody(axes, origin_m, disc_m, cup, cup_sd), rotation, translation_m, pose, turn
 
     def moment(self, estimate: PalmEstimate) -> Moment:
         """Wrist pose, rates, angles and their standard deviations of a single estimate.
 
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
-        axes, sensitivity = self._axes_of(estimate)
-        place = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
-        position = estimate.position_m + estimate.rotation_w2_w0 @ place
-        rotation = axes.T @ estimate.rotation_w2_w0 @ axes
-        error = np.zeros((3, SHAPE.stop - TURN.start))
-        error[:, :3] = axes.T
-        # The turn of the axes enters before and after: R' = Exp(-a) R Exp(a).
-        error[:, SHAPE.start - TURN.start :] = (_IDENTITY - rotation.T) @ sensitivity
-        turn_covariance = error @ estimate.covariance[_READ, _READ] @ error.T
-        if self._has_stays:
-            turn_covariance = turn_covariance + axes.T @ self._tilt_covariance(estimate) @ axes
-        shown = self._start @ rotation if self._has_start else rotation
-        angles, by_turn, zyz = clinical_angles.read_one(shown, self._side)
-        variance = np.vecdot(by_turn @ turn_covariance, by_turn)
+        axes, shown, position, rate, angles, sd, zyz = read_wrist(
+            self._axes_near(estimate),
+            self._disc_m,
+            estimate,
+            self._start if self._has_start else None,
+            self._tilt_covariance(estimate) if self._has_stays else None,
+            side_sign(self._side),
+            ZYZ_UNDEFINED_BELOW_RAD,
+        )
         # Places keep the axes of W0 as calibrated and stored, whatever is learnt of the palm; turns are read in the
         # axes as they are known by now, and what lies between the two goes with them.
         return Moment(
-            position,
-            estimate.velocity_m_s,
-            so3.log(axes @ self._start.T),
-            shown,
-            axes.T @ estimate.rate_rad_s,
-            angles,
-            np.sqrt(np.maximum(variance, 0.0)),
-            zyz,
-            _NONE,
-            _NONE,
-            _NONE,
-            _NOWHERE,
-        )
+            position, estimate.velocity_m_s, so3.log(axes @ self._start.T), shown, rate, angles, sd, zyz, _NONE, _NONE,
+            _NONE, _NOWHERE,
+        )  # fmt: skip
 
     def _tilt_covariance(self, estimate: PalmEstimate) -> FloatArray:
         """Covariance (3, 3) of the palm's turn, in the body, by the error of its discs' depths that stays: they tell
