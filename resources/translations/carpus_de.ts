@@ -1772,36 +1772,8 @@
         <translation>Mittel beider · ein Punkt je Ablesung, {count} Ablesungen</translation>
     </message>
     <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Noch nichts von Hand gemessen.</translation>
-    </message>
-    <message>
-        <source>passive {value}</source>
-        <translation>passiv {value}</translation>
-    </message>
-    <message>
-        <source>Carpus {value}</source>
-        <translation>Carpus {value}</translation>
-    </message>
-    <message>
-        <source>active {value}</source>
-        <translation>aktiv {value}</translation>
-    </message>
-    <message>
         <source>by hand, active</source>
         <translation>von Hand, aktiv</translation>
-    </message>
-    <message>
-        <source>by hand</source>
-        <translation>von Hand</translation>
-    </message>
-    <message>
-        <source>by hand, passive</source>
-        <translation>von Hand, passiv</translation>
-    </message>
-    <message>
-        <source>Carpus, mean</source>
-        <translation>Carpus, Mittel</translation>
     </message>
     <message>
         <source>old result</source>
@@ -7222,6 +7194,38 @@
     <message>
         <source>{name} over the days</source>
         <translation>{name} über die Tage</translation>
+    </message>
+    <message>
+        <source>Nothing measured by hand yet.</source>
+        <translation>Noch nichts von Hand gemessen.</translation>
+    </message>
+    <message>
+        <source>by hand, active</source>
+        <translation>von Hand, aktiv</translation>
+    </message>
+    <message>
+        <source>by hand</source>
+        <translation>von Hand</translation>
+    </message>
+    <message>
+        <source>by hand, passive</source>
+        <translation>von Hand, passiv</translation>
+    </message>
+    <message>
+        <source>Carpus, mean</source>
+        <translation>Carpus, Mittel</translation>
+    </message>
+    <message>
+        <source>passive {value}</source>
+        <translation>passiv {value}</translation>
+    </message>
+    <message>
+        <source>Carpus {value}</source>
+        <translation>Carpus {value}</translation>
+    </message>
+    <message>
+        <source>active {value}</source>
+        <translation>aktiv {value}</translation>
     </message>
 </context>
 <context>

@@ -1772,36 +1772,8 @@
         <translation>media di entrambi · un punto per lettura, {count} letture</translation>
     </message>
     <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Ancora nulla misurato a mano.</translation>
-    </message>
-    <message>
-        <source>passive {value}</source>
-        <translation>passivo {value}</translation>
-    </message>
-    <message>
-        <source>Carpus {value}</source>
-        <translation>Carpus {value}</translation>
-    </message>
-    <message>
-        <source>active {value}</source>
-        <translation>attivo {value}</translation>
-    </message>
-    <message>
         <source>by hand, active</source>
         <translation>a mano, attivo</translation>
-    </message>
-    <message>
-        <source>by hand</source>
-        <translation>a mano</translation>
-    </message>
-    <message>
-        <source>by hand, passive</source>
-        <translation>a mano, passivo</translation>
-    </message>
-    <message>
-        <source>Carpus, mean</source>
-        <translation>Carpus, media</translation>
     </message>
     <message>
         <source>old result</source>
@@ -7222,6 +7194,38 @@
     <message>
         <source>{name} over the days</source>
         <translation>{name} nei giorni</translation>
+    </message>
+    <message>
+        <source>Nothing measured by hand yet.</source>
+        <translation>Ancora nulla misurato a mano.</translation>
+    </message>
+    <message>
+        <source>by hand, active</source>
+        <translation>a mano, attivo</translation>
+    </message>
+    <message>
+        <source>by hand</source>
+        <translation>a mano</translation>
+    </message>
+    <message>
+        <source>by hand, passive</source>
+        <translation>a mano, passivo</translation>
+    </message>
+    <message>
+        <source>Carpus, mean</source>
+        <translation>Carpus, media</translation>
+    </message>
+    <message>
+        <source>passive {value}</source>
+        <translation>passivo {value}</translation>
+    </message>
+    <message>
+        <source>Carpus {value}</source>
+        <translation>Carpus {value}</translation>
+    </message>
+    <message>
+        <source>active {value}</source>
+        <translation>attivo {value}</translation>
     </message>
 </context>
 <context>

@@ -112,16 +112,16 @@ class ByHandChart(Chart):
         when = [one for one, _ in ours]
         times = [day_s(one.day, when) for one in values] + [one.timestamp() for one in when]
         if not times:
-            words = self.text(tr("Nothing measured by hand yet."), look.end_label, "text2")
+            words = self.text(self.tr("Nothing measured by hand yet."), look.end_label, "text2")
             words.setPos(box.left(), box.top() + 1.4 * title)
             return
-        key = [("s", tr("by hand, active") if len(measure.ways) > 1 else tr("by hand"), "text")]
-        key += [("d", tr("by hand, passive"), "text")] if passive else []
-        key += [("O", tr("Carpus, mean"), "curve_a")] if ours else []
+        key = [("s", self.tr("by hand, active") if len(measure.ways) > 1 else self.tr("by hand"), "text")]
+        key += [("d", self.tr("by hand, passive"), "text")] if passive else []
+        key += [("O", self.tr("Carpus, mean"), "curve_a")] if ours else []
         pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
         scale = scale_of(measure, [one.value for one in values] + [value for _, value in ours])
         left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 14 * unit
-        right = metrics.horizontalAdvance(tr("passive {value}").format(value="100°")) + 20 * unit
+        right = metrics.horizontalAdvance(self.tr("passive {value}").format(value="100°")) + 20 * unit
         area = QRectF(
             box.left() + left, box.top() + title + 12 * unit, box.width() - left - right,
             box.height() - title - (1 + len(self.key_lines(key, box.width()))) * metrics.height() - 34 * unit,
@@ -134,12 +134,12 @@ class ByHandChart(Chart):
             plot.add_line([one.timestamp() for one in when], [value for _, value in ours], "curve_a")
             at = [plot.panel.at(one.timestamp(), value) for one, value in ours]
             self.add_symbols("o", 8.0, pg.mkPen(look.color("curve_a"), width=look.line_width), "curve_a", at)
-            said = tr("Carpus {value}").format(value=value_words(measure, ours[-1][1]))
+            said = self.tr("Carpus {value}").format(value=value_words(measure, ours[-1][1]))
             beside.append((ours[-1][1], said, "curve_a"))
         for some in (passive, active):
             add_by_hand(plot, some, sessions=when, joined=not ours)
             if some:
-                pattern = {"passive": tr("passive {value}"), "active": tr("active {value}")}.get(
+                pattern = {"passive": self.tr("passive {value}"), "active": self.tr("active {value}")}.get(
                     some[-1].way, "{value}"
                 )
                 said = pattern.format(value=value_words(measure, some[-1].value))
