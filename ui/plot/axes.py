@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QPainter, QPen
+from PySide6.QtCore import QLineF, QPointF, QRectF
+from PySide6.QtGui import QPainter, QPen
 
 from carpus.core.rounding import written
 from carpus.core.types import FloatArray
@@ -105,16 +105,12 @@ def hatch(
 ) -> None:
     """Diagonal lines over a stretch that is not known; drawn as lines so that paper gets vectors too. What is over
     another one is seen by a ``shift``, as a share of their distance."""
-    painter.save()
-    painter.setClipRect(box, Qt.ClipOperation.IntersectClip)
     painter.setPen(QPen(style.color(token, alpha), style.grid_width))
-    painter.setBrush(QBrush(Qt.BrushStyle.NoBrush))
-    step = 5.0 * style.unit
-    offset = box.height()
-    start = (np.floor((box.left() - offset) / step) + shift) * step
-    lines = [
-        QLineF(left, box.bottom(), left + offset, box.top())
-        for left in np.arange(start, box.right() + step, step).tolist()
-    ]
+    step, high = 5.0 * style.unit, box.height()
+    first = (math.floor((box.left() - high) / step) + shift) * step
+    lines = []
+    for left in np.arange(first, box.right(), step).tolist():  # cut here: a drawing of lines forgets what is cut
+        start, end = max(left, box.left()), min(left + high, box.right())
+        if end > start:
+            lines.append(QLineF(start, box.bottom() - (start - left), end, box.bottom() - (end - left)))
     painter.drawLines(lines)
-    painter.restore()

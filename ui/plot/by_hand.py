@@ -19,7 +19,6 @@ from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.chart import Chart, Plot, date_labels, scale_labels
 from carpus.ui.theme import Theme
-from carpus.ui.translate import tr
 from carpus.ui.words.by_hand import measure_name, value_words
 
 DAY_S = 86_400.0

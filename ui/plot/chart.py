@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pyqtgraph as pg
+from numpy.typing import ArrayLike
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QFont,
@@ -23,11 +24,12 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QSizePolicy, QWidget
 
+from carpus.core.types import FloatArray
 from carpus.ui.controls.card import paint_card
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.series import Curve, Drawing
-from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, dashed, paper_style, screen_style, write
+from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, dashed, screen_style, write
 from carpus.ui.theme import Theme
 
 pg.setConfigOptions(antialias=True, mouseRateLimit=-1)  # Qt joins movements itself; the last of a drag must not be lost
@@ -36,6 +38,7 @@ WHEEL_FACTOR = -math.log(1.25) / math.log(1.02) / 120.0
 """In the terms of pyqtgraph: a notch shows a quarter more or less."""
 ALONG_SHARE = 0.1
 """A notch sideways goes on by this part of what is shown."""
+SYMBOLS = pg.graphicsItems.ScatterPlotItem.Symbols
 GROUND, BAND, GRID, LINES, CURVES, FRONT = -30, -20, -10, -5, 0, 10
 """What lies over what within a panel."""
 
@@ -62,23 +65,35 @@ class Plot(pg.ViewBox):
         self.chart, self.panel, self.look = chart, panel, chart.look
         chart.add(self)
         self.setGeometry(panel.box)
-        self.setRange(
-            xRange=(panel.start_s, panel.end_s), yRange=(panel.scale.low, panel.scale.high), padding=0.0, update=True
-        )
+        x, y = (panel.start_s, panel.end_s), (panel.scale.low, panel.scale.high)
+        if chart.on_paper:
+            self.invertY()
+            x, y = (0.0, panel.box.width()), (0.0, panel.box.height())
+        self.setRange(xRange=x, yRange=y, padding=0.0)
 
     @property
     def own(self) -> Panel:
         """The panel in its own pixels, as it is ranged now."""
-        (start, end), _ = self.viewRange()
-        return Panel(QRectF(self.rect()), self.panel.scale, start, end)
+        panel = self.panel
+        start, end = (panel.start_s, panel.end_s) if self.chart.on_paper else self.viewRange()[0]
+        return Panel(QRectF(0.0, 0.0, panel.box.width(), panel.box.height()), panel.scale, start, end)
+
+    def across(self, at: ArrayLike) -> FloatArray:
+        """Where times are for an item in the panel. On paper that is in its unit, cut at the panel's ends: a line of
+        pyqtgraph that is stretched with a scale has no width there, and a drawing forgets what is cut."""
+        at = np.asarray(at, dtype=np.float64)
+        return np.clip(self.own.x(at), 0.0, self.panel.box.width()) if self.chart.on_paper else at
+
+    def up(self, value: ArrayLike) -> FloatArray:
+        """The same of values."""
+        value = np.asarray(value, dtype=np.float64)
+        return self.own.y(value) if self.chart.on_paper else value
 
     def put(self, item: Any, layer: int) -> Any:
         """Add an item of pyqtgraph."""
         item.setZValue(layer)
         item.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
-        if self.chart.on_paper:
-            item.setExportMode(True, {"antialias": True, "resolutionScale": self.chart.symbol_scale})
-        elif GROUND < layer < CURVES:  # what stays, and is no larger than the panel, is kept as a picture
+        if not self.chart.on_paper and GROUND < layer < CURVES:  # what stays, and is no larger than the panel
             item.setCacheMode(item.CacheMode.DeviceCoordinateCache)
         self.addItem(item, ignoreBounds=True)
         return item
@@ -87,7 +102,7 @@ class Plot(pg.ViewBox):
     def pen(self, token: str, width: float = 1.0, dash: Sequence[float] = (), alpha: int = 255) -> QPen:
         """A pen ``width`` design pixels wide whatever the scale."""
         pen = dashed(self.look.color(token, alpha), width * self.look.unit, dash)
-        pen.setCosmetic(True)
+        pen.setCosmetic(not self.chart.on_paper)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         return pen
 
@@ -99,14 +114,16 @@ class Plot(pg.ViewBox):
         shows in another size."""
         if stretches:
             start, end = np.array(stretches).T
-            low, high = self.panel.scale.low, self.panel.scale.high
+            low, high = self.up((self.panel.scale.low, self.panel.scale.high)).tolist()
             brush, pen = pg.mkBrush(self.look.color(token)), self.pen("surface", 2.0)
-            self.put(pg.BarGraphItem(x0=start, x1=end, y0=low, y1=high, brush=brush, pen=pen), GROUND)
+            x0, x1 = self.across(start), self.across(end)
+            self.put(pg.BarGraphItem(x0=x0, x1=x1, y0=low, y1=high, brush=brush, pen=pen), GROUND)
 
     def add_band(self, low: float, high: float, token: str, hatched: str = "") -> None:
         """Values from ``low`` to ``high`` filled, and hatched in a second token where there is one."""
         brush = pg.mkBrush(self.look.color(token))
-        self.put(pg.LinearRegionItem((low, high), "horizontal", brush, pg.mkPen(None), movable=False), BAND)
+        ends = self.up((low, high)).tolist()
+        self.put(pg.LinearRegionItem(ends, "horizontal", brush, pg.mkPen(None), movable=False), BAND)
         if hatched:
             self.put(Hatching(self, [(-math.inf, math.inf, low, high)], hatched, 90), BAND)
 
@@ -116,7 +133,7 @@ class Plot(pg.ViewBox):
         """A line at a value, with words at its left end; none where it is unknown."""
         if not math.isfinite(value):
             return None
-        line = self.put(pg.InfiniteLine(value, angle=0, pen=self.pen(token, 1.5, dash)), LINES)
+        line = self.put(pg.InfiniteLine(float(self.up(value)), angle=0, pen=self.pen(token, 1.5, dash)), LINES)
         if words:
             self.add_words(value, words, token, below=below)
         return line
@@ -134,8 +151,7 @@ class Plot(pg.ViewBox):
 
     def scene_x(self, at: float) -> float:
         """Where a time is in the chart, as the panel is ranged now."""
-        (start, end), _ = self.viewRange()
-        return float(self.panel.box.left() + (at - start) / (end - start) * self.panel.box.width())
+        return float(self.panel.box.left() + self.own.x(at))
 
     def add_line(
         self, x: Sequence[float], y: Sequence[float], token: str, width: float = 0.0, dash: Sequence[float] = (),
@@ -143,7 +159,7 @@ class Plot(pg.ViewBox):
     ) -> None:  # fmt: skip
         """A line through points, as wide as curves are unless told."""
         pen = self.pen(token, width or self.look.line_width / self.look.unit, dash)
-        self.put(pg.PlotCurveItem(np.asarray(x), np.asarray(y), pen=pen, connect=connect), layer)
+        self.put(pg.PlotCurveItem(self.across(x), self.up(y), pen=pen, connect=connect), layer)
 
     def add_curves(self, *, kept: bool = True) -> Curves:
         """Still without any; ``kept`` as a picture where a cursor goes over them more often than they change."""
@@ -295,12 +311,26 @@ class Layer(pg.GraphicsObject):
 
 
 class Symbols(pg.ScatterPlotItem):
-    """Symbols over the panels of a chart; pyqtgraph leaves out what is beyond the widget, which paper is not."""
+    """Symbols over the panels of a chart. On paper they are drawn here: pyqtgraph leaves out what is beyond the widget,
+    and draws them in the device's unit."""
 
     chart: Chart
 
     def viewRect(self) -> QRectF:
         return self.chart.area
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        if not self.chart.on_paper:
+            super().paint(painter, option, widget)
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for spot in self.points():
+            pen = QPen(spot.pen())
+            pen.setCosmetic(False)
+            painter.setPen(pen)
+            painter.setBrush(spot.brush())
+            x, y, size = spot.pos().x(), spot.pos().y(), spot.size()
+            painter.drawPath(QTransform(size, 0.0, 0.0, size, x, y).map(SYMBOLS[spot.symbol()]))
 
     def mouseClickEvent(self, event: Any) -> None:
         event.ignore()  # it is the panel's
@@ -366,8 +396,9 @@ class Axis(pg.AxisItem):
         return QPainterPath()
 
     def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
-        style, (start, end), scene = self.plot.look, self.range, self.plot.panel
-        panel = Panel(scene.box, scene.scale, start, end) if self.orientation != "left" else scene
+        style, own = self.plot.look, self.plot.own
+        start, end = own.start_s, own.end_s
+        panel = Panel(self.plot.panel.box, own.scale, start, end)
         unit = style.unit
         taken: list[tuple[float, float]] = []
         for label in self._labels(start, end):
@@ -441,7 +472,7 @@ class Chart(pg.GraphicsView):
         self._theme = theme
         self.look = screen_style(theme)
         self.area = QRectF()
-        self.on_paper, self.symbol_scale = False, 1.0
+        self.on_paper = False
         self.plots: list[Plot] = []
         self._items: list[Any] = []
         """The scene does not keep them alive."""
@@ -510,8 +541,6 @@ class Chart(pg.GraphicsView):
         )  # fmt: skip
         symbols.chart = self
         symbols.setZValue(FRONT)
-        if self.on_paper:
-            symbols.setExportMode(True, {"antialias": True, "resolutionScale": self.symbol_scale})
         return self.add(symbols)
 
     def add_beside(self, plot: Plot, labels: Sequence[tuple[float, str, str]]) -> None:
@@ -600,30 +629,17 @@ class Chart(pg.GraphicsView):
 
     # --- on paper -----------------------------------------------------------------------------------------
     def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        """The same as lines and letters, in any unit: it is built for that, and then again for the screen.
-
-        Lines of pyqtgraph are as wide as they are on the device, so what is built has the device's units.
-        """
-        dots = max(painter.deviceTransform().m11(), 1e-9)
-        self.symbol_scale = painter.transform().m11() / dots
-        self.look = paper_style(style.unit / 0.75 * dots)
-        self.area, self.on_paper = QRectF(0.0, 0.0, box.width() * dots, box.height() * dots), True
+        """The same as lines and letters, in any unit: it is built for that, and then again for the screen."""
+        self.look, self.area, self.on_paper = style, QRectF(0.0, 0.0, box.width(), box.height()), True
         self.setSceneRect(self.area)
         try:
             self._rebuild()
-            painter.save()
-            painter.translate(box.topLeft())
-            painter.scale(1.0 / dots, 1.0 / dots)
-            self.scene().render(painter, self.area, self.area)
-            painter.restore()
+            self.scene().render(painter, box, self.area)
         finally:
             self.on_paper = False
-            self._rebuild_for_screen()
-
-    def _rebuild_for_screen(self) -> None:
-        self.look = screen_style(self._theme)
-        self.resizeEvent(None)
-        self.forget()
+            self.look = screen_style(self._theme)
+            self.resizeEvent(None)
+            self.forget()
 
 
 def span(words: str, look: PlotStyle, token: str, size_px: float, weight: int) -> str:

@@ -378,7 +378,7 @@ class ProgressChart(ZoomChart):
         found = self.places(plot, key)
         for is_fair, token in ((True, token_of(key)), (False, "text2")):
             some = [one for one in found if progress.points[one[0]].fair == is_fair]
-            pen = pg.mkPen(look.color(token), width=(1.4 if is_fair else 2.0) * unit)
+            pen = plot.pen(token, 1.4 if is_fair else 2.0)
             bars = [(at, sd) for _, at, row in some if math.isfinite(sd := spread_of(row))]
             if bars:
                 y = np.array([at.y() for at, _ in bars])
@@ -387,7 +387,8 @@ class ProgressChart(ZoomChart):
                 along = np.array([at.x() for at, _ in bars])
                 self.add(pg.ErrorBarItem(x=along, y=y, height=high, beam=beam, pen=pen))
             places = [at for _, at, _ in some]
-            self.add_symbols("o", 2 * DOT_RADIUS, pen, token if is_fair else "surface", places)
+            ring = pg.mkPen(None) if is_fair else pen
+            self.add_symbols("o", 2 * DOT_RADIUS, ring, token if is_fair else "surface", places)
             least = [at for _, at, row in some if row.angle < 0 and row.at_least]
             tops = [QPointF(at.x(), float(panel.y(top_of(row))) - 8 * unit) for _, at, row in some if at in least]
             self.add_symbols("t1", 8.0, pen, token if is_fair else "surface", tops)
