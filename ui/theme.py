@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QFont
+
+from carpus.ui.fonts import font
 
 ThemeName = Literal["light", "dark"]
 TEXT_SCALES = (1.0, 1.25, 1.5)
@@ -89,6 +91,8 @@ class Theme(QObject):
     widget sets for itself; ``changed`` then tells every widget to take its colours and sizes again.
     """
 
+    line_px = 1
+    """How wide a separator is."""
     ground_changed = Signal()
     changed = Signal()
 
@@ -124,6 +128,10 @@ class Theme(QObject):
         value = QColor(getattr(self.tokens, token))
         value.setAlpha(alpha)
         return value
+
+    def font(self, size_px: float, weight: int) -> QFont:
+        """The face of a design size, as large as the text scale has it."""
+        return font(size_px * self.text_scale, weight)
 
     def px(self, size: float) -> int:
         """A length that must grow with the text, in whole pixels."""

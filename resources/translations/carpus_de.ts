@@ -2404,10 +2404,6 @@
         <translation>Abheben und Spreizung des Daumens</translation>
     </message>
     <message>
-        <source>Session report, page 2</source>
-        <translation>Sitzungsbericht, Seite 2</translation>
-    </message>
-    <message>
         <source>Path of the wrist</source>
         <translation>Weg des Handgelenks</translation>
     </message>

@@ -2404,10 +2404,6 @@
         <translation>Sollevamento e divaricazione del pollice</translation>
     </message>
     <message>
-        <source>Session report, page 2</source>
-        <translation>Relazione della seduta, pagina 2</translation>
-    </message>
-    <message>
         <source>Path of the wrist</source>
         <translation>Percorso del polso</translation>
     </message>

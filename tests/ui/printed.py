@@ -31,3 +31,19 @@ def reach_of(path: Path) -> tuple[float, float, float, float]:
         [float(one) for one in re.findall(rf' {name}="([-\d.]+)"', boxes)] for name in ("xMin", "yMin", "xMax", "yMax")
     )
     return min(left), min(top), max(right), max(foot)
+
+
+def overlapping_words(path: Path) -> list[tuple[str, str]]:
+    """Words of a page that are printed over one another; those of the watermark, which lies behind, are not among
+    them."""
+    found: list[tuple[str, str]] = []
+    for page in tool("pdftotext", "-bbox", str(path), "-").split("<page ")[1:]:
+        words = re.findall(r'xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)" yMax="([-\d.]+)">(.*?)</word>', page)
+        boxes = [(*map(float, one[:4]), one[4]) for one in words if float(one[3]) - float(one[1]) < 30.0]
+        for at, (left, top, right, foot, word) in enumerate(boxes):
+            for other_left, other_top, other_right, other_foot, other in boxes[at + 1 :]:
+                across = min(right, other_right) - max(left, other_left)
+                down = min(foot, other_foot) - max(top, other_top)
+                if across > 0.5 and down > 0.4 * min(foot - top, other_foot - other_top):
+                    found.append((word, other))
+    return found

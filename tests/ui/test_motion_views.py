@@ -147,7 +147,7 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(review: Re
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
     screen = review(store, "hand-7")
-    names = {row.name for row in screen.card.tables.further.rows}
+    names = {cell.text for row in screen.card.tables.further.rows for cell in row}
     for name in ("Movement time, out", "Peak speed, back", "Way / straight line, out", "Widest opening, thumb–index"):
         assert name in names
     assert screen.card.tables.further.isVisibleTo(screen)

@@ -25,6 +25,7 @@ from carpus.ui.patient.words import task_words
 from carpus.ui.report.gather import session_report, write_session_report
 from carpus.ui.report.home_page import own_way
 from carpus.ui.report.letter_page import LetterReport
+from carpus.ui.report.pages import pages_of as pages_of_report
 from carpus.ui.report.panel import filled
 from carpus.ui.report.pdf import write_report
 from carpus.ui.report.screen import SIZES, ReportScreen, print_on, printer_for, suggested_name
@@ -77,11 +78,12 @@ def test_nothing_is_cut_on_either_paper_whatever_stands_on_it(paper: Paper, tmp_
 @pytest.mark.parametrize("printed", PAPERS)
 def test_a_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
     made = report(form=ReportForm(paper="a4"), comment="Splint.")
-    printer = printer_for(made)
+    pages = pages_of_report(made)
+    printer = printer_for(made, len(pages))
     printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
     printer.setOutputFileName(str(tmp_path / "p.pdf"))
     printer.setPageSize(QPageSize(SIZES[printed]))
-    print_on(printer, made)
+    print_on(printer, pages)
     assert pages_of(tmp_path / "p.pdf") == 2
     assert reach_of(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
     assert "as measured live" in words_of(tmp_path / "p.pdf")

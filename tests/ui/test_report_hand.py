@@ -9,8 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtGui import QPainter, QPicture
-from PySide6.QtWidgets import QApplication
 
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import wrist_column
@@ -18,16 +16,12 @@ from carpus.core.results.progress import compare, progress
 from carpus.core.results.ranges import finger_keys
 from carpus.ui import numbers
 from carpus.ui.figures import Figure, with_side
-from carpus.ui.language import speaking
 from carpus.ui.plot.course import axis_top_deg, panels_of
 from carpus.ui.progress.flow import write_table
-from carpus.ui.report.gather import progress_report, write_progress_report, write_session_report
-from carpus.ui.report.hand_part import CHANGE_COLUMN, GAP_PT, LEAST_SIZE_PT, column_edges, lines_of
-from carpus.ui.report.page import Page, painted_on_nothing
+from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.words.fingers import (
     cell_of,
-    column_heads,
     finger_rows,
     followed_keys,
     followed_kinds,
@@ -39,7 +33,7 @@ from carpus.ui.words.session import quality_lines
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
-from tests.ui.printed import pages_of, words_of
+from tests.ui.printed import overlapping_words, pages_of, words_of
 
 
 @pytest.fixture(scope="module")
@@ -69,27 +63,12 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
 
 
 @pytest.mark.parametrize("code", ["en", "de", "it"])
-def test_no_cell_of_a_finger_runs_into_the_one_beside_it(
-    qapp: QApplication, store: FakeHandSessions, code: str
-) -> None:
-    first, last = (figures_once(store.session(key)) for key in ("hand-3", "hand-7"))
-    too_wide: list[str] = []
-
-    def look(page: Page) -> float:
-        for previous in (None, first):
-            heads, rows = column_heads(last, previous, first), finger_rows(last, previous, first)
-            edges = column_edges(page, heads, rows)
-            assert edges[-1] == pytest.approx(page.right - page.left)
-            for column, line in ((at, one) for row in rows for at, lines in enumerate(lines_of(row)) for one in lines):
-                room = edges[column + 1] - edges[column] - GAP_PT / 2
-                if line.text and column < CHANGE_COLUMN and page.width_of(line.text, LEAST_SIZE_PT, line.weight) > room:
-                    too_wide.append(line.text)
-        return 0.0
-
-    nowhere = QPicture()
-    with QPainter(nowhere) as painter, speaking(code):
-        painted_on_nothing(Page(painter, 1.0), look)
-    assert not too_wide
+def test_no_cell_of_a_finger_runs_into_the_one_beside_it(store: FakeHandSessions, tmp_path: Path, code: str) -> None:
+    first = figures_once(store.session("hand-3"))
+    made = session_report(store.session("hand-7"), history=store.history("x"), language=code)
+    for number, previous in enumerate((None, first)):
+        report = replace(made, previous=previous, other_hand=first)
+        assert overlapping_words(write_session_report(report, tmp_path / f"{number}.pdf")) == []
 
 
 @pytest.mark.parametrize(("exercise", "motion"), [("FIST_HOOK", "hook"), ("", "fist")])

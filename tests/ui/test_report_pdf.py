@@ -8,14 +8,12 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import cv2
 import numpy as np
 import pytest
-from PySide6.QtGui import QPainter, QPicture
+from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QApplication
 
 import carpus
@@ -23,15 +21,14 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.provenance import revision
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.language import speaking
+from carpus.core.results.report_form import PAPERS, Paper, ReportForm
 from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
-from carpus.ui.report.page import Page
+from carpus.ui.report.pages import pages_of as pages_of_report
 from carpus.ui.report.progress_page import made_of
-from carpus.ui.report.session_page import paint_boxes
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.words.session import other_lines
 from tests.ui.fakes import FakeSessions, figures_once, session
-from tests.ui.printed import pages_of, reach_of, tool, words_of
+from tests.ui.printed import overlapping_words, pages_of, reach_of, tool, words_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -196,7 +193,7 @@ def test_what_cannot_be_written_or_painted_leaves_things_as_they_were(
     def refuse(*_: object) -> None:
         raise RuntimeError("no page")
 
-    monkeypatch.setattr("carpus.ui.report.pages.paint_session_page", refuse)
+    monkeypatch.setattr("carpus.ui.report.page.Page.paint", refuse)
     with pytest.raises(RuntimeError, match="no page"):
         write_session_report(short, tmp_path / "x.pdf")
     assert [path.name for path in tmp_path.iterdir()] == ["there.pdf"]
@@ -225,7 +222,7 @@ def test_a_kill_leaves_no_half_report_and_the_next_one_is_whole(
     assert [path.name for path in tmp_path.iterdir()] == ["out.pdf"]
 
 
-def test_a_report_is_written_without_any_window_or_display(tmp_path: Path) -> None:
+def test_a_report_is_written_without_any_display(tmp_path: Path) -> None:
     program = (
         "import pickle, sys; from pathlib import Path\n"
         "from carpus.ui.report.gather import write_session_report\n"
@@ -268,24 +265,34 @@ def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
 
 
 @pytest.mark.parametrize("code", ["en", "de", "it"])
-def test_a_long_value_is_never_printed_over_its_name(qapp: QApplication, code: str) -> None:
-    said = session_report(session())
+def test_no_word_is_printed_over_another_whatever_the_language(tmp_path: Path, code: str) -> None:
+    said = session_report(session(), language=code)
     pauses = {"pauses": 1.2, "pause time": 10.2}
     rows = [replace(row, mean=pauses.get(row.what, row.mean)) for row in said.figures.measures]
     said = replace(said, figures=replace(said.figures, measures=tuple(rows)))
-    printed: list[tuple[float, float, float, str]] = []
+    assert overlapping_words(write_session_report(said, tmp_path / "x.pdf")) == []
 
-    class Watched(Page):
-        def text(self, text: str, left: float, baseline: float, *look: Any) -> float:
-            right = Page.text(self, text, left, baseline, *look)
-            printed.append((baseline, left, right, text))
-            return right
 
-    nowhere = QPicture()
-    with QPainter(nowhere) as painter, speaking(code):
-        paint_boxes(Watched(painter, 10.0), said, 400.0)
-        names = {name for name, _ in other_lines(said.figures)}
-    assert len(names) == 4
-    assert names <= {text for *_, text in printed}
-    beside = [(one, other) for one, other in pairwise(sorted(printed)) if one[0] == other[0]]
-    assert not [(one[3], other[3]) for one, other in beside if one[2] > other[1]]
+@pytest.mark.parametrize("paper", PAPERS)
+def test_the_preview_shows_the_lines_and_places_of_the_pdf(qapp: QApplication, tmp_path: Path, paper: Paper) -> None:
+    """Of the hardest page: many warnings, in German."""
+    made = session_report(session(), language="de", form=ReportForm(paper=paper), comment="Schiene nachts.")
+    names = session().header.protocol.markers
+    findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in names)
+    made = replace(made, figures=replace(made.figures, findings=findings, simulated=True))
+    page = pages_of_report(made)[0]
+    width = 1200
+    preview = QImage(width, round(width * page.size_pt[1] / page.size_pt[0]), QImage.Format.Format_Grayscale8)
+    preview.fill(QColor("white"))
+    with QPainter(preview) as painter:
+        page.paint(painter, width / page.size_pt[0])
+    path = write_session_report(made, tmp_path / "x.pdf")
+    tool("pdftoppm", "-gray", "-l", "1", "-scale-to-x", str(width), "-scale-to-y", "-1", "-singlefile", str(path),
+         str(tmp_path / "page"))  # fmt: skip
+    printed = cv2.imread(str(tmp_path / "page.pgm"), cv2.IMREAD_GRAYSCALE)
+    assert preview.save(str(tmp_path / "preview.png"))
+    shown = cv2.imread(str(tmp_path / "preview.png"), cv2.IMREAD_GRAYSCALE)
+    high = min(len(printed), len(shown))
+    rough = [cv2.blur(picture[:high], (9, 9)).astype(float) for picture in (printed, shown)]
+    assert np.abs(rough[0] - rough[1]).max() < 90.0, "a line that was broken elsewhere would be black beside white"
+    assert np.corrcoef(rough[0].ravel(), rough[1].ravel())[0, 1] > 0.98

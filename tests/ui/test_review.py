@@ -79,11 +79,11 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
 
 
 def test_the_card_has_figures_beside_others_notes_pain_and_when_it_was_stored(screen: ReviewScreen) -> None:
-    first = screen.card.tables.range.rows[0]
-    assert first.movement == "Whole arc"
-    assert first.last.endswith("°")
-    assert first.other_hand.endswith("°")
-    assert "within measurement error (14°)" in first.change
+    movement, *_, other_hand, _, last, change = (cell.text for cell in screen.card.tables.range.rows[0])
+    assert movement == "Whole arc"
+    assert last.endswith("°")
+    assert other_hand.endswith("°")
+    assert "within measurement error (14°)" in change
     figures, notes = screen.figures, screen.card.tables.notes
     assert figures.notes
     assert figures.pain
@@ -130,7 +130,7 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     assert set(store.kept["session-7"].left_out.items()) >= {(7, "passive"), (8, "passive")}
     assert screen.card.count.text().startswith("mean of 7 repetitions; 2 passive beside it")
     assert screen.card.tables.ways.isVisible()
-    assert [row[0] for row in screen.card.tables.ways.rows] == ["Whole arc", "Flexion", "Extension"]
+    assert [row[0].text for row in screen.card.tables.ways.rows] == ["Whole arc", "Flexion", "Extension"]
     screen.go_to_repetition(7)
     qtbot.keyClick(screen, Qt.Key.Key_X)
     qtbot.waitUntil(lambda: store.kept["session-7"].left_out[7] == "")

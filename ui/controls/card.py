@@ -1,14 +1,14 @@
-"""Surfaces: the white card, the separator line; the row of key caps, a name in the colour of its curve."""
+"""Surfaces: the white card, the separator line; the row of key caps."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QPainter, QPen
+from PySide6.QtGui import QPainter, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.ui.controls.layouts import Fitted, in_column, in_line
+from carpus.ui.controls.layouts import Fitted, in_column
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.keys import key_name
 from carpus.ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
@@ -56,15 +56,30 @@ class Card(Surface):
         self.body = in_column(gap=8, margins=(padding_px, padding_px, padding_px, padding_px), within=self)
 
 
-class Line(Surface):
-    """A 1 px separator."""
+class Fill(QWidget):
+    """A plain rectangle of one token, on paper too, where no style sheet is."""
+
+    def __init__(self, theme: Theme, token: str) -> None:
+        super().__init__()
+        self.setAutoFillBackground(True)
+
+        def apply_theme() -> None:
+            palette = self.palette()
+            palette.setColor(QPalette.ColorRole.Window, theme.color(token))
+            self.setPalette(palette)
+
+        theme.follow(self, apply_theme)
+
+
+class Line(Fill):
+    """A separator, a pixel wide on the screen."""
 
     def __init__(self, theme: Theme, *, vertical: bool = False) -> None:
         super().__init__(theme, "line")
         if vertical:
-            self.setFixedWidth(1)
+            self.setFixedWidth(theme.line_px)
         else:
-            self.setFixedHeight(1)
+            self.setFixedHeight(theme.line_px)
 
 
 SPACE_PX, BETWEEN_PX = 7, 16
@@ -122,12 +137,3 @@ class KeyCaps(Fitted):
         places = self._places()
         high = max((said.sizeHint().height() for _, said in self._pairs), default=0)
         return QSize(places[-1][2] if places else 0, high + 8)
-
-
-def named_by_color(theme: Theme, name: str, token: str) -> QWidget:
-    """A name after a bar in the colour of its curve; without a token room for one."""
-    named, bar = QWidget(), Surface(theme, token)
-    bar.setObjectName("bar")
-    bar.setFixedSize(5, 14)
-    in_line(bar, (Text(theme, name, 14, MEDIUM, wrap=True), 1), gap=11, margins=(0, 0, 0, 0), within=named)
-    return named

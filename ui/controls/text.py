@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QShowEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QToolTip, QWidget
 
-from carpus.ui.fonts import DISPLAY_FROM_PX, MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.fonts import DISPLAY_FAMILY, MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import State, paint_icon, paint_mark, paint_state
 from carpus.ui.theme import Theme
 
@@ -33,7 +33,7 @@ class Text(QLabel):
         self,
         theme: Theme,
         text: str = "",
-        size_px: int = 14,
+        size_px: float = 14,
         weight: int = REGULAR,
         token: str = "text",
         *,
@@ -106,7 +106,7 @@ class Text(QLabel):
         return self.fontMetrics().boundingRect(QRect(0, 0, 1000, 1000), 0, "x").height()
 
     def _take_theme(self) -> None:
-        self.setFont(font(self._size_px * self._theme.text_scale, self._weight))
+        self.setFont(self._theme.font(self._size_px, self._weight))
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.WindowText, self._theme.color(self._token))
         self.setPalette(palette)
@@ -116,7 +116,7 @@ class Text(QLabel):
         """The display cut's Ä, Ö, Ü and È rise above the line that the font asks for, and would be cut at the label's
         edge."""
         top_px = 0
-        if self.font().pixelSize() >= DISPLAY_FROM_PX and not self.text().isascii():
+        if self.font().family() == DISPLAY_FAMILY and not self.text().isascii():
             metrics = QFontMetricsF(self.font())
             top_px = max(0, math.ceil(-metrics.tightBoundingRect(self.text()).top() - metrics.ascent()))
         if top_px != self.contentsMargins().top():

@@ -3,30 +3,34 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QImage, QPageLayout, QPageSize, QPainter, QPdfWriter
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSizeF
+from PySide6.QtGui import QColor, QImage, QPainter
 
 from carpus.core.formats.new_output import new_bytes
-from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.controls.text import SEMIBOLD
 from carpus.ui.plot.agreement import AgreementChart, AgreementPlot
 from carpus.ui.plot.style import paper_style
-from carpus.ui.report.pdf import ensure_application
-from carpus.ui.theme import LIGHT, Theme
+from carpus.ui.report.page import UNIT, PaintedPart, column, fit_parts, line, paragraph, render_parts
+from carpus.ui.report.pdf import POINTS_PER_MM, ensure_application, pdf_bytes
+from carpus.ui.theme import Theme
 from carpus.ui.translate import say, tr
 from carpus.ui.words.agreement import angle_name, remark_words, share, tenths
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.agreement.compare import Compared, Pairs
 
-WIDTH, HEIGHT = 1120.0, 480.0
+WIDTH, HEIGHT, EDGE = 1120, 480, 24
 PICTURE_SCALE = 2
-REMARK = Qt.TextFlag.TextWordWrap | Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
-POINT_PX = 4.0 / 3.0
-"""Painter units a point: the page is drawn in design pixels."""
+PAPER_MM, MARGIN_MM = (297.0, 210.0), 10.0
+STYLE = paper_style(4.0 / 3.0 * UNIT)
+"""The page is laid out in design pixels, not in points."""
+PaintPlots = Callable[[QPainter, float], None]
 
 
 def write_plots(compared: Compared, folder: Path, stem: str, limit_deg: float = 0.0) -> list[Path]:
@@ -36,22 +40,10 @@ def write_plots(compared: Compared, folder: Path, stem: str, limit_deg: float = 
     Raises :class:`OutputExists` or :class:`OutputNotWritable`.
     """
     application = ensure_application()
-    out = []
-    for pairs in compared.pairs:
-        picture = QImage(int(WIDTH) * PICTURE_SCALE, int(HEIGHT) * PICTURE_SCALE, QImage.Format.Format_RGB32)
-        picture.fill(QColor("white"))
-        painter = QPainter(picture)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.scale(PICTURE_SCALE, PICTURE_SCALE)
-        _paint(painter, pairs, compared, limit_deg)
-        painter.end()
-        store = QByteArray()
-        buffer = QBuffer(store)
-        buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-        picture.save(buffer, "PNG")  # type: ignore[call-overload]
-        buffer.close()
-        out.append(_stored(folder / f"{stem}.{pairs.name}.png", bytes(store.data())))
-    out.append(_stored(folder / f"{stem}.pdf", _pdf(compared, limit_deg)))
+    pages = {pairs.name: _page(pairs, compared, limit_deg) for pairs in compared.pairs}
+    out = [_stored(folder / f"{stem}.{name}.png", _picture(paint)) for name, paint in pages.items()]
+    on_paper = [(QSizeF(*PAPER_MM), partial(_paint_on_paper, paint)) for paint in pages.values()]
+    out.append(_stored(folder / f"{stem}.pdf", pdf_bytes(on_paper, "Carpus agreement")))
     del application
     return out
 
@@ -62,59 +54,66 @@ def _stored(path: Path, content: bytes) -> Path:
     return path
 
 
-def _pdf(compared: Compared, limit_deg: float) -> bytes:
+def _picture(paint: PaintPlots) -> bytes:
+    picture = QImage(WIDTH * PICTURE_SCALE, HEIGHT * PICTURE_SCALE, QImage.Format.Format_RGB32)
+    picture.fill(QColor("white"))
+    with QPainter(picture) as painter:
+        paint(painter, PICTURE_SCALE)
     store = QByteArray()
     buffer = QBuffer(store)
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    writer = QPdfWriter(buffer)
-    writer.setResolution(1200)
-    page = QPageSize(QPageSize.PageSizeId.A4)
-    writer.setPageLayout(QPageLayout(page, QPageLayout.Orientation.Landscape, QMarginsF(10, 10, 10, 10)))
-    writer.setTitle("Carpus agreement")
-    painter = QPainter(writer)
-    scale = writer.width() / WIDTH
-    for k, pairs in enumerate(compared.pairs):
-        if k:
-            writer.newPage()
-        painter.save()
-        painter.scale(scale, scale)
-        _paint(painter, pairs, compared, limit_deg)
-        painter.restore()
-    painter.end()
-    buffer.close()
+    picture.save(buffer, "PNG")  # type: ignore[call-overload]
     return bytes(store.data())
 
 
-def _paint(painter: QPainter, pairs: Pairs, compared: Compared, limit_deg: float) -> None:
+def _paint_on_paper(paint: PaintPlots, painter: QPainter, point: float) -> None:
+    """As wide as the page."""
+    mm = POINTS_PER_MM * point
+    painter.save()
+    painter.translate(MARGIN_MM * mm, MARGIN_MM * mm)
+    paint(painter, (PAPER_MM[0] - 2 * MARGIN_MM) * mm / WIDTH)
+    painter.restore()
+
+
+def _page(pairs: Pairs, compared: Compared, limit_deg: float) -> PaintPlots:
+    """Paints an angle's figures and both plots, with so many painter units to a design pixel."""
     f = pairs.figures_deg
-    painter.setPen(QColor(LIGHT.text))
-    painter.setFont(font(20, SEMIBOLD))
-    painter.drawText(QPointF(24, 34), angle_name(pairs.name))
-    painter.setFont(font(13))
-    said = [
+    values = [
         f"RMSE {tenths(f.rmse)}",
         f"r {share(f.correlation)}",
         f"ICC(2,1) {share(f.icc)}",
         f"ICC(3,1) {share(f.icc_3_1)}",
     ]
     if math.isfinite(f.cmc):
-        said.append(f"CMC {share(f.cmc)}")
+        values.append(f"CMC {share(f.cmc)}")
     words = (
         tr("{count} pairs, {kind}") if compared.pictures == 0 else tr("{count} pairs of one session, against {kind}")
     )
-    said.append(words.format(count=f.count, kind=say(compared.kind)))
-    painter.drawText(QPointF(24, 58), "   ".join(said))
-    top = 84.0
-    for words in remark_words(compared, pairs.name):
-        painter.setPen(QColor(LIGHT.warn))
-        box = painter.boundingRect(QRectF(24, top - 16, WIDTH - 48, 200), REMARK, words)
-        painter.drawText(box, REMARK, words)
-        top = box.bottom() + 20.0
-    style, over_time = paper_style(POINT_PX), compared.shift is not None
-    plot = AgreementPlot(pairs, limit_deg, over_time, "curves")
-    height = HEIGHT - 24.0 - top
-    both = (plot, QRectF(24, top, 500, height)), (replace(plot, view="differences"), QRectF(548, top, 556, height))
-    for shown, box in both:
-        chart = AgreementChart(Theme("light"), shown)
-        chart.paint_on(painter, style, box)
-        chart.deleteLater()
+    values.append(words.format(count=f.count, kind=say(compared.kind)))
+    plot = AgreementPlot(pairs, limit_deg, compared.shift is not None, "curves")
+    plots = line((_plot_part(plot), 10), (_plot_part(replace(plot, view="differences")), 11), gap=24)
+    remarks = [paragraph(one, 13, token="warn") for one in remark_words(compared, pairs.name)]
+    body = column(
+        paragraph(angle_name(pairs.name), 20, SEMIBOLD), paragraph("   ".join(values), 13), *remarks, (plots, 1), gap=6
+    )
+    body.setContentsMargins(*[UNIT * EDGE] * 4)
+    host, _ = fit_parts(body, UNIT * WIDTH, UNIT * HEIGHT)
+    host.resize(UNIT * WIDTH, UNIT * HEIGHT)
+
+    def paint(painter: QPainter, pixel: float) -> None:
+        painter.save()
+        painter.scale(pixel / UNIT, pixel / UNIT)
+        render_parts(host, painter)
+        painter.restore()
+
+    return paint
+
+
+def _plot_part(plot: AgreementPlot) -> PaintedPart:
+    return PaintedPart(partial(_paint_plot, plot), 150, HEIGHT)
+
+
+def _paint_plot(plot: AgreementPlot, painter: QPainter, box: QRectF) -> None:
+    chart = AgreementChart(Theme("light"), plot)
+    chart.paint_on(painter, STYLE, box)
+    chart.deleteLater()

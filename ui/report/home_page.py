@@ -6,9 +6,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date, timedelta
+from functools import partial
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainterPath, QPen, QPolygonF, QTransform
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPen, QPolygonF, QTransform
+from PySide6.QtWidgets import QLayout
 
 from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
 from carpus.core.hand.forearm_rotation import stored_targets_deg
@@ -17,21 +19,35 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Goals, compare, progress, row_aimed_at
 from carpus.core.types import Side
 from carpus.ui import language, numbers, terms
-from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.controls.layouts import STRETCH, Part
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.words import task_words
-from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
-from carpus.ui.report.session_page import OfSession, paint_head
-from carpus.ui.theme import LIGHT
+from carpus.ui.plot.style import write
+from carpus.ui.report.page import (
+    CHART,
+    PAPER,
+    UNIT,
+    Body,
+    PaintedPart,
+    RoundedBox,
+    column,
+    label,
+    line,
+    page_head,
+    paragraph,
+    points,
+    rule,
+)
+from carpus.ui.report.session_page import OfSession
 from carpus.ui.translate import inside, say, tr
 
 MOST_TASKS, MOST_DAYS, USUAL_DAYS = 3, 7, 7
 DRAWN = tuple(exercise for exercise in EXERCISES if exercise.counts)
 """What can be drawn: exercises of one angle."""
 REST_DEG, SHOWN_DEG = 0.0, 45.0
-LEFT_PT, GAP_PT = 190.0, 14.0
-"""Width of a picture, and what lies between it and its words."""
-ROWS_PT, TALLEST_PT = 402.0, 180.0
+PICTURE_PT, TALLEST_PT = 190.0, 180.0
+"""Width of a picture, and its height where there is room."""
 MOST_NOTE = 160
 
 
@@ -55,6 +71,10 @@ class OwnWay:
     further: bool
 
 
+def _kind() -> str:
+    return tr("home")
+
+
 @dataclass(frozen=True, slots=True)
 class HomeReport(OfSession):
     """All that is on the page: never a diagnosis or the real name. ``again`` the next appointment, None for a line to
@@ -73,6 +93,13 @@ class HomeReport(OfSession):
         """What is to be done, as it is remembered with the patient."""
         names, first = tuple(task.exercise.id for task in self.tasks), self.tasks[0]
         return HomePlan(names, first.times, first.rounds, self.day, self.again, self.at, self.note, self.language)
+
+    @property
+    def kind(self) -> str:
+        return _kind()
+
+    def bodies(self) -> list[Body]:
+        return [partial(_body, self)]
 
 
 def own_way(figures: SessionFigures, history: Sequence[SessionFigures], goals: Goals) -> OwnWay | None:
@@ -110,47 +137,71 @@ def way_words(way: OwnWay) -> str:
     return tr("You come further than at the start.")
 
 
-def paint_home_page(page: Page, home: HomeReport) -> None:
-    """Paint everything on one page."""
+def _body(home: HomeReport, number: str) -> QLayout:
     who = f"{home.pseudonym}, {inside(terms.hand_name(home.side))}"
-    y = paint_head(page, numbers.long_date(home.day), tr("Your hand at home"), who) + 14
-    height = min(TALLEST_PT, ROWS_PT / max(len(home.tasks), 1) - 12)
-    for number, task in enumerate(home.tasks, 1):
-        _paint_task(page, home, task, number, QRectF(page.left, y, LEFT_PT, height))
-        y += height + 12
-    said = tr("Tick a box when all rounds of the day are done.")
-    page.text_right(said, page.right, y, 8.5, REGULAR, "text2")
-    y += 10
+    tick = label(tr("Tick a box when all rounds of the day are done."), 8.5, REGULAR, "text2")
+    parts: list[Part] = [page_head(numbers.long_date(home.day), number, tr("Your hand at home"), who)]
+    parts += [_task(home, task, place) for place, task in enumerate(home.tasks, 1)]
+    parts.append((tick, 0, Qt.AlignmentFlag.AlignRight))
     if home.way is not None:
-        y = _paint_way(page, home, home.way, y)
-    _paint_foot(page, home, y + 4)
+        parts.append(_way(home, home.way))
+    pain = tr("It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.")
+    legal = paragraph(terms.LEGAL_SENTENCE, 7.0, REGULAR, "text2")
+    return column(*parts, STRETCH, _next_time(home), column(paragraph(pain, 9.0, SEMIBOLD), legal, gap=3.0), gap=10.0)
 
 
-def _paint_task(page: Page, home: HomeReport, task: HomeTask, number: int, box: QRectF) -> None:
-    _paint_exercise(page, task.exercise, home.side, box)
-    left, right = box.right() + GAP_PT, page.right
-    page.painter.setPen(Qt.PenStyle.NoPen)
-    page.painter.setBrush(QColor(LIGHT.accent))
-    page.painter.drawEllipse(page.at(left + 9, box.top() + 10), 9 * page.point, 9 * page.point)
-    words = str(number)
-    page.text(words, left + 9 - page.width_of(words, 10, SEMIBOLD) / 2, box.top() + 13.5, 10, SEMIBOLD, "on_accent")
-    page.text(task_words(task.exercise.id), left + 25, box.top() + 15, 13.0, SEMIBOLD)
+def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
+    """A drawn exercise, what is to be done, how often, and a box for each day."""
     words = say(task.exercise.asked)
     if task.exercise.angle == PRONOSUPINATION:  # at home nobody looks for markers
         words = tr("Turn the palm up, then down. The elbow stays at your side.")
-    page.paragraph(words, left, box.top() + 24, right - left, 9.5)
-    foot = box.bottom()
     times = tr("once") if task.times == 1 else tr("{count} times").format(count=task.times)
-    page.text(times, left, foot - 14, 13.0, SEMIBOLD, "accent")
     rounds = tr("once a day") if task.rounds == 1 else tr("{count} times a day").format(count=task.rounds)
-    page.text(rounds, left, foot - 1, 10.0, SEMIBOLD)
-    for place, day in enumerate(reversed(_days(home))):
-        edge = right - 19.0 - 23.0 * place
-        name = language.locale().dayName(day.isoweekday(), language.locale().FormatType.ShortFormat)
-        page.text(name, edge + 9.5 - page.width_of(name, 7.5) / 2, foot - 22, 7.5, REGULAR, "text2")
-        page.painter.setPen(QPen(QColor(LIGHT.border), 0.8 * page.point))
-        page.painter.setBrush(Qt.BrushStyle.NoBrush)
-        page.painter.drawRoundedRect(page.box(edge, foot - 19, 19, 19), 4 * page.point, 4 * page.point)
+    named = line(
+        PaintedPart(partial(_paint_number, number), 18.0, width=18.0),
+        7.0,
+        (paragraph(task_words(task.exercise.id), 13.0, SEMIBOLD), 1),
+    )
+    often = column(paragraph(times, 13.0, SEMIBOLD, "accent"), paragraph(rounds, 10.0, SEMIBOLD))
+    days = [
+        column(
+            (label(_day_name(day), 7.5, REGULAR, "text2"), 0, Qt.AlignmentFlag.AlignHCenter),
+            PaintedPart(_paint_tick_box, 19.0, width=19.0),
+            gap=3.0,
+        )
+        for day in _days(home)
+    ]
+    asked = column(named, paragraph(words, 9.5), STRETCH, line((often, 1), *days, gap=4.0), gap=4.0)
+    picture = PaintedPart(partial(_paint_exercise, task.exercise, home.side), 110.0, TALLEST_PT, PICTURE_PT)
+    return line(picture, (asked, 1), gap=14.0)
+
+
+def _way(home: HomeReport, way: OwnWay) -> RoundedBox:
+    """The hand at the start, today and at the goal, and the own curve; no degrees, and nobody else's."""
+    key = tr("dashed: at the start; full line: today")
+    if math.isfinite(way.goal_deg):
+        key = tr("dashed: at the start; full line: today; green: our goal")
+    hands = PaintedPart(partial(_paint_way, home.report.figures.exercise, home.side, way), 80.0, 110.0)
+    pictures = line((hands, 1), (PaintedPart(partial(_paint_curve, way), 80.0, 110.0), 1))
+    return RoundedBox(
+        paragraph(way_words(way), 12.5, SEMIBOLD), 4.0, pictures, 2.0, paragraph(key, 8.0, REGULAR, "text2")
+    )
+
+
+def _next_time(home: HomeReport) -> QLayout:
+    """When to come again, and room for questions."""
+    again: list[Part | float] = [paragraph(tr("See you again"), 9.5, MEDIUM), 4.0]
+    if home.again is None:
+        again += [18.0, rule()]
+    else:
+        again += [paragraph(numbers.long_date(home.again), 12.0, SEMIBOLD), 3.0, paragraph(home.at, 12.0, SEMIBOLD)]
+    card = RoundedBox(*again, STRETCH, fill="soft")
+    card.setFixedWidth(PAPER.px(PICTURE_PT))
+    notes = column(paragraph(tr("Notes, or what to ask next time"), 9.5, MEDIUM), gap=3.0)
+    if home.note:
+        notes.addWidget(paragraph(home.note, 9.5))
+    notes.addWidget(PaintedPart(_paint_lines, 57.0), 1)
+    return line(card, (notes, 1), gap=14.0)
 
 
 def _days(home: HomeReport) -> list[date]:
@@ -159,11 +210,34 @@ def _days(home: HomeReport) -> list[date]:
     return [home.day + timedelta(days=day) for day in range(min(max(count, 1), MOST_DAYS))]
 
 
-def _placed(page: Page, box: QRectF, side: Side, part: QRectF) -> QTransform:
-    """From a figure's plane into a box in points, mirrored for a left hand."""
-    scale = min(box.width() / part.width(), box.height() / part.height()) * page.point
+def _day_name(day: date) -> str:
+    return language.locale().dayName(day.isoweekday(), language.locale().FormatType.ShortFormat)
+
+
+def _paint_number(number: int, painter: QPainter, box: QRectF) -> None:
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(PAPER.color("accent"))
+    painter.drawEllipse(box)
+    write(painter, box, str(number), PAPER.font(10.0, SEMIBOLD), PAPER.color("on_accent"), Qt.AlignmentFlag.AlignCenter)
+
+
+def _paint_tick_box(painter: QPainter, box: QRectF) -> None:
+    painter.setPen(QPen(PAPER.color("border"), 0.8 * UNIT))
+    painter.drawRoundedRect(box.adjusted(2.0, 2.0, -2.0, -2.0), 4 * UNIT, 4 * UNIT)
+
+
+def _paint_lines(painter: QPainter, box: QRectF) -> None:
+    """Lines to write on."""
+    painter.setPen(QPen(PAPER.color("line"), 0.6 * UNIT))
+    for y in range(PAPER.px(18.0), round(box.height()), PAPER.px(19.0)):
+        painter.drawLine(QLineF(0.0, y, box.width(), y))
+
+
+def _placed(box: QRectF, side: Side, part: QRectF) -> QTransform:
+    """From a figure's plane into a box, mirrored for a left hand."""
+    scale = min(box.width() / part.width(), box.height() / part.height())
     to = QTransform()
-    to.translate(box.center().x() * page.point, box.center().y() * page.point)
+    to.translate(box.center().x(), box.center().y())
     to.scale(scale if side == "right" else -scale, scale)
     to.translate(-part.center().x(), -part.center().y())
     return to
@@ -179,120 +253,85 @@ def _shown_part(exercise: Exercise, values_deg: Sequence[float]) -> QRectF:
     return part.united(piece if not arm.isEmpty() else QRectF()).adjusted(-25, -25, 25, 25)
 
 
-def _paint_exercise(page: Page, exercise: Exercise, side: Side, box: QRectF) -> None:
+def _paint_exercise(exercise: Exercise, side: Side, painter: QPainter, box: QRectF) -> None:
     """The hand where it begins, dashed, and where it goes, with an arrow there and back."""
-    ends = (-SHOWN_DEG, SHOWN_DEG) if exercise.angle is not None else (REST_DEG, 1.6 * SHOWN_DEG)
+    start, end = (-SHOWN_DEG, SHOWN_DEG) if exercise.angle is not None else (REST_DEG, 1.6 * SHOWN_DEG)
     if exercise.angle == 0 or exercise.joint.endswith("abduction"):
-        ends = tuple(0.5 * end for end in ends)  # type: ignore[assignment]
-    page.painter.save()
-    page.fill(box.x(), box.y(), box.width(), box.height(), "sunken")
-    page.painter.setClipRect(page.box(box.x(), box.y(), box.width(), box.height()))
+        start, end = 0.5 * start, 0.5 * end
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(PAPER.color("sunken"))
+    painter.drawRoundedRect(box, 6 * UNIT, 6 * UNIT)
+    painter.setClipRect(box)
     arc = arc_of(exercise)
-    way = arc.path(0.75 * ends[0], 0.75 * ends[1])
-    part = _shown_part(exercise, ends).united(way.boundingRect().adjusted(-20, -20, 20, 20))
-    to = _placed(page, box.adjusted(6, 6, -6, -6), side, part)
-    for value, dashed in ((ends[0], True), (ends[1], False)):
-        _paint_hand(page, exercise, value, to, "border" if dashed else "text", dashed=dashed)
-    page.painter.setBrush(Qt.BrushStyle.NoBrush)
-    page.painter.setPen(QPen(QColor(LIGHT.accent), 2.2 * page.point, c=Qt.PenCapStyle.RoundCap))
-    page.painter.drawPath(to.map(way))
-    for at, sense in ((0.75 * ends[0], -1.0), (0.75 * ends[1], 1.0)):
-        tip, before = to.map(arc.at(at + 6.0 * sense)), to.map(arc.at(at - 2.0 * sense))
-        _paint_arrow(page, before, tip)
-    page.painter.restore()
+    way = arc.path(0.75 * start, 0.75 * end)
+    part = _shown_part(exercise, (start, end)).united(way.boundingRect().adjusted(-20, -20, 20, 20))
+    edge = 6 * UNIT
+    to = _placed(box.adjusted(edge, edge, -edge, -edge), side, part)
+    for value, is_dashed in ((start, True), (end, False)):
+        _paint_hand(painter, exercise, value, to, "border" if is_dashed else "text", is_dashed=is_dashed)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(PAPER.color("accent"), 2.2 * UNIT, c=Qt.PenCapStyle.RoundCap))
+    painter.drawPath(to.map(way))
+    for at, sense in ((0.75 * start, -1.0), (0.75 * end, 1.0)):
+        _paint_arrow(painter, to.map(arc.at(at - 2.0 * sense)), to.map(arc.at(at + 6.0 * sense)))
 
 
-def _paint_arrow(page: Page, before: QPointF, tip: QPointF) -> None:
+def _paint_arrow(painter: QPainter, before: QPointF, tip: QPointF) -> None:
     along = tip - before
-    length = math.hypot(along.x(), along.y()) or 1.0
-    along = along * (7.0 * page.point / length)
+    along = along * (7.0 * UNIT / (math.hypot(along.x(), along.y()) or 1.0))
     across = QPointF(-along.y(), along.x()) * 0.6
-    page.painter.setBrush(QColor(LIGHT.accent))
-    page.painter.setPen(Qt.PenStyle.NoPen)
-    page.painter.drawPolygon(QPolygonF([tip, tip - along + across, tip - along - across]))
+    painter.setBrush(PAPER.color("accent"))
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.drawPolygon(QPolygonF([tip, tip - along + across, tip - along - across]))
 
 
 def _paint_hand(
-    page: Page, exercise: Exercise, value_deg: float, to: QTransform, token: str, *, dashed: bool, filled: bool = True
-) -> None:
-    pen = QPen(QColor(getattr(LIGHT, token)), 1.1 * page.point)
-    if dashed:
-        pen.setStyle(Qt.PenStyle.DashLine)
-    page.painter.setPen(pen)
-    page.painter.setBrush(QColor("#FFFFFF") if filled and not dashed else Qt.BrushStyle.NoBrush)
-    path: QPainterPath = figure_at(exercise, value_deg).whole
-    page.painter.drawPath(to.map(path))
+    painter: QPainter, exercise: Exercise, value_deg: float, to: QTransform, token: str, *, is_dashed: bool,
+    is_filled: bool = True,
+) -> None:  # fmt: skip
+    style = Qt.PenStyle.DashLine if is_dashed else Qt.PenStyle.SolidLine
+    painter.setPen(QPen(PAPER.color(token), 1.1 * UNIT, style))
+    painter.setBrush(PAPER.color("surface") if is_filled and not is_dashed else Qt.BrushStyle.NoBrush)
+    painter.drawPath(to.map(figure_at(exercise, value_deg).whole))
 
 
-def _paint_way(page: Page, home: HomeReport, way: OwnWay, top: float) -> float:
-    """The hand at the start, today and at the goal, and the own curve; no degrees, and nobody else's."""
-    exercise, height, width = home.report.figures.exercise, 138.0, page.right - page.left
-    page.card(page.left, top, width, height)
-    page.text(way_words(way), page.left + 14, top + 20, 12.5, SEMIBOLD)
-    picture = QRectF(page.left + 8, top + 28, 0.42 * width, height - 44)
+def _paint_way(exercise: Exercise, side: Side, way: OwnWay, painter: QPainter, box: QRectF) -> None:
     shown = [("border", way.values_deg[0], True), ("text", way.values_deg[-1], False)]
     if math.isfinite(way.goal_deg):
         shown.insert(1, ("accent", way.goal_deg, True))
-    page.painter.save()
-    page.painter.setClipRect(page.box(picture.x(), picture.y(), picture.width(), picture.height()))
-    to = _placed(page, picture, home.side, _shown_part(exercise, [value for _, value, _ in shown]))
-    for token, value, dashed in shown:
-        _paint_hand(page, exercise, value, to, token, dashed=dashed, filled=False)
-    page.painter.restore()
-    said = tr("dashed: at the start; full line: today")
-    if math.isfinite(way.goal_deg):
-        said = tr("dashed: at the start; full line: today; green: our goal")
-    page.text(said, page.left + 14, top + height - 6, 8.0, REGULAR, "text2")
-    _paint_curve(page, way, QRectF(page.left + 0.5 * width, top + 34, 0.36 * width, height - 60))
-    return top + height
+    painter.setClipRect(box)
+    to = _placed(box, side, _shown_part(exercise, [value for _, value, _ in shown]))
+    for token, value, is_dashed in shown:
+        _paint_hand(painter, exercise, value, to, token, is_dashed=is_dashed, is_filled=False)
 
 
-def _paint_curve(page: Page, way: OwnWay, box: QRectF) -> None:
+def _paint_curve(way: OwnWay, painter: QPainter, box: QRectF) -> None:
+    area = box.adjusted(*points(20.0, 8.0, -62.0, -20.0))
     values = [*way.values_deg, *([way.goal_deg] if math.isfinite(way.goal_deg) else [])]
     low, high = min(0.0, *values), max(values)
     span = max((way.days[-1] - way.days[0]).days, 1)
 
     def place(day: date, value: float) -> QPointF:
-        x = box.left() + box.width() * (day - way.days[0]).days / span
-        y = box.bottom() - box.height() * (value - low) / max(high - low, 1.0)
-        return QPointF(x * page.point, y * page.point)
+        x = area.left() + area.width() * (day - way.days[0]).days / span
+        return QPointF(x, area.bottom() - area.height() * (value - low) / max(high - low, 1.0))
 
-    points = [place(day, value) for day, value in zip(way.days, way.values_deg, strict=True)]
-    page.rule(box.bottom(), box.left() - 4, box.right() + 4)
-    page.painter.setPen(QPen(QColor(LIGHT.curve_a), 1.8 * page.point))
-    page.painter.drawPolyline(QPolygonF(points))
-    page.painter.setBrush(QColor(LIGHT.curve_a))
-    for point in points:
-        page.painter.drawEllipse(point, 2.2 * page.point, 2.2 * page.point)
-    page.text(tr("today"), box.right() + 8, points[-1].y() / page.point + 3, 9.0, SEMIBOLD)
+    shown = [place(day, value) for day, value in zip(way.days, way.values_deg, strict=True)]
+    painter.setPen(QPen(PAPER.color("line"), 0.6 * UNIT))
+    painter.drawLine(QLineF(area.left() - 16.0, area.bottom(), area.right() + 16.0, area.bottom()))
+    painter.setPen(QPen(PAPER.color("curve_a"), 1.8 * UNIT))
+    painter.drawPolyline(QPolygonF(shown))
+    painter.setBrush(PAPER.color("curve_a"))
+    for point in shown:
+        painter.drawEllipse(point, 2.2 * UNIT, 2.2 * UNIT)
+    aside, face = QPointF(8.0 * UNIT, 3.0 * UNIT), PAPER.font(9.0, SEMIBOLD)
+    write(painter, QPointF(area.right(), shown[-1].y()) + aside, tr("today"), face, PAPER.color("text"))
     if math.isfinite(way.goal_deg):
         y = place(way.days[0], way.goal_deg).y()
-        page.painter.setPen(QPen(QColor(LIGHT.accent), 1.4 * page.point, Qt.PenStyle.DashLine))
-        page.painter.drawLine(QPointF(box.left() * page.point, y), QPointF(box.right() * page.point, y))
-        if abs(y - points[-1].y()) > 12 * page.point:
-            page.text(tr("our goal"), box.right() + 8, y / page.point + 3, 9.0, SEMIBOLD, "accent")
-    page.text(numbers.day_month(way.days[0]), box.left() - 4, box.bottom() + 12, 8.5, REGULAR, "text2")
-    page.text_right(numbers.day_month(way.days[-1]), box.right() + 4, box.bottom() + 12, 8.5, REGULAR, "text2")
-
-
-def _paint_foot(page: Page, home: HomeReport, top: float) -> None:
-    """When to come again, room for questions, what to do when it hurts."""
-    top = max(top, A4_PT[1] - MARGIN_PT - 150)
-    page.fill(page.left, top, LEFT_PT, 74, "soft")
-    page.text(tr("See you again"), page.left + 12, top + 18, 9.5, MEDIUM)
-    if home.again is None:
-        page.rule(top + 48, page.left + 12, page.left + LEFT_PT - 12)
-    else:
-        words = numbers.long_date(home.again)
-        size = page.fitting(words, LEFT_PT - 24, 13.0, SEMIBOLD)
-        page.text(words, page.left + 12, top + 38, size, SEMIBOLD)
-        page.text(home.at, page.left + 12, top + 56, 12.0, SEMIBOLD)
-    left = page.left + LEFT_PT + GAP_PT
-    page.text(tr("Notes, or what to ask next time"), left, top + 12, 9.5, MEDIUM)
-    below = page.paragraph(home.note, left, top + 16, page.right - left, 9.5) if home.note else top + 14
-    while (below := below + 19) <= top + 76:
-        page.rule(below, left, page.right)
-    y = top + 84
-    said = tr("It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.")
-    y = page.said(said, y, 9.0, SEMIBOLD)
-    page.said(terms.LEGAL_SENTENCE, y + 2, 7.0, REGULAR, "text2")
+        painter.setPen(QPen(PAPER.color("accent"), 1.4 * UNIT, Qt.PenStyle.DashLine))
+        painter.drawLine(QLineF(area.left(), y, area.right(), y))
+        if abs(y - shown[-1].y()) > 12 * UNIT:
+            write(painter, QPointF(area.right(), y) + aside, tr("our goal"), face, PAPER.color("accent"))
+    days = area.adjusted(*points(-4.0, 0.0, 4.0, 16.0))
+    for day, side in ((way.days[0], Qt.AlignmentFlag.AlignLeft), (way.days[-1], Qt.AlignmentFlag.AlignRight)):
+        words = numbers.day_month(day)
+        write(painter, days, words, CHART.label, PAPER.color("text2"), Qt.AlignmentFlag.AlignBottom | side)

@@ -10,27 +10,42 @@ from dataclasses import dataclass
 from datetime import date
 from functools import partial
 
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLayout
+
 from carpus.ui import numbers, terms
-from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.controls.layouts import STRETCH, Item, Part
+from carpus.ui.controls.table import TableColumn
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.marker_words import finger_name
-from carpus.ui.report.framed import BODY_FOOT_PT
-from carpus.ui.report.page import MARGIN_PT, Page, PageColumn, paint_to_fit, painted_on_nothing
-from carpus.ui.report.session_page import OfSession, SessionReport, comment_lines
+from carpus.ui.report.page import (
+    PAPER,
+    Body,
+    body_room,
+    column,
+    fit_parts,
+    label,
+    legal_line,
+    line,
+    paragraph,
+    rule,
+    table,
+)
+from carpus.ui.report.session_page import OfSession, SessionReport, comment_lines, comment_text
 from carpus.ui.translate import inside, tr
 from carpus.ui.words.fingers import AT_LEAST, compared_figures, hand_since_words, range_words, trains_thumb
 from carpus.ui.words.progress import corrected_words
 from carpus.ui.words.ranges import table_rows
 from carpus.ui.words.session import method, since_compared, since_sessions, warnings
 
-SMALLEST = 0.82
+SMALLEST = 0.8
 OMISSIONS = 3
 MOST_ADDRESS_LINES, MOST_ADDRESS = 6, 80
-SIZE_PT, LEADING_PT = 10.0, 14.5
-FOOT_PT = 84.0
-TABLE = (
-    PageColumn(0.0, size_pt=9.5), PageColumn(0.30, SEMIBOLD, size_pt=9.5), PageColumn(0.62, size_pt=9.5),
-    PageColumn(0.84, size_pt=9.5),
-)  # fmt: skip
+SIZE_PT = 10.0
+
+
+def _kind() -> str:
+    return tr("letter")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,72 +58,75 @@ class LetterReport(OfSession):
     real_name: str = ""
     language: str = ""
 
+    @property
+    def kind(self) -> str:
+        return _kind()
 
-def paint_letter_page(page: Page, letter: LetterReport) -> None:
-    """Paint everything on one page."""
-    room, omitted = BODY_FOOT_PT - FOOT_PT, 0
-    while omitted < OMISSIONS and room < SMALLEST * painted_on_nothing(page, partial(_paint, letter, omitted)):
+    def bodies(self) -> list[Body]:
+        return [partial(_body, self)]
+
+
+def _body(letter: LetterReport, number: str) -> QLayout:
+    """All of it, or what has room."""
+    omitted = 0
+    while omitted < OMISSIONS and fit_parts(_parts(letter, omitted), *body_room(letter.form))[1] < SMALLEST:
         omitted += 1
-    paint_to_fit(page, room, partial(_paint, letter, omitted))
-    _paint_foot(page, letter)
+    return _parts(letter, omitted)
 
 
-def _paint(letter: LetterReport, omitted: int, page: Page) -> float:
-    """All but the foot, without what is omitted; returns the lower edge."""
+def _parts(letter: LetterReport, omitted: int) -> QLayout:
+    """The letter without what is omitted."""
     report, figures = letter.report, letter.report.figures
-    y = MARGIN_PT
-    page.text_right(numbers.day_of_year(letter.day), page.right, y + SIZE_PT, SIZE_PT)
-    for line in address_lines(letter.recipient):
-        page.text(line, page.left, y + SIZE_PT, SIZE_PT)
-        y += LEADING_PT
-    y += 24
     who = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
-    subject = tr("Movement measured by camera: {who}").format(who=who)
-    y = page.said(subject, y, 12.0, SEMIBOLD) + 10
-    y = page.said(tr("Dear colleague,"), y, SIZE_PT) + 6
-    said = tr("On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.").format(
+    measured = tr("On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.").format(
         day=numbers.day_of_year(figures.when),
         exercise=terms.exercise_name(figures.exercise.id),
         hand=inside(terms.hand_name(figures.side)),
         count=figures.counted,
     )
-    y = page.said(said, y, SIZE_PT)
-    for words in [*warnings(figures), *filter(None, [corrected_words(figures)])]:
-        y = page.said(words, y + 3, SIZE_PT, SEMIBOLD, "warn")
-    y = _paint_figures(page, report, y + 8, beside=omitted < 1)
+    parts: list[Part | float] = [
+        line(column(*(paragraph(one, SIZE_PT) for one in address_lines(letter.recipient)), gap=3.0), STRETCH,
+             (label(numbers.day_of_year(letter.day), SIZE_PT), 0, Qt.AlignmentFlag.AlignTop)),
+        14.0,
+        paragraph(tr("Movement measured by camera: {who}").format(who=who), 12.0, SEMIBOLD),
+        3.0,
+        paragraph(tr("Dear colleague,"), SIZE_PT),
+        paragraph(measured, SIZE_PT),
+    ]  # fmt: skip
+    warned = [*warnings(figures), *filter(None, [corrected_words(figures)])]
+    parts += [paragraph(words, SIZE_PT, SEMIBOLD, "warn") for words in warned]
+    parts.append(_figures(report, is_beside=omitted < 1))
     if any(cell.startswith(AT_LEAST) for row in figure_rows(report) for cell in row):
-        said = tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST)
-        y = page.said(said, y + 3, 8.5, REGULAR, "text2")
+        words = tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST)
+        parts.append(paragraph(words, 8.5, REGULAR, "text2"))
     since = since_compared if report.joints is None else hand_since_words
-    for words in since_sessions(figures, report.previous, report.first if omitted < 2 else None, since):
-        y = page.said(words, y + 4, SIZE_PT)
+    first = report.first if omitted < 2 else None
+    parts += [paragraph(words, SIZE_PT) for words in since_sessions(figures, report.previous, first, since)]
     if report.comment.strip():
-        y += 6
-        if omitted < 3:
-            for line in comment_lines(page, report.comment):
-                page.text(line, page.left, y + SIZE_PT, 9.0)
-                y += 12.5
-        else:
-            y = page.said(tr("The comment is too long for this letter; it is in the report."), y, SIZE_PT, MEDIUM)
-    y = page.said(tr("Kind regards,"), y + 10, SIZE_PT) + 34
-    page.rule(y, page.left, page.left + 200)
-    signed = ", ".join(filter(None, [report.therapist, letter.form.letterhead.name]))
-    page.text(signed or tr("Signature"), page.left, y + 12, 9.0, REGULAR, "text2")
-    return y + 18
+        has_room = omitted < OMISSIONS
+        said_of_it = tr("The comment is too long for this letter; it is in the report.")
+        parts.append(
+            comment_text(comment_lines(report.comment)) if has_room else paragraph(said_of_it, SIZE_PT, MEDIUM)
+        )
+    signature, signed = rule(), ", ".join(filter(None, [report.therapist, letter.form.letterhead.name]))
+    signature.setFixedWidth(PAPER.px(200.0))
+    parts += [paragraph(tr("Kind regards,"), SIZE_PT), 26.0, signature]
+    parts += [paragraph(signed or tr("Signature"), 9.0, REGULAR, "text2"), STRETCH, _foot(report)]
+    return column(*parts, gap=6.5)
 
 
-def _paint_figures(page: Page, report: SessionReport, top: float, *, beside: bool) -> float:
+def _figures(report: SessionReport, *, is_beside: bool) -> Item:
     """The main figures, with those of the other hand and of last time beside them."""
     rows = figure_rows(report)
     if not rows:
-        return page.said(tr("No range could be measured."), top, SIZE_PT)
+        return paragraph(tr("No range could be measured."), SIZE_PT)
     heads = ["", tr("Mean ± sd"), "", ""]
-    if beside and report.other_hand is not None:
+    if is_beside and report.other_hand is not None:
         heads[2] = terms.hand_name(report.other_hand.side)
-    if beside and report.previous is not None:
+    if is_beside and report.previous is not None:
         heads[3] = numbers.day_beside(report.previous.when, report.figures.when)
     shown = [[cell if column < 2 or heads[column] else "" for column, cell in enumerate(row)] for row in rows]
-    return page.table(TABLE, shown, top + 2, heads=heads, head_pt=9.5, pitch_pt=16.0) + 3.5
+    return table((TableColumn(), TableColumn(SEMIBOLD), TableColumn(), TableColumn()), heads, shown, size=9.5)
 
 
 def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
@@ -128,25 +146,13 @@ def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
     return found
 
 
-def _paint_foot(page: Page, letter: LetterReport) -> None:
+def _foot(report: SessionReport) -> QLayout:
     """How it was measured, in what it can be wrong, and by which program: never left out."""
-    report, figures = letter.report, letter.report.figures
-    width = page.right - page.left
+    figures = report.figures
     made_by = f" ({report.revision[:7]})" if report.revision else ""
     origin = f"Carpus {figures.software_version}{made_by} · " + tr("Session {id}").format(id=figures.session_id[:8])
-    parts = [(method(figures, report.markers, compared=True), REGULAR), (terms.LEGAL_SENTENCE, SEMIBOLD)]
-    parts.append((origin, REGULAR))
-    lines: list[tuple[str, int]] = []
-    size = 7.5
-    for words, weight in parts:
-        lines += [(line, weight) for line in page.lines(words, width, size, weight)]
-    leading = min(10.4, (FOOT_PT - 4.0) / len(lines))
-    size = min(size, leading / 1.15)
-    top = BODY_FOOT_PT - FOOT_PT + 4.0
-    page.rule(top - 3.0)
-    for line, weight in lines:
-        top += leading
-        page.text(line, page.left, top - 0.2 * leading, size, weight, "text2" if weight == REGULAR else "text")
+    how = paragraph(method(figures, report.markers, compared=True), 7.5, REGULAR, "text2")
+    return column(rule(), how, legal_line(), paragraph(origin, 7.5, REGULAR, "text2"), gap=2.0)
 
 
 def address_lines(recipient: str) -> list[str]:

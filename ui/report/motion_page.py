@@ -2,87 +2,58 @@
 
 from __future__ import annotations
 
+from PySide6.QtWidgets import QLayout
+
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import MotionCurves
+from carpus.core.results.seen import ReportCurves
 from carpus.ui import numbers
-from carpus.ui.fonts import MEDIUM, REGULAR
+from carpus.ui.controls.layouts import STRETCH, Part
 from carpus.ui.plot.motion import MotionKind, MotionPlot, zyz_words
-from carpus.ui.plot.session import paint_session
 from carpus.ui.plot.ways import WayPlot, finger_ways, paint_ways, wrist_way
-from carpus.ui.report.page import Page, paint_to_fit
-from carpus.ui.report.session_page import LOWEST_PT, SessionReport, paint_head, what_words
-from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.report.page import CHART, PaintedPart, column, legal_line, paragraph, session_curves, table, title
+from carpus.ui.report.table_cells import FURTHER_COLUMNS, further_cells
 from carpus.ui.translate import tr
 from carpus.ui.words.further import further_rows, further_title
 
-WAYS_PT, HAND_WAYS_PT = 172.0, 124.0
-CURVES_PT, ZYZ_PT, HAND_CURVES_PT, HAND_ZYZ_PT = 190.0, 110.0, 108.0, 78.0
-ROW_PT = 12.5
 
-
-def paint_motion_page(page: Page, report: SessionReport) -> None:
-    """Paint everything from the upper to the lower margin, smaller where there is too much."""
-    if report.motion is None:
-        return
-    motion = report.motion
-    paint_to_fit(page, LOWEST_PT, lambda trial: _paint_all(trial, report, motion))
-
-
-def _paint_all(page: Page, report: SessionReport, motion: MotionCurves) -> float:
-    hand = bool(motion.joint_names)
-    y = paint_head(page, tr("Session report, page 2"), report.pseudonym, what_words(report))
-    y = _paint_further(page, report.figures, report.previous, y + 7)
-    ways_pt = HAND_WAYS_PT if hand else WAYS_PT
-    y = _paint_ways(page, tr("Path of the wrist"), wrist_way(motion), y, ways_pt, tr("with the hand’s axes along it"))
-    if hand:
+def motion_page(
+    head: QLayout, figures: SessionFigures, previous: SessionFigures | None, curves: ReportCurves, motion: MotionCurves
+) -> QLayout:
+    """What is on the page under its head."""
+    is_hand = bool(motion.joint_names)
+    parts: list[Part] = [head, *_further(figures, previous)]
+    height = 118.0 if is_hand else 165.0
+    parts += _ways(tr("Path of the wrist"), wrist_way(motion), height, tr("with the hand’s axes along it"))
+    if is_hand:
         words = tr("joint centres; dashed: disc hidden")
-        y = _paint_ways(page, tr("Ways of the finger tips"), finger_ways(motion, 0), y, ways_pt, words)
-    curves_pt, zyz_pt = (HAND_CURVES_PT, HAND_ZYZ_PT) if hand else (CURVES_PT, ZYZ_PT)
-    aside = tr("X (black) to the fingers, Y (blue) to the thumb, Z (orange) up")
+        parts += _ways(tr("Ways of the finger tips"), finger_ways(motion, 0), height, words)
+    axes = tr("X (black) to the fingers, Y (blue) to the thumb, Z (orange) up")
     if motion.side == "left":
-        aside = tr("X (black) to the fingers, Y (blue) from the thumb, Z (orange) up")
-    y = _paint_curves(page, report, motion, "place", tr("Place, speed, turning"), aside, y, curves_pt)
-    y = _paint_curves(
-        page, report, motion, "zyz", tr("ZYZ angles"), tr("band: ± 1 sd; black: α + γ, with γ"), y, zyz_pt
-    )
-    y = page.said(zyz_words([motion]), y, 8.0, REGULAR, "text2")
-    y = page.said(LEGAL_SENTENCE, y + 3, 8.0, MEDIUM)
-    return y + 8
+        axes = tr("X (black) to the fingers, Y (blue) from the thumb, Z (orange) up")
+
+    def curves_part(kind: MotionKind, heading: str, aside: str, share: float) -> list[Part]:
+        plot = MotionPlot(curves, figures.exercise, figures.repetitions, -1, motion=motion, kind=kind)
+        least = share * (150.0 if is_hand else 205.0)
+        return [title(heading, aside), session_curves(plot, least, 1.2 * least)]
+
+    parts += curves_part("place", tr("Place, speed, turning"), axes, 1.0)
+    parts += curves_part("zyz", tr("ZYZ angles"), tr("band: ± 1 sd; black: α + γ, with γ"), 0.75)
+    foot = column(paragraph(zyz_words([motion]), 8.0, token="text2"), legal_line(), gap=3.0)
+    return column(*parts, STRETCH, foot, gap=6.0)
 
 
-def _paint_ways(page: Page, title: str, plot: WayPlot, top: float, height: float, aside: str) -> float:
-    page.title(title, top + 11, aside)
-    if page.is_trial:
-        return top + 16 + height + 8
-    paint_ways(page.painter, page.style, plot, page.box(page.left, top + 16, page.right - page.left, height))
-    return top + 16 + height + 8
-
-
-def _paint_curves(
-    page: Page, report: SessionReport, motion: MotionCurves, kind: MotionKind, title: str, aside: str,
-    top: float, height: float,
-) -> float:  # fmt: skip
-    page.title(title, top + 11, aside)
-    plot = MotionPlot(report.curves, report.figures.exercise, report.figures.repetitions, -1, motion=motion, kind=kind)
-    box = page.box(page.left, top + 9, page.right - page.left, height + 36)
-    if not page.is_trial:
-        paint_session(page.painter, page.style, plot, box)
-    return top + 29 + height + 18
-
-
-def _paint_further(page: Page, figures: SessionFigures, previous: SessionFigures | None, top: float) -> float:
+def _further(figures: SessionFigures, previous: SessionFigures | None) -> list[Part]:
     """Two figures to a line."""
     rows = further_rows(figures, previous)
     if not rows:
-        return top
+        return []
     day = numbers.day_beside(previous.when, figures.when) if previous is not None and previous.group("task") else ""
-    page.title(further_title(figures), top + 11, tr("mean ± sd; at the right: {day}").format(day=day) if day else "")
-    gap = 18.0
-    width = (page.right - page.left - gap) / 2
-    for place, row in enumerate(rows):
-        left, baseline = page.left + (place % 2) * (width + gap), top + 26 + ROW_PT * (place // 2)
-        page.rule(baseline + 3.5, left, left + width)
-        page.text(row.name, left, baseline, 8.0, REGULAR, "text2")
-        page.text(row.today, left + 0.54 * width, baseline, 8.5, MEDIUM)
-        page.text_right(row.last, left + width, baseline, 8.5)
-    return top + 26 + ROW_PT * (-(-len(rows) // 2)) - 2
+    shown = table(FURTHER_COLUMNS, (), further_cells(rows, 2), size=8.5, pitch=1.5)
+    aside = tr("mean ± sd; at the right: {day}").format(day=day) if day else ""
+    return [column(title(further_title(figures), aside), shown, gap=2.0)]
+
+
+def _ways(heading: str, plot: WayPlot, height: float, aside: str) -> list[Part]:
+    drawn = PaintedPart(lambda painter, box: paint_ways(painter, CHART, plot, box), height, 1.2 * height)
+    return [title(heading, aside), drawn]

@@ -1,248 +1,336 @@
-"""Tools for painting a page of paper: everything in points from its upper left corner."""
+"""A page of paper: parts that Qt lays out, and what puts them on it; the same on the screen and on paper."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TypeVar
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPicture
+from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
+from PySide6.QtGui import QFont, QImage, QPainter, QPaintEvent, QPen, QRegion, QTextLayout, QTextOption
+from PySide6.QtWidgets import QHBoxLayout, QLayout, QSizePolicy, QVBoxLayout, QWidget
 
-from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
+from carpus.ui import terms
+from carpus.ui.controls.card import Line
+from carpus.ui.controls.layouts import STRETCH, Part, in_column, in_line
+from carpus.ui.controls.table import Cell, Table, TableColumn
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
+from carpus.ui.fonts import font
+from carpus.ui.language import borrowed, speaking
+from carpus.ui.plot.session import SessionPlot, paint_session
 from carpus.ui.plot.style import PlotStyle, paper_style
-from carpus.ui.theme import LIGHT
+from carpus.ui.theme import Theme
+from carpus.ui.translate import inside, tr
 
-A4_PT = (595.28, 841.89)
+UNIT = 4
+"""Pixels of a layout in a point: Qt places in whole ones, and a quarter of a point is finer than print shows."""
+MARGIN_PT, TOP_PT, FOOT_PT = 42.5, 30.5, 28.5
+"""At the sides, above and below; printers reach no nearer to the edge than a centimetre."""
+BODY_PT = PAPER_PT["a4"][0] - 2 * MARGIN_PT
+"""So wide are the parts of a page at least; Letter is wider."""
+LOGO_PT = (150.0, 44.0)
 DISPLAY_FROM_PT = 20.0
-MARGIN_PT = 42.52
-"""15 mm."""
-LEAST_PT, LINE_PT = 5.0, 9.5
-"""Of the words of a table: the smallest, and a line's height where they have several."""
+SMALLEST = 0.3
+"""Of the usual size: no page is ever laid out smaller."""
 
 
-T = TypeVar("T")
-Place = tuple[float, float]
-Cell = str | tuple[str, int, str]
-"""Words of a table, with a weight and a colour of their own or without."""
+class _Paper(Theme):
+    """The light theme in points; it never changes."""
+
+    line_px = 2
+
+    def __init__(self) -> None:
+        super().__init__("light", UNIT)
+
+    def font(self, size_px: float, weight: int) -> QFont:
+        return font(size_px * UNIT, weight, display=size_px >= DISPLAY_FROM_PT)
+
+    def follow(self, widget: object, take: Callable[[], None]) -> None:
+        take()
 
 
-@dataclass(frozen=True, slots=True)
-class PageColumn:
-    """Where a column of a table begins, as a share of the page's width, or ends (``ends``). What is wider than
-    ``room``, a share too, is written smaller, or on several lines where it ``wraps``."""
-
-    at: float
-    weight: int = REGULAR
-    ends: bool = False
-    room: float = 1.0
-    wraps: bool = False
-    size_pt: float = 9.0
-    token: str = "text"
+Body = Callable[[str], QLayout]
+"""What is on a page, in whose head the words say which of how many it is."""
+PAPER = _Paper()
+CHART: PlotStyle = paper_style(UNIT)
 
 
-@dataclass(slots=True)
-class Page:
-    """A painter with ``point`` painter units per point. Text methods return where the text ends."""
+def points(*sizes: float) -> tuple[int, ...]:
+    """Lengths in points as a layout counts them."""
+    return tuple(PAPER.px(size) for size in sizes)
 
-    painter: QPainter
-    point: float
-    number: str = ""
-    """Which page of how many, in words, for its head; empty where that is not known."""
-    is_trial: bool = False
-    """Nobody sees it: plots, whose height is given, may be left out."""
 
-    def __post_init__(self) -> None:
-        self.painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+def paragraph(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> Text:
+    """A paragraph."""
+    return Text(PAPER, words, size, weight, token, wrap=True)
 
-    @property
-    def style(self) -> PlotStyle:
-        return paper_style(self.point)
 
-    @property
-    def left(self) -> float:
-        return MARGIN_PT
+def label(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> Text:
+    """Words in one line."""
+    return Text(PAPER, words, size, weight, token)
 
-    @property
-    def right(self) -> float:
-        return A4_PT[0] - MARGIN_PT
 
-    def box(self, left: float, top: float, width: float, height: float) -> QRectF:
-        return QRectF(left * self.point, top * self.point, width * self.point, height * self.point)
+def column(*parts: Part | float, gap: float = 0.0, within: QWidget | None = None) -> QVBoxLayout:
+    """One below the other; numbers are points of nothing."""
+    return in_column(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0), within=within)
 
-    def at(self, x: float, y: float) -> QPointF:
-        return QPointF(x * self.point, y * self.point)
 
-    def face(self, size_pt: float, weight: int = REGULAR) -> QFont:
-        """A font of a size in points."""
-        return font(size_pt * self.point, weight, display=size_pt >= DISPLAY_FROM_PT)
+def line(*parts: Part | float, gap: float = 0.0) -> QHBoxLayout:
+    """Side by side; numbers are points of nothing."""
+    return in_line(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0))
 
-    def width_of(self, text: str, size_pt: float, weight: int = REGULAR) -> float:
-        """Width of a text in points."""
-        return QFontMetricsF(self.face(size_pt, weight)).horizontalAdvance(text) / self.point
 
-    def text(
-        self, text: str, left: float, baseline: float, size_pt: float = 9.0, weight: int = REGULAR, token: str = "text"
-    ) -> float:
-        """One line; returns its right end."""
-        self.painter.setFont(self.face(size_pt, weight))
-        self.painter.setPen(QColor(getattr(LIGHT, token)))
-        self.painter.drawText(self.at(left, baseline), text)
-        return left + self.width_of(text, size_pt, weight)
+def _to_units(parts: Sequence[Part | float]) -> list[Part]:
+    return [PAPER.px(part) if isinstance(part, int | float) else part for part in parts]
 
-    def text_right(
-        self, text: str, right: float, baseline: float, size_pt: float = 9.0, weight: int = REGULAR, token: str = "text"
+
+def rule() -> Line:
+    """A line across."""
+    return Line(PAPER)
+
+
+def line_or_column(first: Text, *rest: QWidget | float, is_apart: bool = True) -> QLayout:
+    """All in one line, the rest at its end or right behind, or where that is too long below the first."""
+    widths = [one.sizeHint().width() if isinstance(one, QWidget) else PAPER.px(one) for one in (first, *rest, 12.0)]
+    if sum(widths) <= PAPER.px(BODY_PT):
+        behind: tuple[Part | float, ...] = (STRETCH, *rest) if is_apart else (12.0, *rest, STRETCH)
+        return line((first, 0, Qt.AlignmentFlag.AlignBottom), *behind)
+    for one in (first, *rest):
+        if isinstance(one, Text) and one.sizeHint().width() > PAPER.px(BODY_PT):
+            one.setWordWrap(True)
+    return column(first, line(*rest, *([] if len(rest) == 1 else [STRETCH])))
+
+
+def title(words: str, *aside: str | QWidget | float) -> QLayout:
+    """The head of a part, with a remark or a key."""
+    behind = [label(one, 8.5, REGULAR, "text2") if isinstance(one, str) else one for one in aside if one != ""]
+    return line_or_column(label(words, 11.5, SEMIBOLD), *behind)
+
+
+def page_head(kind: str, number: str, who: str, what: str) -> QLayout:
+    """The program's mark, what kind of page and which of how many, of whom and of what."""
+    aside = f"{kind} · {number}" if number else kind
+    top = line(
+        Sign(PAPER, "carpus", 15, (15, 15)),
+        5.0,
+        label("Carpus", 11.5, SEMIBOLD),
+        STRETCH,
+        label(aside, 8.5, token="text2"),
+    )
+    name = line_or_column(label(who, 21.0, SEMIBOLD), label(what, 14.0, REGULAR, "text2"), is_apart=False)
+    return column(top, 9.0, name, 4.0, rule())
+
+
+def session_head(newest: SessionFigures, who: str, kind: str, number: str) -> QLayout:
+    """The head of a page about an exercise of a hand."""
+    what = f"{terms.exercise_name(newest.exercise.id)}, {inside(terms.hand_name(newest.side))}"
+    return page_head(kind, number, who, what)
+
+
+def facts(pairs: Sequence[tuple[str, str]]) -> QLayout:
+    """Small names over values, side by side."""
+    parts: list[Part] = [
+        (column(paragraph(name, 8.5, REGULAR, "text2"), paragraph(value, 10.0, MEDIUM)), max(len(name), len(value), 8))
+        for name, value in pairs
+    ]
+    return line(*parts, gap=8.0)
+
+
+def table(
+    columns: Sequence[TableColumn],
+    heads: Sequence[str | Cell],
+    rows: Sequence[Sequence[str | Cell]],
+    size: float = 9.0,
+    pitch: float = 3.0,
+) -> Table:
+    """A table as wide as the page."""
+    made = Table(PAPER, size, size - 0.5, gap=8.0, pitch=pitch)
+    made.show_rows(columns, heads, rows)
+    made.fit_once(PAPER.px(BODY_PT))
+    return made
+
+
+def value_rows(lines: Sequence[tuple[str, str, str]]) -> QLayout:
+    """Names with their values at the right, in the colour of a token, for a :class:`RoundedBox` of half the page."""
+    rows: list[Part] = []
+    for name, value, token in lines:
+        named, shown = label(name, 8.5, REGULAR, "text2"), label(value, 8.5, MEDIUM, token)
+        shown.setAlignment(Qt.AlignmentFlag.AlignRight)
+        if named.sizeHint().width() + shown.sizeHint().width() + PAPER.px(8.0) > PAPER.px(0.5 * BODY_PT - 28.0):
+            named.setWordWrap(True)
+            shown.setWordWrap(True)
+        rows.append(line((named, len(name)), (shown, len(value)), gap=8.0))
+    return column(*rows, gap=2.5)
+
+
+def break_lines(words: str, size: float, width: float) -> list[str]:
+    """A text in lines no wider than that; a word that is wider is broken too."""
+    found = []
+    for part in words.splitlines():
+        lines = QTextLayout(part, PAPER.font(size, REGULAR))
+        option = lines.textOption()
+        option.setWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
+        lines.setTextOption(option)
+        lines.beginLayout()
+        while (one := lines.createLine()).isValid():
+            one.setLineWidth(PAPER.px(width))
+            found.append(part[one.textStart() : one.textStart() + one.textLength()].rstrip())
+        lines.endLayout()
+        found += [] if part else [""]
+    return found
+
+
+def legal_line() -> Text:
+    """What is said of the program on every page."""
+    return paragraph(terms.LEGAL_SENTENCE, 8.0, SEMIBOLD)
+
+
+class RoundedBox(QWidget):
+    """A frame with round corners, or a ground of a token, with a column in it."""
+
+    def __init__(self, *parts: Part | float, fill: str = "") -> None:
+        super().__init__()
+        self._fill = fill
+        column(*parts, within=self).setContentsMargins(*points(11.0, 8.0, 11.0, 8.0))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter, reach = QPainter(self), 0.4 * UNIT
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(PAPER.color(self._fill or "line"), 0.8 * UNIT))
+        if self._fill:
+            painter.setBrush(PAPER.color(self._fill))
+        painter.drawRoundedRect(QRectF(self.rect()).adjusted(reach, reach, -reach, -reach), 6 * UNIT, 6 * UNIT)
+
+
+class PaintedPart(QWidget):
+    """What is painted: at least so many points high, and up to ``most`` where there is room; as wide as there is."""
+
+    def __init__(
+        self, paint: Callable[[QPainter, QRectF], None], least: float, most: float = 0.0, width: float = 0.0
     ) -> None:
-        """One line that ends at ``right``."""
-        self.text(text, right - self.width_of(text, size_pt, weight), baseline, size_pt, weight, token)
+        super().__init__()
+        self._paint, self._height = paint, PAPER.px(most or least)
+        self.setMinimumHeight(PAPER.px(least))
+        self.setMaximumHeight(self._height)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        if width:
+            self.setFixedWidth(PAPER.px(width))
 
-    def paragraph(
-        self,
-        text: str,
-        left: float,
-        top: float,
-        width: float,
-        size_pt: float,
-        weight: int = REGULAR,
-        token: str = "text",
-    ) -> float:
-        """Wrapped text; returns its lower edge."""
-        self.painter.setFont(self.face(size_pt, weight))
-        self.painter.setPen(QColor(getattr(LIGHT, token)))
-        metrics = QFontMetricsF(self.painter.font())
-        leading = 1.45 * size_pt
-        top_pt = top
-        for line in self._lines(text, metrics, width * self.point):
-            self.painter.drawText(self.at(left, top_pt + size_pt), line)
-            top_pt += leading
-        return top_pt
+    def sizeHint(self) -> QSize:
+        return QSize(0, self._height)
 
-    def lines(self, text: str, width: float, size_pt: float, weight: int = REGULAR) -> list[str]:
-        """A text as it is broken into lines of a width in points; a word that is wider than a line is broken too."""
-        metrics = QFontMetricsF(self.face(size_pt, weight))
-        found = []
-        for line in self._lines(text, metrics, width * self.point):
-            while len(line) > 1 and metrics.horizontalAdvance(line) > width * self.point:
-                fits = len(line) - 1
-                while fits > 1 and metrics.horizontalAdvance(line[:fits]) > width * self.point:
-                    fits -= 1
-                found.append(line[:fits])
-                line = line[fits:]
-            found.append(line)
-        return found
-
-    def _lines(self, text: str, metrics: QFontMetricsF, width: float) -> list[str]:
-        lines, line = [], ""
-        for word in text.split(" "):
-            longer = f"{line} {word}" if line else word
-            if line and metrics.horizontalAdvance(longer) > width:
-                lines.append(line)
-                line = word
-            else:
-                line = longer
-        return [*lines, line]
-
-    def fitting(self, text: str, room: float, size_pt: float, weight: int = REGULAR, least_pt: float = 6.0) -> float:
-        """The size at which a line is no wider than ``room`` points; never below the least one."""
-        while size_pt > least_pt and self.width_of(text, size_pt, weight) > room:
-            size_pt -= 0.25
-        return size_pt
-
-    def said(self, text: str, top: float, size_pt: float = 9.0, weight: int = REGULAR, token: str = "text") -> float:
-        """A paragraph as wide as the page; returns its lower edge."""
-        return self.paragraph(text, self.left, top, self.right - self.left, size_pt, weight, token)
-
-    def small_line(self, text: str, baseline: float, size_pt: float = 8.0) -> None:
-        room = 0.99 * (self.right - self.left)
-        size_pt *= min(1.0, room / max(self.width_of(text, size_pt), 1.0))
-        self.text(text, self.left, baseline, size_pt, REGULAR, "text2")
-
-    def table(
-        self, columns: Sequence[PageColumn], rows: Sequence[Sequence[Cell]], top: float, *, heads: Sequence[str] = (),
-        head_pt: float = 8.5, pitch_pt: float = 15.5, drop_pt: float = 4.5,
-    ) -> float:  # fmt: skip
-        """Heads, then rows with a line above and below each, ``drop_pt`` under their words; the lower edge."""
-        y = top
-        if heads:
-            y = self._row(columns, [(head, MEDIUM, "text2") for head in heads], y + 8, head_pt) + drop_pt
-        for cells in rows:
-            self.rule(y)
-            y = self._row(columns, cells, y + pitch_pt - drop_pt) + drop_pt
-        self.rule(y)
-        return y
-
-    def _row(
-        self, columns: Sequence[PageColumn], cells: Sequence[Cell], baseline: float, size_pt: float = 0.0
-    ) -> float:
-        """One row; returns its last baseline."""
-        width, last = self.right - self.left, baseline
-        for column, cell in zip(columns, cells, strict=True):
-            text, weight, token = (cell, column.weight, column.token) if isinstance(cell, str) else cell
-            edge, size = self.left + column.at * width, size_pt or column.size_pt
-            if column.wraps and not size_pt:
-                low = self.paragraph(text, edge, baseline - size, self.right - edge, size, weight, token)
-                last = max(last, low - 0.45 * size)
-                continue
-            for number, line in enumerate(text.split("\n")):
-                fits = self.fitting(line, column.room * width, size, weight, LEAST_PT)
-                left = edge - self.width_of(line, fits, weight) if column.ends else edge
-                self.text(line, left, baseline + LINE_PT * number, fits, weight, token)
-                last = max(last, baseline + LINE_PT * number)
-        return last
-
-    def rule(self, y: float, left: float | None = None, right: float | None = None) -> None:
-        self.line((self.left if left is None else left, y), (self.right if right is None else right, y))
-
-    def line(self, start: Place, end: Place, token: str = "line", width: float = 0.6) -> None:
-        self.painter.setPen(QPen(QColor(getattr(LIGHT, token)), width * self.point))
-        self.painter.drawLine(self.at(*start), self.at(*end))
-
-    def fill(self, left: float, top: float, width: float, height: float, token: str, radius: float = 6.0) -> None:
-        """A rectangle of one colour with round corners."""
-        self.painter.setPen(Qt.PenStyle.NoPen)
-        self.painter.setBrush(QColor(getattr(LIGHT, token)))
-        self.painter.drawRoundedRect(self.box(left, top, width, height), radius * self.point, radius * self.point)
-
-    def card(self, left: float, top: float, width: float, height: float) -> None:
-        self.painter.setPen(QPen(QColor(LIGHT.line), 0.8 * self.point))
-        self.painter.setBrush(Qt.BrushStyle.NoBrush)
-        self.painter.drawRoundedRect(self.box(left, top, width, height), 6 * self.point, 6 * self.point)
-
-    def facts(self, pairs: Sequence[tuple[str, str]], top: float, shares: Sequence[float]) -> None:
-        """Small names over values, side by side; what is too wide for its share moves the next ones to the right."""
-        end = self.left
-        for (name, value), share in zip(pairs, shares, strict=True):
-            left = max(self.left + share * (self.right - self.left), end)
-            named = self.text(name, left, top + 9, 8.5, REGULAR, "text2")
-            end = max(named, self.text(value, left, top + 23, 10.0, MEDIUM)) + 8.0
-
-    def title(self, text: str, baseline: float, aside: str = "") -> float:
-        """Title of a section, with a small remark at the right or, where it is too long, below; returns how much lower
-        that is."""
-        end = self.text(text, self.left, baseline, 11.5, SEMIBOLD)
-        if end + 12.0 + self.width_of(aside, 8.5) <= self.right:
-            self.text_right(aside, self.right, baseline, 8.5, REGULAR, "text2")
-            return 0.0
-        return self.said(aside, baseline + 3.0, 8.5, REGULAR, "text2") - baseline - 3.0
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint(painter, QRectF(self.rect()))
 
 
-def on_nothing(point: float, paint: Callable[[Page], T]) -> T:
-    """What painting gives where nobody sees it."""
-    nowhere = QPicture()
-    with QPainter(nowhere) as painter:
-        return paint(Page(painter, point, is_trial=True))
+def session_curves(plot: SessionPlot, least: float, most: float) -> PaintedPart:
+    """Curves with their axes."""
+    return PaintedPart(lambda painter, box: paint_session(painter, CHART, plot, box), least, most)
 
 
-def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
-    """The lower edge that painting would have, in points."""
-    return on_nothing(page.point, paint)
+def _watermark_words() -> str:
+    return tr("SIMULATED")
 
 
-def paint_to_fit(page: Page, lowest_pt: float, paint: Callable[[Page], float]) -> None:
-    """Paint something no lower than that, smaller and in the middle where it would go further."""
-    share = min(1.0, lowest_pt / painted_on_nothing(page, paint))
-    page.painter.save()
-    page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
-    page.painter.scale(share, share)
-    paint(page)
-    page.painter.restore()
+class Page:
+    """Parts on the form's paper under the clinic's letterhead, smaller where there is too much."""
+
+    def __init__(self, form: ReportForm, body: QLayout, *, simulated: bool = False) -> None:
+        """Laid out and painted in the language that is spoken now."""
+        self._language = borrowed()
+        self.size_pt = PAPER_PT[form.paper]
+        self._watermark = _watermark_words() if simulated else ""
+        self._parts: list[tuple[QWidget, int, float]] = []
+        top, (width, height) = PAPER.px(TOP_PT), body_room(form)
+        if form.letterhead.is_set:
+            top += self._place(_letterhead(form.letterhead), top, width, height)
+        self._place(body, top, width, PAPER.px(self.size_pt[1] - FOOT_PT) - top, fills=True)
+
+    def _place(self, layout: QLayout, top: int, width: int, height: int, *, fills: bool = False) -> int:
+        """Lay parts out in their room; the height that they take."""
+        host, share = fit_parts(layout, width, height)
+        across = round(width / share)
+        host.resize(across, round(height / share) if fills else layout.minimumHeightForWidth(across))
+        self._parts.append((host, top, share))
+        return round(share * host.height())
+
+    @property
+    def size_mm(self) -> QSizeF | None:
+        """The paper's; None for A4, which Qt knows by name."""
+        return None if self.size_pt == PAPER_PT["a4"] else QSizeF(*(25.4 / 72.0 * side for side in self.size_pt))
+
+    def paint(self, painter: QPainter, point: float) -> None:
+        """Paint it with ``point`` painter units to a point."""
+        painter.save()
+        painter.scale(point / UNIT, point / UNIT)
+        if self._watermark:
+            self._paint_watermark(painter)
+        for part, top, share in self._parts:
+            painter.save()
+            painter.translate(PAPER.px(MARGIN_PT), top)
+            painter.scale(share, share)
+            with speaking(self._language):
+                render_parts(part, painter)
+            painter.restore()
+        painter.restore()
+
+    def _paint_watermark(self, painter: QPainter) -> None:
+        """SIMULATED across the page, behind everything: no copy of it passes for a patient's."""
+        painter.save()
+        painter.translate(*(0.5 * UNIT * side for side in self.size_pt))
+        painter.rotate(-55.0)
+        painter.setFont(PAPER.font(96.0, SEMIBOLD))
+        painter.setPen(PAPER.color("norm"))
+        box = QRectF(-2000.0, -400.0, 4000.0, 800.0)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, self._watermark)
+        painter.restore()
+
+
+def body_room(form: ReportForm) -> tuple[int, int]:
+    """Width and height of a page between its margins, under a usual letterhead where there is one."""
+    width, height = PAPER_PT[form.paper]
+    head = LOGO_PT[1] + 12.0 if form.letterhead.is_set else 0.0
+    across, down = points(width - 2 * MARGIN_PT, height - TOP_PT - FOOT_PT - head)
+    return across, down
+
+
+def render_parts(host: QWidget, painter: QPainter) -> None:
+    """Paint what lies on a widget that nobody sees."""
+    painter.setRenderHints(QPainter.RenderHint.Antialiasing | QPainter.RenderHint.TextAntialiasing)
+    host.render(painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawChildren)
+
+
+def fit_parts(layout: QLayout, width: int, height: int) -> tuple[QWidget, float]:
+    """Parts on a widget of their own, and the largest share, up to the whole size, at which they have room."""
+    host = QWidget()
+    host.setLayout(layout)
+    layout.setSizeConstraint(QLayout.SizeConstraint.SetNoConstraint)  # it would ask for the height of the least width
+
+    def has_room(share: float) -> bool:
+        across = round(width / share)
+        return layout.minimumSize().width() <= across and layout.minimumHeightForWidth(across) <= height / share
+
+    low, high = SMALLEST, 1.0
+    if has_room(high):
+        return host, high
+    while high - low > 0.005:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if has_room(middle) else (low, middle)
+    return host, low
+
+
+def _letterhead(head: Letterhead) -> QLayout:
+    """Logo at the left, name and address beside it."""
+    words = column(STRETCH, *(paragraph(one, 11.5, SEMIBOLD) for one in (head.name,) if one))
+    for one in head.address:
+        words.addWidget(paragraph(one, 8.0, REGULAR, "text2"))
+    words.addStretch(1)
+    logo = QImage.fromData(head.logo_png) if head.logo_png else QImage()
+    if logo.isNull():
+        return column(words, 4.0, rule(), 8.0)
+    share = min(LOGO_PT[0] / logo.width(), LOGO_PT[1] / logo.height())
+    size = logo.width() * share, logo.height() * share
+    picture = PaintedPart(lambda painter, box: painter.drawImage(box, logo), size[1], width=size[0])
+    return column(line((picture, 0, Qt.AlignmentFlag.AlignTop), 12.0, (words, 1)), 4.0, rule(), 8.0)

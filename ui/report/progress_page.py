@@ -1,30 +1,50 @@
-"""The progress report: the answer, the chart, the table, why sessions were left out. One page of A4."""
+"""The progress report: the answer, the chart, the table, why sessions were left out. One page."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
+
+from PySide6.QtWidgets import QLayout
 
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Progress
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
-from carpus.ui import numbers, terms
-from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui import numbers
+from carpus.ui.controls.layouts import STRETCH, Part
+from carpus.ui.controls.table import Cell, TableColumn
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.plot.course import paint_chart
-from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, PageColumn, painted_on_nothing
-from carpus.ui.report.session_page import paint_head
-from carpus.ui.translate import inside, tr
+from carpus.ui.report.page import (
+    CHART,
+    Body,
+    PaintedPart,
+    column,
+    facts,
+    legal_line,
+    paragraph,
+    rule,
+    session_head,
+    table,
+    title,
+)
+from carpus.ui.translate import tr
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
 from carpus.ui.words.by_hand import change_words, changes, day_words, full_name, verdict_words
 from carpus.ui.words.progress import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 
-CHART_HEIGHT_PT, LEAST_CHART_PT = 390.0, 180.0
+MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
 MOST_UNFAIR = 4
 MOST_IDS = 8
 MOST_BY_HAND, MOST_DAYS = 5, 3
 """So many changes, and days of what was taken once, are on the page; the table of them has all."""
-CHANGED = (PageColumn(0.0, MEDIUM), PageColumn(0.255, SEMIBOLD), PageColumn(0.47), PageColumn(1.0, ends=True))
-BY_HAND = (PageColumn(0.0, MEDIUM), PageColumn(0.372), PageColumn(1.0, SEMIBOLD, ends=True))
+CHANGED = (TableColumn(MEDIUM), TableColumn(SEMIBOLD), TableColumn(), TableColumn(ends=True))
+BY_HAND = (TableColumn(MEDIUM), TableColumn(), TableColumn(SEMIBOLD, ends=True))
+
+
+def _kind() -> str:
+    return tr("progress")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,39 +64,38 @@ class ProgressReport:
     def sessions(self) -> tuple[SessionFigures, ...]:
         return tuple(point.figures for point in self.progress.points)
 
+    @property
+    def kind(self) -> str:
+        return _kind()
 
-def paint_progress_page(page: Page, report: ProgressReport) -> None:
-    """Paint everything from the upper to the lower margin."""
+    def bodies(self) -> list[Body]:
+        return [partial(_body, self)]
+
+
+def _body(report: ProgressReport, number: str) -> QLayout:
     progress = report.progress
-    newest = progress.points[-1].figures
-    what = f"{terms.exercise_name(newest.exercise.id)}, {inside(terms.hand_name(newest.side))}"
-    y = paint_head(page, tr("Progress report"), report.pseudonym, what)
-    first, last = progress.points[0].figures, newest
+    first, newest = progress.points[0].figures, progress.points[-1].figures
     pairs = [
         (tr("Sessions"), str(len(progress.points))),
         (tr("First"), numbers.report_date(first.when)),
-        (tr("Last"), numbers.report_date(last.when)),
+        (tr("Last"), numbers.report_date(newest.when)),
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
-    page.facts(pairs, y + 5, (0.0, 0.2, 0.47, 0.76))
-    page.rule(y + 36)
     answer, basis = headline(progress)
-    width = page.right - page.left
-    y = page.said(answer, y + 44, 14.0, SEMIBOLD)
-    y = page.said(basis, y + 1, 9.5, REGULAR, "text2")
-    foot = A4_PT[1] - MARGIN_PT
-    below = painted_on_nothing(page, lambda trial: _paint_below(trial, progress, 22.0))
-    height = min(CHART_HEIGHT_PT, max(foot - 34 - 8 - below - y, LEAST_CHART_PT))
-    paint_chart(page.painter, page.style, page.box(page.left, y + 8, width, height), progress)
-    _paint_below(page, progress, y + height + 22)
-    paint_made_of(page, report.made_by, report.sessions)
-
-
-def paint_made_of(page: Page, made_by: str, sessions: Sequence[SessionFigures]) -> None:
-    """The legal sentence and what the page is made of, at its foot."""
-    foot = A4_PT[1] - MARGIN_PT
-    page.said(terms.LEGAL_SENTENCE, foot - 34, 8.0, SEMIBOLD)
-    page.small_line(made_of(made_by, sessions), foot + 8)
+    chart = PaintedPart(lambda painter, box: paint_chart(painter, CHART, box, progress), MIN_CHART_PT, MAX_CHART_PT)
+    return column(
+        session_head(newest, report.pseudonym, tr("Progress report"), number),
+        facts(pairs),
+        rule(),
+        column(paragraph(answer, 14.0, SEMIBOLD), paragraph(basis, 9.5, REGULAR, "text2")),
+        chart,
+        *_changes(progress),
+        *_changes_by_hand(progress),
+        _fairness(progress),
+        STRETCH,
+        column(legal_line(), paragraph(made_of(report.made_by, report.sessions), 8.0, REGULAR, "text2"), gap=3.0),
+        gap=7.0,
+    )
 
 
 def made_of(made_by: str, sessions: Sequence[SessionFigures]) -> str:
@@ -95,58 +114,50 @@ def made_of(made_by: str, sessions: Sequence[SessionFigures]) -> str:
     )
 
 
-def _paint_below(page: Page, progress: Progress, top: float) -> float:
-    """What stands under the chart; returns the lower edge."""
-    return _paint_fairness(page, progress, _paint_by_hand(page, progress, _paint_table(page, progress, top)) + 16)
-
-
-def _paint_table(page: Page, progress: Progress, top: float) -> float:
+def _changes(progress: Progress) -> list[Part]:
     first, last = progress.first, progress.last
     if first is None or last is None or not progress.comparisons:
-        return top
+        return []
     days = tr("{first} and {last}").format(
         first=numbers.day_beside(first.when, last.when), last=numbers.day_beside(last.when, first.when)
     )
     counts = tr("{before} and {after} repetitions").format(before=first.counted, after=last.counted)
-    page.title(tr("First to last session"), top, f"{days} · {counts}")
     rows = [
         (
             comparison_name(item, progress.comparisons), before_after(item), change_line(item),
-            (verdict_word(item.verdict), SEMIBOLD, verdict_token(item.verdict)),
+            Cell(verdict_word(item.verdict), SEMIBOLD, verdict_token(item.verdict)),
         )
         for item in progress.comparisons
     ]  # fmt: skip
-    return page.table(CHANGED, rows, top + 6, drop_pt=4.0)
+    shown = table(CHANGED, (), rows)
+    return [column(title(tr("First to last session"), f"{days} · {counts}"), shown, gap=2.0)]
 
 
-def _paint_by_hand(page: Page, progress: Progress, top: float) -> float:
+def _changes_by_hand(progress: Progress) -> list[Part]:
     """What was measured by hand, each way for itself; values of one day only in one paragraph."""
     if not progress.by_hand:
-        return top
-    page.title(tr("Entered by hand"), top + 22, tr("never joined with the figures above"))
+        return []
     changed = changes(progress.by_hand)
     rows = [(full_name(key), change_words(one), verdict_words(one)[1]) for key, one in changed[:MOST_BY_HAND]]
-    y = page.table(BY_HAND, rows, top + 28, drop_pt=4.0)
+    shown = table(BY_HAND, (), rows)
     known = {key for key, _ in changed[:MOST_BY_HAND]}
     rest = [one for one in progress.by_hand if one.key not in known]
     words = "; ".join(
         f"{numbers.day_month(day)}: {day_words([one for one in rest if one.day == day])}"
         for day in sorted({one.day for one in rest})[-MOST_DAYS:]
     )
-    return page.said(words, y + 4, 8.5) if words else y
+    below = [paragraph(words, 8.5)] if words else []
+    return [column(title(tr("Entered by hand"), tr("never joined with the figures above")), shown, *below, gap=2.0)]
 
 
-def _paint_fairness(page: Page, progress: Progress, top: float) -> float:
-    unfair = [point for point in progress.points if not point.fair]
-    page.title(tr("Fair comparison"), top + 6)
-    y = top + 11
-    for point in unfair[:MOST_UNFAIR]:
-        y = page.said(unfair_words(point, progress), y, 9.0)
-    for words in [said for point in progress.points if (said := doubt_words(point, progress))][:MOST_UNFAIR]:
-        y = page.said(words, y, 9.0, REGULAR, "warn")
+def _fairness(progress: Progress) -> QLayout:
+    unfair = [unfair_words(point, progress) for point in progress.points if not point.fair]
+    doubts = [words for point in progress.points if (words := doubt_words(point, progress))]
+    lines = [paragraph(words) for words in unfair[:MOST_UNFAIR]]
+    lines += [paragraph(words, token="warn") for words in doubts[:MOST_UNFAIR]]
     if not unfair:
-        y = page.said(tr("All sessions were set up alike."), y, 9.0)
+        lines.append(paragraph(tr("All sessions were set up alike.")))
     if once := counted_once_words(progress.earlier_results):
-        y = page.said(once, y, 9.0)
+        lines.append(paragraph(once))
     words = f"{tr('± is the spread between repetitions.')} {limit_words(progress.study)}"
-    return page.said(words, y + 2, 8.0, REGULAR, "text2")
+    return column(title(tr("Fair comparison")), *lines, paragraph(words, 8.0, REGULAR, "text2"), gap=2.0)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QMarginsF, QSize, Qt, QUrl, Signal
-from PySide6.QtGui import QColor, QDesktopServices, QPageLayout, QPageSize, QPainter, QPixmap
+from PySide6.QtGui import QColor, QDesktopServices, QPageLayout, QPageSize, QPainter, QPicture, QPixmap
 from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtWidgets import QFileDialog, QLabel, QScrollArea, QSizePolicy, QWidget
 
 from carpus.core.durable import replace_file
-from carpus.core.results.report_form import PAPER_PT, ReportForm
+from carpus.core.results.report_form import PAPER_PT
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
@@ -23,12 +24,11 @@ from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 from carpus.ui.report.panel import ReportPanel
-from carpus.ui.report.pdf import write_report
+from carpus.ui.report.pdf import POINTS_PER_INCH, report_pdf, store_pdf
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
-from carpus.ui.translate import tr
 
 WIDEST_PX = 980
 
@@ -125,8 +125,8 @@ class ReportScreen(QWidget):
         self._show_pages(report)
 
     def _show_pages(self, report: Report) -> None:
-        self.page.show_report(report)
-        count = len(pages_of(report))
+        self.page.show_pages(pages_of(report))
+        count = len(self.page.pages)
         if report.form.paper == "letter":
             pages = self.tr("One page of US Letter") if count == 1 else self.tr("{count} pages of US Letter")
         else:
@@ -175,9 +175,9 @@ class ReportScreen(QWidget):
         self.panel.keep_comment()
         if self._report is None:
             return
-        printer = printer_for(self._report)
+        printer = printer_for(self._report, len(self.page.pages))
         if QPrintDialog(printer, self).exec():
-            print_on(printer, self._report)
+            print_on(printer, self.page.pages)
             if printer.outputFileName():  # printed into a file, which goes with the session when that is erased
                 self._done(self._report, printer.outputFileName())
 
@@ -191,8 +191,13 @@ class ReportScreen(QWidget):
         if self.window().focusWidget() is self.save_button:
             self.setFocus(Qt.FocusReason.OtherFocusReason)  # a button that goes grey hands it to the next one: Print
         self.save_button.setEnabled(False)
-        write: Callable[[], Path] = lambda: _written(report, target, replace_asked)  # noqa: E731
-        self._background.run(write, lambda done: self._done(report, str(done)), self._failed, self)
+        content = report_pdf(self.page.pages)  # widgets live here; the disk may take its time elsewhere
+        self._background.run(
+            partial(_written, content, target, replace_asked),
+            lambda done: self._done(report, str(done)),
+            self._failed,
+            self,
+        )
 
     def _done(self, report: Report, path: str) -> None:
         self._save_again()
@@ -215,24 +220,19 @@ class ReportScreen(QWidget):
 
 def suggested_name(report: Report) -> str:
     """``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: the made-up name, when, and what was done."""
-    kinds: dict[type, str] = {
-        SessionReport: tr("report"), LetterReport: tr("letter"), HomeReport: tr("home"),
-        ProgressReport: tr("progress"),
-    }  # fmt: skip
-    kind = kinds[type(report)]
     name, when = report.pseudonym.replace(" ", "-"), max(figures.when for figures in report.sessions)
     if isinstance(report, ProgressReport):
-        return f"{name}_{when:%Y-%m-%d}_{kind}.pdf"
+        return f"{name}_{when:%Y-%m-%d}_{report.kind}.pdf"
     what = report.sessions[0].exercise.id.lower().replace("_", "-")
-    return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{kind}.pdf"
+    return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{report.kind}.pdf"
 
 
-def _written(report: Report, target: Path, replace_asked: bool) -> Path:
+def _written(content: bytes, target: Path, replace_asked: bool) -> Path:
     """Put in the place of an old file only where the person has agreed to that."""
     if replace_asked and target.exists():
-        replace_file(target, lambda place: write_report(report, place))
+        replace_file(target, lambda place: store_pdf(place, content))
     else:
-        write_report(report, target)
+        store_pdf(target, content)
     return target
 
 
@@ -242,19 +242,19 @@ class PagePreview(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self._report: Report | None = None
+        self.pages: list[Page] = []
         self._sheets: list[QLabel] = []
         policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
         theme.changed.connect(self._lay_out)
 
-    def show_report(self, report: Report) -> None:
-        self._report = report
+    def show_pages(self, pages: list[Page]) -> None:
+        self.pages = pages
         self._lay_out()
 
     def _page_size(self, width: int) -> QSize:
-        paper = PAPER_PT["a4" if self._report is None else self._report.form.paper]
+        paper = self.pages[0].size_pt if self.pages else PAPER_PT["a4"]
         wide = min(width - 16, round(WIDEST_PX * self._theme.text_scale))
         return QSize(wide, round(wide * paper[1] / paper[0]))
 
@@ -262,8 +262,7 @@ class PagePreview(QWidget):
         return True
 
     def heightForWidth(self, width: int) -> int:
-        count = 1 if self._report is None else len(pages_of(self._report))
-        return count * (self._page_size(width).height() + GAP_PX)
+        return max(len(self.pages), 1) * (self._page_size(width).height() + GAP_PX)
 
     def sizeHint(self) -> QSize:
         return QSize(800, self.heightForWidth(max(self.width(), 400)))
@@ -280,65 +279,65 @@ class PagePreview(QWidget):
     def _lay_out(self) -> None:
         """Paint each page anew, where anybody sees it."""
         self.updateGeometry()
-        if self._report is None or not self.isVisible():
+        if not self.pages or not self.isVisible():
             return
-        size, paints = self._page_size(self.width()), pages_of(self._report)
-        while len(self._sheets) < len(paints):
+        size = self._page_size(self.width())
+        while len(self._sheets) < len(self.pages):
             self._sheets.append(QLabel(self))
         for number, sheet in enumerate(self._sheets):
-            sheet.setVisible(number < len(paints))
+            sheet.setVisible(number < len(self.pages))
             left, top = (self.width() - size.width()) // 2, number * (size.height() + GAP_PX)
             sheet.setGeometry(left, top, size.width(), size.height())
-            if number < len(paints):
-                sheet.setPixmap(self._painted(paints[number], size, self._report.form))
+            if number < len(self.pages):
+                sheet.setPixmap(self._painted(self.pages[number], size))
 
-    def _painted(self, paint: Callable[[Page], None], size: QSize, form: ReportForm) -> QPixmap:
+    def _painted(self, page: Page, size: QSize) -> QPixmap:
         ratio = self.devicePixelRatioF()
         picture = QPixmap(size * ratio)
         picture.setDevicePixelRatio(ratio)
         picture.fill(QColor("#FFFFFF"))
         painter = QPainter(picture)
-        paint(Page(painter, size.width() / PAPER_PT[form.paper][0]))
+        page.paint(painter, size.width() / page.size_pt[0])
         painter.setPen(self._theme.color("line"))
         painter.drawRect(0, 0, size.width() - 1, size.height() - 1)
         painter.end()
         return picture
 
 
-POINTS_PER_INCH = 72.0
 SIZES = {"a4": QPageSize.PageSizeId.A4, "letter": QPageSize.PageSizeId.Letter}
 NAME = "Carpus report"
 """What a printer's list of jobs shows: nobody's name."""
 
 
-def printer_for(report: Report) -> QPrinter:
-    """The usual printer, set to the paper of the report."""
+def printer_for(report: Report, count: int) -> QPrinter:
+    """The usual printer, set to the paper of a report with so many pages."""
     printer = QPrinter(QPrinter.PrinterMode.HighResolution)
     size = QPageSize(SIZES[report.form.paper])
     printer.setPageLayout(QPageLayout(size, QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0)))
     printer.setFullPage(True)
     printer.setDocName(NAME)
-    pages = len(pages_of(report))
-    printer.setFromTo(1, pages)
+    printer.setFromTo(1, count)
     return printer
 
 
-def print_on(printer: QPrinter, report: Report) -> None:
+def print_on(printer: QPrinter, pages: Sequence[Page]) -> None:
     """Print the pages that were asked for, smaller where the printer has other paper than the report."""
     first = max(printer.fromPage(), 1)
-    last = printer.toPage() or len(pages_of(report))
+    last = printer.toPage() or len(pages)
     printer.setFullPage(True)
     there = printer.pageLayout().pageSize().size(QPageSize.Unit.Point)
-    width, height = PAPER_PT[report.form.paper]
+    width, height = pages[0].size_pt
     share = min(1.0, there.width() / (width - 1.0), there.height() / (height - 1.0))
     painter = QPainter()
     if not painter.begin(printer):
         return
     try:
-        for number, paint in enumerate(pages_of(report)[first - 1 : last]):
+        for number, page in enumerate(pages[first - 1 : last]):
             if number:
                 printer.newPage()
-            point = printer.resolution() / POINTS_PER_INCH
-            paint(Page(painter, point * share))
+            picture = QPicture()  # onto a printer itself Qt paints a widget as an image
+            with QPainter(picture) as recorder:
+                page.paint(recorder, share * picture.logicalDpiX() / POINTS_PER_INCH)
+            painter.drawPicture(0, 0, picture)
     finally:
         painter.end()

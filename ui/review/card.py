@@ -15,10 +15,18 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import NO_LIMIT_PX, STRETCH, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
+from carpus.ui.controls.table import Table, TableColumn
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, plain_tooltip
-from carpus.ui.controls.words_table import WordsTable
+from carpus.ui.report.table_cells import (
+    FINGER_COLUMNS,
+    FURTHER_COLUMNS,
+    RANGE_COLUMNS,
+    finger_cells,
+    finger_heads,
+    further_cells,
+    range_cells,
+)
 from carpus.ui.review.reviewed import Reviewed
-from carpus.ui.review.tables import FurtherTable, HandTable, RangeTable
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
 from carpus.ui.words.active_passive import active_passive
@@ -143,21 +151,24 @@ class ResultTables(ScrollArea):
     def __init__(self, theme: Theme) -> None:
         column = ScrolledColumn()
         super().__init__(column)
-        self.range = RangeTable(theme)
-        self.hand = HandTable(theme)
-        self.further = FurtherTable(theme)
+        self.range = Table(theme)
+        self.hand = Table(theme, gap=10, pitch=1)
+        self.further_title = Text(theme, "", 14, SEMIBOLD)
+        self.further = Table(theme, gap=16, pitch=2)
         self.ways_said = Text(theme, "", 16, SEMIBOLD, wrap=True)
-        self.ways = WordsTable(theme)
+        self.ways = Table(theme)
         self.ways_note = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         self._ways = (self.ways_said, self.ways, self.ways_note)
         self.limits = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         self.notes = Text(theme, "", 14, REGULAR, wrap=True)
         self.results = ResultChoice(theme)
         self._column = in_column(gap=4, margins=(0, 0, 0, 0), within=column)
-        for widget in (self.range, self.hand, *self._ways, self.further, self.limits, self.notes, self.results):
+        self._further = QWidget()
+        in_column(self.further_title, self.further, gap=0, margins=(0, 0, 0, 0), within=self._further)
+        for widget in (self.range, self.hand, *self._ways, self._further, self.limits, self.notes, self.results):
             self._column.addWidget(widget)
         self._column.addStretch(1)
-        for hidden in (self.hand, self.limits, self.further, *self._ways):
+        for hidden in (self.hand, self.limits, self._further, *self._ways):
             hidden.hide()  # until there is a session that has it
 
     def show_places(self, *, whole_hand: bool) -> None:
@@ -166,23 +177,24 @@ class ResultTables(ScrollArea):
         self.range.setVisible(not whole_hand)
 
     def needed_px(self) -> int:
-        needed, gap = 0 if self.range.isHidden() else self.range.sizeHint().height(), self._column.spacing()
-        shown: list[QWidget] = [widget for widget in self._ways if not widget.isHidden()]
-        shown += [self.further] if self.further.rows else []
-        shown += [self.results] if self.results.buttons else []
-        for widget in shown:
-            needed += widget.sizeHint().height() + gap
+        width, needed = self.viewport().width(), 0
+        for widget in (self.range, *self._ways, self._further, self.results):
+            if not widget.isHidden():
+                high = widget.heightForWidth(width) if widget.hasHeightForWidth() else widget.sizeHint().height()
+                needed += high + self._column.spacing()
         # A line for notes, also while nobody knows yet whether there are any: nothing jumps when they are read.
-        return needed + self.notes.fontMetrics().height() + 2 * gap
+        return needed + self.notes.fontMetrics().height() + self._column.spacing()
 
     def show_session(self, reviewed: Reviewed) -> None:
         figures = reviewed.figures
         previous, other = previous_of(reviewed.history, figures), other_hand_of(reviewed.history, figures)
         if reviewed.is_hand:
-            self.hand.show_rows(column_heads(figures, previous, other), finger_rows(figures, previous, other))
+            heads, rows = column_heads(figures, previous, other), finger_rows(figures, previous, other)
+            self.hand.show_rows(FINGER_COLUMNS, finger_heads(heads), [finger_cells(row) for row in rows])
             self.limits.setText(limits_words(figures))
         else:
-            self.range.show_rows(column_names(figures, previous, other), table_rows(figures, previous, other))
+            names, movements = column_names(figures, previous, other), table_rows(figures, previous, other)
+            self.range.show_rows(RANGE_COLUMNS, range_cells(names), [range_cells(row) for row in movements])
         self.range.setVisible(not reviewed.is_hand and bool(self.range.rows))
         self._show_active_passive(reviewed)
         self._show_further(figures, previous, is_hand=reviewed.is_hand)
@@ -193,7 +205,7 @@ class ResultTables(ScrollArea):
         found = active_passive(reviewed.figures, reviewed.by_hand)
         if found is not None:
             self.ways_said.setText(found.said)
-            self.ways.show_rows(found.heads, found.rows)
+            self.ways.show_rows([TableColumn()] * len(found.heads), found.heads, found.rows)
             self.ways_note.setText(found.note)
         for place, widget in enumerate(self._ways):
             self._column.removeWidget(widget)  # what was done both ways is the first to be read
@@ -205,11 +217,13 @@ class ResultTables(ScrollArea):
     def _show_further(self, figures: SessionFigures, previous: SessionFigures | None, *, is_hand: bool) -> None:
         rows = further_rows(figures, previous)
         day = numbers.day_beside(previous.when, figures.when) if previous is not None else ""
-        self.further.show_rows(further_title(figures), day, rows)
+        self.further_title.setText(further_title(figures))
+        self.further.show_rows(FURTHER_COLUMNS, ("", "", day) * 2, further_cells(rows, 2))
+        self._further.setVisible(bool(rows))
         if rows and is_hand:  # what the exercise is about comes first
-            self._column.removeWidget(self.further)
+            self._column.removeWidget(self._further)
             last = self._column.count() - 1  # before the stretch, after what explains the table
-            self._column.insertWidget(0 if figures.exercise.is_task else last, self.further)
+            self._column.insertWidget(0 if figures.exercise.is_task else last, self._further)
 
     def _show_notes(self, figures: SessionFigures) -> None:
         said = "  ".join(f"{numbers.clock(time_s)} “{text}”" for time_s, text in figures.notes)
