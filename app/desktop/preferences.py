@@ -14,11 +14,8 @@ from carpus.app.of_file import read_figures
 from carpus.app.settings import (
     FirstStartSettings,
     LockSettings,
-    PatientSettings,
     RecordsSettings,
-    ScreenSettings,
     Settings,
-    StreamSettings,
     keep_preferences,
 )
 from carpus.core.errors import CarpusFault
@@ -29,6 +26,14 @@ from carpus.ui.theme import Theme, ThemeName
 if TYPE_CHECKING:
     from carpus.ui.settings.flow import SettingsFlow
     from carpus.ui.settings.screen import SettingsScreen
+
+
+PLACES = {
+    "theme": ("screen", "theme"), "text_scale": ("screen", "text_scale"), "language": ("screen", "language"),
+    "research": ("screen", "research"), "therapist": ("report", "therapist"), "angle_order": ("report", "angle_order"),
+    "stream": ("stream", "on"), "patient_sound": ("patient", "sound"), "start": ("recording", "start"),
+}  # fmt: skip
+"""Where in the settings each preference stands: the part, and its field."""
 
 
 class PreferenceKeeper(QObject):
@@ -69,18 +74,8 @@ class PreferenceKeeper(QObject):
         from carpus.ui.settings.flow import SettingsFlow
 
         settings, context = self._settings, self._journey.context
-        chosen = Preferences(
-            settings.screen.theme,
-            settings.screen.text_scale,
-            self._shown_folder,
-            settings.report.therapist,
-            settings.report.angle_order,
-            settings.stream.on,
-            settings.patient.sound,
-            settings.screen.language,
-            settings.screen.research,
-            settings.recording.start,
-        )
+        now = {name: getattr(getattr(settings, part), of) for name, (part, of) in PLACES.items()}
+        chosen = Preferences(data_folder=self._shown_folder, **now)
         return SettingsFlow(context, chosen, settings.updates.folder, read_figures)
 
     def _tell_start(self) -> None:
@@ -91,23 +86,14 @@ class PreferenceKeeper(QObject):
         if other_language and (why := self.keeps_language()):
             self.screen.keep_language(self._settings.screen.language, why)
             return
-        before = self._settings
-        recording = replace(before.recording, start=chosen.start)
+        before = settings = self._settings
+        for name, (part, of) in PLACES.items():
+            changed = replace(getattr(settings, part), **{of: getattr(chosen, name)})
+            settings = replace(settings, **{part: changed})
         if chosen.data_folder != self._shown_folder:
             self._shown_folder = chosen.data_folder
-            recording = replace(recording, folder=chosen.data_folder)
-        self._settings = replace(
-            self._settings,
-            screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.language, chosen.research),
-            recording=recording,
-            report=replace(
-                self._settings.report,
-                therapist=chosen.therapist,
-                angle_order=chosen.angle_order,
-            ),
-            stream=StreamSettings(chosen.stream),
-            patient=PatientSettings(chosen.patient_sound),
-        )
+            settings = replace(settings, recording=replace(settings.recording, folder=chosen.data_folder))
+        self._settings = settings
         self._theme.choose(self._theme_of(self._settings), chosen.text_scale)
         self._journey.way.show_research(on=chosen.research)
         if "live" in self._journey.way.flows:
@@ -140,21 +126,10 @@ class PreferenceKeeper(QObject):
         except CarpusFault as fault:
             self._journey.messages.fault(fault)
 
-    def keep(
-        self,
-        *,
-        backup: BackupSettings | None = None,
-        records: RecordsSettings | None = None,
-        lock: LockSettings | None = None,
-        first_start: FirstStartSettings | None = None,
-    ) -> None:
-        """Store what a card of its own has changed."""
-        now = self._settings
-        self._settings = replace(
-            now, backup=backup or now.backup, records=records or now.records, lock=lock or now.lock,
-            first_start=first_start or now.first_start,
-        )  # fmt: skip
-        self._store(now)
+    def keep(self, **changed: BackupSettings | RecordsSettings | LockSettings | FirstStartSettings) -> None:
+        """Store the parts of the settings that a card of its own has changed."""
+        before, self._settings = self._settings, replace(self._settings, **changed)  # type: ignore[arg-type]
+        self._store(before)
 
     def follow_system(self) -> None:
         """The system changed between light and dark."""

@@ -32,6 +32,7 @@ from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, Side
 from carpus.core.words import Words
+from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
@@ -54,7 +55,7 @@ from carpus.ui.ports import Preferences
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
 from carpus.ui.records.erasing import EraseSheet
-from carpus.ui.records.lists import DeedLine, ListedRecord, LogSheet, RecordsSheet
+from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
 from carpus.ui.report.gather import progress_report, session_report
 from carpus.ui.report.letter_page import LetterReport
@@ -131,7 +132,7 @@ ERASED_PATIENT = replace(
 LAST_BACKUP = datetime(2026, 11, 15, 18, 4)
 KEPT = "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025"
 DEEDS = [
-    DeedLine(number, datetime(2026, 11, 20, 9, number), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
+    (numbers.report_date(datetime(2026, 11, 20, 9, number)), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
     for number, (what, detail) in enumerate(
         (("recorded", ""), ("opened", ""), ("exported", "files 7 · by command"), ("erased", "files 4, made 3")), 1
     )

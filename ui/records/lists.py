@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from datetime import datetime
 from typing import TypeVar
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -143,12 +142,14 @@ class RecordLists(QObject):
         entries, names = found
         self.log_sheet.begin([self._deed(entry, names) for entry in entries])
 
-    def _deed(self, entry: LoggedDeed, names: dict[str, str]) -> DeedLine:
+    def _deed(self, entry: LoggedDeed, names: dict[str, str]) -> tuple[str, ...]:
+        """When, who, what, of whom, details."""
         of_whom = names.get(entry.subject, entry.subject[:8])
         by = self.tr("by command") if entry.by == "command" else ""
         facts = ", ".join(filter(None, (self._fact(name, value) for name, value in entry.facts.items())))
         detail = " · ".join(part for part in (facts, by) if part)
-        return DeedLine(entry.number, entry.when.astimezone(), entry.who, self._words(entry.did), of_whom, detail)
+        when = numbers.report_date(entry.when.astimezone())
+        return when, entry.who or numbers.UNKNOWN, self._words(entry.did), of_whom, detail
 
     def _fact(self, name: str, value: object) -> str:
         """What is known of a deed, in words; empty for what says nothing to a person."""
@@ -192,18 +193,6 @@ class ListedRecord:
     title: str
     detail: str
     archived: bool
-
-
-@dataclass(frozen=True, slots=True)
-class DeedLine:
-    """A line of the log, in words."""
-
-    number: int
-    when: datetime
-    who: str
-    what: str
-    of_whom: str
-    detail: str
 
 
 class RecordsSheet(Sheet):
@@ -290,12 +279,11 @@ class LogSheet(Sheet):
         self.set_default(self.done)
         fill(self.card.body, self.table, (self.done, 0, Qt.AlignmentFlag.AlignRight))
 
-    def begin(self, deeds: Sequence[DeedLine]) -> None:
+    def begin(self, deeds: Sequence[Sequence[str]]) -> None:
         self.title.setText(self.tr("Log: {n} lines").format(n=len(deeds)))
         self.table.setRowCount(len(deeds))
         for row, deed in enumerate(reversed(deeds)):
-            when = numbers.report_date(deed.when)
-            for column, text in enumerate((when, deed.who or numbers.UNKNOWN, deed.what, deed.of_whom, deed.detail)):
+            for column, text in enumerate(deed):
                 self.table.setItem(row, column, QTableWidgetItem(text))
         self.open()
 
