@@ -70,18 +70,17 @@ def mask_paper(
 
 
 def find_blobs(
-    labels: cython.int[:, ::1],
-    count: cython.int,
+    mask: cython.const[cython.uchar][:, :],
     radius_at: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     min_share: cython.double,
     max_share: cython.double,
-) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Find the labelled blobs that are about as large as a disc, touching discs taken apart.
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Find the blobs of a mask that are about as large as a disc, touching discs taken apart.
 
     Parameters
     ----------
-    labels, count
-        (H, W), 1 to ``count`` for the pixels of each blob, else 0. Changed in place: parts get labels of their own.
+    mask
+        (H, W), 0 where there is none. Pixels that touch, also at a corner, are of one blob.
     radius_at
         Gives the radius (N,) in pixels of a disc facing the camera at places (N, 2).
     min_share, max_share
@@ -89,57 +88,110 @@ def find_blobs(
 
     Returns
     -------
-    label (B,), centre (B, 2) u and v, area (B,) in whole pixels, radius (B,) of a disc there
+    labels (H, W) of all, 0 for none; of the B blobs that fit label (B,), centre (B, 2) u and v, area (B,) in whole
+    pixels and radius (B,) of a disc there
     """
-    # OpenCV's connectedComponentsWithStats counts the background too, which takes three times as long.
-    total: cython.longlong[:, ::1] = np.zeros((count, 3), dtype=np.int64)  # pixels, their u, their v
-    box: cython.int[:, ::1] = np.zeros((count, 4), dtype=np.int32)  # left, right, top, bottom; the last just beyond
-    for v in range(labels.shape[0]):
-        for u in range(labels.shape[1]):
-            k = labels[v, u] - 1
-            if k < 0:
-                continue
-            if k >= count:
-                raise ValueError("a label is larger than their number")
-            if total[k, 0] == 0:
-                box[k, 0], box[k, 2] = u, v
-            total[k, 0] += 1
-            total[k, 1] += u
-            total[k, 2] += v
-            box[k, 0], box[k, 1], box[k, 3] = min(box[k, 0], u), max(box[k, 1], u + 1), v + 1
-    most: cython.int = count * MAX_PARTS
-    label, centre, area, radius = np.empty(most, dtype=np.int32), np.empty((most, 2)), np.empty(most), np.empty(most)
-    number: cython.int[::1] = label
-    place_px: cython.double[:, ::1] = centre
-    area_px: cython.double[::1] = area
-    radius_px: cython.double[::1] = radius
+    height, width = mask.shape[0], mask.shape[1]
+    run: cython.int[:, ::1] = np.empty((height * ((width + 1) // 2), 5), dtype=np.int32)
+    runs = find_runs(mask, run)
+    count: cython.int = 0
+    for i in range(runs):
+        if run[i, 3] == i:
+            count += 1
+    labels, numbers = np.zeros((height, width), dtype=np.int32), np.empty(count * MAX_PARTS, dtype=np.int32)
+    label: cython.int[:, ::1] = labels
+    number: cython.int[::1] = numbers
+    # Pixels, their u and their v summed; left, top and just beyond right and bottom.
+    total: cython.longlong[:, ::1] = np.zeros((count, 7), dtype=np.int64)
+    following = 0
+    for i in range(runs):
+        v, left, right = run[i, 0], run[i, 1], run[i, 2]
+        if run[i, 3] == i:
+            total[following, 3], total[following, 4] = left, v
+            following += 1
+            run[i, 4] = following
+        else:
+            run[i, 4] = run[first_run(run, i), 4]
+        k = run[i, 4] - 1
+        total[k, 0] += right - left
+        total[k, 1] += (right - left) * (left + right - 1) // 2
+        total[k, 2] += (right - left) * v
+        total[k, 3], total[k, 5], total[k, 6] = min(total[k, 3], left), max(total[k, 5], right), v + 1
+        for u in range(left, right):
+            label[v, u] = k + 1
+    facts = np.empty((count * MAX_PARTS, 4))
+    fact: cython.double[:, ::1] = facts  # u, v, area, radius
     for k in range(count):
-        area_px[k] = max(total[k, 0], 1)
-        place_px[k, 0], place_px[k, 1] = total[k, 1] / area_px[k], total[k, 2] / area_px[k]
-    radius[:count] = radius_at(centre[:count])
+        fact[k, 2] = total[k, 0]
+        fact[k, 0], fact[k, 1] = total[k, 1] / fact[k, 2], total[k, 2] / fact[k, 2]
+    facts[:count, 3] = radius_at(facts[:count, :2])
 
     sums: cython.longlong[:, ::1] = np.empty((MAX_PARTS, 6), dtype=np.int64)
     long_side: cython.double = LONG_SIDE_RADII
     blurred: cython.double = BLURRED_EDGE_PX
-    following = count
     for k in range(count):
-        left, right, top, bottom = box[k, 0], box[k, 1], box[k, 2], box[k, 3]
-        if max(right - left, bottom - top) > long_side * (radius_px[k] + blurred):
-            parts = split_blob(labels[top:bottom, left:right], k + 1, following + 1, radius_px[k], sums)
-            for i in range(parts):
-                to = following + i - 1 if i else k
-                area_px[to], radius_px[to] = sums[i, 0], radius_px[k]
-                place_px[to, 0] = (sums[i, 1] + left * sums[i, 0]) / area_px[to]
-                place_px[to, 1] = (sums[i, 2] + top * sums[i, 0]) / area_px[to]
+        left_px, top_px, right_px, bottom_px = total[k, 3], total[k, 4], total[k, 5], total[k, 6]
+        if max(right_px - left_px, bottom_px - top_px) > long_side * (fact[k, 3] + blurred):
+            box = label[top_px:bottom_px, left_px:right_px]
+            pixels = np.zeros((4, total[k, 0]), dtype=np.int32)
+            parts = split_blob(box, k + 1, following + 1, fact[k, 3], pixels, sums)
+            for part in range(parts):
+                to = following + part - 1 if part else k
+                fact[to, 2], fact[to, 3] = sums[part, 0], fact[k, 3]
+                fact[to, 0] = (sums[part, 1] + left_px * sums[part, 0]) / fact[to, 2]
+                fact[to, 1] = (sums[part, 2] + top_px * sums[part, 0]) / fact[to, 2]
             following += max(parts - 1, 0)
 
     kept = 0
     for k in range(following):
-        if min_share <= area_px[k] / (M_PI * (radius_px[k] * radius_px[k])) <= max_share:
-            number[kept], area_px[kept], radius_px[kept] = k + 1, area_px[k], radius_px[k]
-            place_px[kept, 0], place_px[kept, 1] = place_px[k, 0], place_px[k, 1]
+        if min_share <= fact[k, 2] / (M_PI * (fact[k, 3] * fact[k, 3])) <= max_share:
+            number[kept] = k + 1
+            fact[kept, :] = fact[k, :]
             kept += 1
-    return label[:kept], centre[:kept], area[:kept], radius[:kept]
+    return labels, numbers[:kept], facts[:kept, :2], facts[:kept, 2], facts[:kept, 3]
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def find_runs(mask: cython.const[cython.uchar][:, :], run: cython.int[:, ::1]) -> cython.int:
+    """Find the runs of pixels side by side, and return how many.
+
+    ``run`` (N, 5) becomes row, left, just beyond right, and a run of the same blob, of the first one itself.
+    """
+    width = mask.shape[1]
+    count: cython.int = 0
+    above: cython.int = 0  # the first run of the row above that may touch
+    for v in range(mask.shape[0]):
+        begin = count
+        u: cython.int = 0
+        while u < width:
+            if mask[v, u] == 0:
+                u += 1
+                continue
+            left = u
+            while u < width and mask[v, u] != 0:
+                u += 1
+            run[count, 0], run[count, 1], run[count, 2], run[count, 3] = v, left, u, count
+            while above < begin and run[above, 2] < left:
+                above += 1
+            other = above
+            while other < begin and run[other, 1] <= u:
+                one, two = first_run(run, count), first_run(run, other)
+                run[max(one, two), 3] = min(one, two)
+                other += 1
+            count += 1
+        above = begin
+    return count
+
+
+@cython.cfunc
+@cython.exceptval(check=False)
+def first_run(run: cython.int[:, ::1], i: cython.int) -> cython.int:
+    """Look up the first run of the blob that a run is of, and shorten the way there."""
+    while run[i, 3] != i:
+        run[i, 3] = run[run[i, 3], 3]
+        i = run[i, 3]
+    return i
 
 
 @cython.cfunc
@@ -148,24 +200,23 @@ def split_blob(
     label: cython.int,
     following: cython.int,
     radius_px: cython.double,
+    pixels: cython.int[:, ::1],
     sums: cython.longlong[:, ::1],
 ) -> cython.int:
     """Take a blob apart that is longer than a disc of this radius, and return in how many parts, 0 for none.
 
     ``labels`` (H, W) of its box: the first part keeps ``label``, the others are numbered from ``following`` on. Their
     sums are put into ``sums``, see :func:`sum_parts`. A blob that is one disc or far more than a few stays whole.
+    ``pixels`` (4, P), all zero, is room for its P pixels.
     """
+    u, v, part, best = pixels[0], pixels[1], pixels[2], pixels[3]
     # Its pixels, and the main axis of their scatter.
-    u: cython.int[::1] = np.empty(labels.shape[0] * labels.shape[1], dtype=np.int32)
-    v: cython.int[::1] = np.empty(labels.shape[0] * labels.shape[1], dtype=np.int32)
     count: cython.int = 0
     for j in range(labels.shape[0]):
         for i in range(labels.shape[1]):
             if labels[j, i] == label:
                 u[count], v[count] = i, j
                 count += 1
-    part: cython.uchar[::1] = np.zeros(count, dtype=np.uint8)
-    best: cython.uchar[::1] = np.zeros(count, dtype=np.uint8)
     sum_parts(u, v, part, sums[:1])
     n: cython.double = sums[0, 0]
     mean_u, mean_v = sums[0, 1] / n, sums[0, 2] / n
@@ -188,7 +239,6 @@ def split_blob(
     if not length <= most + 1:
         return 0
     longest: cython.int = max(2, cython.cast(cython.int, length))
-    middle: cython.double[:, ::1] = np.empty((most, 2))
     least: cython.double = INFINITY
     found: cython.int = 0
     for parts in range(max(2, longest - 1), min(longest, most) + 1):
@@ -196,11 +246,12 @@ def split_blob(
             for p in range(count):
                 part[p] = u[p] * across + v[p] * down > 0.5 * (high + low)
         else:
+            middle: cython.double[:, ::1] = np.empty((parts, 5))
             gap = (high - low - 2.0 * radius_px) / (parts - 1)
             for k in range(parts):
                 along = low + radius_px - (mean_u * across + mean_v * down) + gap * k
                 middle[k, 0], middle[k, 1] = mean_u + along * across, mean_v + along * down
-            if not share_out(u, v, part, middle[:parts]):
+            if not share_out(u, v, part, middle):
                 continue
         sum_parts(u, v, part, sums[:parts])
         elongation = mean_elongation(sums[:parts])
@@ -217,19 +268,18 @@ def split_blob(
 
 @cython.cfunc
 def share_out(
-    u: cython.int[::1], v: cython.int[::1], part: cython.uchar[::1], middle: cython.double[:, ::1]
+    u: cython.int[::1], v: cython.int[::1], part: cython.int[::1], middle: cython.double[:, ::1]
 ) -> cython.bint:
-    """Give each pixel to the nearest of N middles (N, 2), and move these to their pixels, until no pixel changes.
+    """Give each pixel to the nearest of N middles, and move these to their pixels, until no pixel changes.
 
-    False where a middle would have no pixel.
+    ``middle`` (N, 5) u and v, and room for sums of 1, u and v. False where a middle would have no pixel.
     """
-    total: cython.double[:, ::1] = np.empty((middle.shape[0], 3))
     rounds: cython.int = SPLIT_ROUNDS
     for turn in range(rounds):
         is_settled: cython.bint = turn > 0
-        total[:] = 0.0
+        middle[:, 2:] = 0.0
         for p in range(part.shape[0]):
-            nearest: cython.uchar = 0
+            nearest: cython.int = 0
             least: cython.double = INFINITY
             for k in range(middle.shape[0]):
                 x, y = u[p] - middle[k, 0], v[p] - middle[k, 1]
@@ -238,13 +288,13 @@ def share_out(
                     nearest, least = k, apart
             is_settled = is_settled and part[p] == nearest
             part[p] = nearest
-            total[nearest, 0] += 1.0
-            total[nearest, 1] += u[p]
-            total[nearest, 2] += v[p]
+            middle[nearest, 2] += 1.0
+            middle[nearest, 3] += u[p]
+            middle[nearest, 4] += v[p]
         for k in range(middle.shape[0]):
-            if total[k, 0] == 0.0:
+            if middle[k, 2] == 0.0:
                 return False
-            middle[k, 0], middle[k, 1] = total[k, 1] / total[k, 0], total[k, 2] / total[k, 0]
+            middle[k, 0], middle[k, 1] = middle[k, 3] / middle[k, 2], middle[k, 4] / middle[k, 2]
         if is_settled:
             break
     return True
@@ -252,9 +302,7 @@ def share_out(
 
 @cython.cfunc
 @cython.exceptval(check=False)
-def sum_parts(
-    u: cython.int[::1], v: cython.int[::1], part: cython.uchar[::1], out: cython.longlong[:, :]
-) -> cython.void:
+def sum_parts(u: cython.int[::1], v: cython.int[::1], part: cython.int[::1], out: cython.longlong[:, :]) -> cython.void:
     """Sum 1, u, v, u^2, v^2 and u v over the pixels of each part, into ``out`` (N, 6)."""
     out[:] = 0
     for p in range(part.shape[0]):
@@ -349,9 +397,8 @@ class BlobWindows:
         self.check_picture(hsv.shape[0], hsv.shape[1])
         if hsv.shape[2] != 3 or cell.shape[0] != 65536 or is_skin.shape[0] != 65536 or reference.shape[0] != 256:
             raise ValueError("a picture of three channels is wanted, and tables of 65536 colours in 256 cells")
-        similarity, skin_share = np.zeros(self.count), np.empty(self.count)
-        alike: cython.double[::1] = similarity
-        share: cython.double[::1] = skin_share
+        found = np.zeros((2, self.count))
+        out: cython.double[:, ::1] = found
         counts: cython.double[::1] = np.empty(256)
         for b in range(self.count):
             counts[:] = 0.0
@@ -370,10 +417,10 @@ class BlobWindows:
                         rim += 1.0
             for i in range(256):
                 if counts[i] > 0.0:
-                    alike[b] += sqrt(counts[i]) * reference[i]
-            alike[b] /= sqrt(max(area, 1))
-            share[b] = skin / max(rim, 1.0)
-        return similarity, skin_share
+                    out[0, b] += sqrt(counts[i]) * reference[i]
+            out[0, b] /= sqrt(max(area, 1))
+            out[1, b] = skin / max(rim, 1.0)
+        return found[0], found[1]
 
     def locate_centres(
         self, color: cython.const[cython.uchar][:, :, :]
@@ -404,9 +451,8 @@ class BlobWindows:
         high: cython.double = PAPER_HIGH
         min_rim: cython.double = MIN_RIM
         min_core: cython.double = MIN_CORE
-        centre, size = np.empty((self.count, 2)), np.empty(self.count)
-        centre_px: cython.double[:, ::1] = centre
-        area_px: cython.double[::1] = size
+        found = np.empty((self.count, 3))
+        out: cython.double[:, ::1] = found
         for b in range(self.count):
             v0, u0 = self.middle[b, 0], self.middle[b, 1]
             whose: cython.uchar[::1] = self.whose[b]
@@ -454,9 +500,9 @@ class BlobWindows:
                     sum_1 += share
                     sum_u += share * offset[p, 1]
                     sum_v += share * offset[p, 0]
-            area_px[b] = max(sum_1, 1e-9)
-            centre_px[b, 0], centre_px[b, 1] = u0 + sum_u / area_px[b], v0 + sum_v / area_px[b]
-        return centre, size
+            out[b, 2] = max(sum_1, 1e-9)
+            out[b, 0], out[b, 1] = u0 + sum_u / out[b, 2], v0 + sum_v / out[b, 2]
+        return found[:, :2], found[:, 2]
 
     def read_depths(
         self, depth_raw: cython.const[cython.ushort][:, :], unit_m: cython.double, sensor: Any
@@ -481,9 +527,8 @@ class BlobWindows:
         averages: cython.bint = sensor.averages
         metres: cython.double[::1] = np.empty(near)
         ordered: cython.double[::1] = np.empty(self.core)
-        depth, spread = np.full((2, self.count), NAN)
-        depth_m: cython.double[::1] = depth
-        sd_m: cython.double[::1] = spread
+        found = np.full((2, self.count), NAN)
+        out: cython.double[:, ::1] = found
         for b in range(self.count):
             own: cython.int = 0
             valid: cython.int = 0
@@ -518,8 +563,8 @@ class BlobWindows:
             sd = fixed_m + square_per_m * z * z
             if averages:
                 sd /= sqrt(max(close / (patch_px * patch_px), 1.0))
-            depth_m[b], sd_m[b] = z, sqrt(sd * sd + slope * slope + edge * edge)
-        return depth, spread
+            out[0, b], out[1, b] = z, sqrt(sd * sd + slope * slope + edge * edge)
+        return found[0], found[1]
 
     @cython.cfunc
     def check_picture(self, height: cython.Py_ssize_t, width: cython.Py_ssize_t) -> cython.bint:

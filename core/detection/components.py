@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -41,6 +40,4 @@ def components(
     ``radius_at`` gives the radius (N,) of a disc facing the camera at pixels (N, 2). A blob has ``min_share`` to
     ``max_share`` of such a disc's area.
     """
-    count, labels = cv2.connectedComponents(mask, connectivity=8, ltype=cv2.CV_32S)
-    found = np.asarray(labels, dtype=np.int32)
-    return Components(found, *find_blobs(found, count - 1, radius_at, min_share, max_share))
+    return Components(*find_blobs(mask, radius_at, min_share, max_share))
