@@ -16,7 +16,6 @@ NO_CHOICE = {
         "hand/anatomy_prior": "_FIXED",
         "tracking/association": "IMPOSSIBLE",
         "tracking/joint_limits": "_WIDE",
-        "tracking/kernel": "_LEAST_PROBABILITY",
         "tracking/surface_fit": "_NO_NOISE",
     },
     "what is asked of a hand and how it is drawn; no angle is made of it": {

@@ -111,17 +111,22 @@ def predicted(mixture: Any, forward: Array, noise: Array) -> tuple[Array, Array]
     if forward.shape != (chains, n, n) or noise.shape != (chains, modes, n, n):
         raise ValueError("a step is not of the mixture's size")
     ahead: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(forward)
-    turned: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(forward.swapaxes(1, 2))
     out = noise.copy()
     spread: cython.double[:, :, :, ::1] = out
     half: cython.double[:, ::1] = np.empty((n, n))
+    turned: cython.double[:, ::1] = np.empty((n, n))
     c: cython.Py_ssize_t
     k: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
     for c in range(chains):
         for k in range(modes):
             half[:] = zero_times(covariance[c, k])
             add_product(ahead[c], covariance[c, k], half)
-            add_product(half, turned[c], spread[c, k])
+            for i in range(n):
+                for j in range(n):
+                    turned[j, i] = half[i, j]
+            add_product(ahead[c], turned, spread[c, k])  # F (F P)': zeros of F cost nothing, those of F P would be few
     return (forward[:, None] @ arrays[0][..., None])[..., 0], out
 
 

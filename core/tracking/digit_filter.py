@@ -21,14 +21,20 @@ from carpus.core.tracking.kernel import Linearisation, ModeMixture, predicted
 from carpus.core.tracking.unscented import Spread, Weights, weights_for
 from carpus.core.types import FloatArray
 
-_SLOT = np.arange(SLOTS)
-
 JOINTS, RATES = slice(0, SLOTS), slice(SLOTS, 2 * SLOTS)
 ANATOMY = slice(RATES.stop, RATES.stop + CONSTANTS)
 """Where joints, their rates and the constants of the anatomy stand in a digit's state."""
 DIGIT_SIZE = ANATOMY.stop
 SEEN = np.r_[JOINTS, ANATOMY]
 """States on which the discs depend."""
+_NEXT = DIGIT_SIZE + 1
+_ANGLE, _RATE = slice(0, SLOTS * _NEXT, _NEXT), slice(SLOTS * _NEXT, 2 * SLOTS * _NEXT, _NEXT)
+_ANGLE_BY_RATE, _RATE_BY_ANGLE = (
+    slice(SLOTS, SLOTS * _NEXT, _NEXT),
+    slice(SLOTS * DIGIT_SIZE, 2 * SLOTS * DIGIT_SIZE, _NEXT),
+)
+_CONSTANT = slice(2 * SLOTS * _NEXT, None, _NEXT)
+"""Where the diagonals stand in a matrix of the state whose rows lie one after the other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,67 +58,40 @@ class DigitMotion:
     def __init__(
         self, density: FloatArray, scales: FloatArray, drift: FloatArray, stationary2: FloatArray, settles_s: float
     ) -> None:
+        self._density, self._drift = density, drift
         self._stationary2, self._settles_s = stationary2, settles_s
-        self._dt_s = math.nan
-        self._forward = self._modes = drift
-        self._noise = drift, drift
-        angle, rate, constant = _SLOT, SLOTS + _SLOT, np.arange(ANATOMY.start, ANATOMY.stop)
+        self._scales2 = np.broadcast_to(scales**2, (CHAINS, scales.size))
         self._still = np.repeat(np.eye(DIGIT_SIZE)[None], CHAINS, axis=0)
-        # By dt cubed over three, squared over two, and by dt: of the rates' noise, and of the constants'.
-        self._by_dt = np.zeros((4, CHAINS, DIGIT_SIZE, DIGIT_SIZE))
-        self._by_dt[0][:, angle, angle] = density
-        self._by_dt[1][:, angle, rate] = self._by_dt[1][:, rate, angle] = density
-        self._by_dt[2][:, rate, rate] = density
-        self._by_dt[3][:, constant, constant] = drift
-        self._scales2 = (scales**2)[:, None, None]
-
-    def _set_step(self, dt_s: float) -> None:
-        """Transition (n, n) and noise of a step; frames come evenly, so the last ones mostly serve again."""
-        if self._dt_s == dt_s:
-            return
-        forward, angle = self._still.copy(), _SLOT
-        forward[:, angle, SLOTS + angle] = dt_s
-        keep = np.where(self._stationary2 > 0.0, math.exp(-dt_s / self._settles_s), 1.0)
-        forward[:, angle, angle] = keep
-        pushed = self._by_dt[0] * (dt_s**3 / 3.0)
-        pushed += self._by_dt[1] * (0.5 * dt_s**2)
-        pushed += self._by_dt[2] * dt_s
-        drifted = self._by_dt[3] * dt_s
-        drifted[:, angle, angle] = self._stationary2 * (1.0 - keep**2)
-        self._forward, self._noise = forward, (pushed, drifted)
-        self._modes = pushed[:, None] * self._scales2
-        self._modes += drifted[:, None]
-        self._dt_s = dt_s
 
     def predicted(
         self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
     ) -> ModeMixture:
         """The estimates ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
-        self._set_step(dt_s)
-        if forgetting is None:
-            return predicted(estimates, self._forward, self._modes, switch)
-        noise = self._modes.copy()
-        self._spread(noise, forgetting)
-        return predicted(estimates, self._fading(forgetting), noise, switch)
+        return predicted(estimates, *self._transition(dt_s, self._scales2, forgetting), switch)
 
     def step(self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None) -> tuple[FloatArray, FloatArray]:
         """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
-        self._set_step(dt_s)
-        forward = self._forward.copy() if forgetting is None else self._fading(forgetting)
-        noise = self._noise[0] * (scale**2)[:, None, None] + self._noise[1]
+        forward, noise = self._transition(dt_s, (scale**2)[:, None], forgetting)
+        return forward, noise[:, 0]
+
+    def _transition(
+        self, dt_s: float, scale2: FloatArray, forgetting: Forgetting | None
+    ) -> tuple[FloatArray, FloatArray]:
+        """Transition (5, n, n) and noise (5, K, n, n) of a step, that of the rates scaled by ``scale2`` (5, K)."""
+        forward, noise = self._still.copy(), np.zeros((*scale2.shape, DIGIT_SIZE, DIGIT_SIZE))
+        keep = np.where(self._stationary2 > 0.0, math.exp(-dt_s / self._settles_s), 1.0)
+        moved, pushed = forward.reshape(CHAINS, -1), noise.reshape(*scale2.shape, -1)
+        moved[:, _ANGLE], moved[:, _ANGLE_BY_RATE] = keep, dt_s
+        density = self._density[:, None] * scale2[..., None]
+        pushed[..., _ANGLE] = density * (dt_s**3 / 3.0) + (self._stationary2 * (1.0 - keep**2))[:, None]
+        pushed[..., _ANGLE_BY_RATE] = pushed[..., _RATE_BY_ANGLE] = density * (0.5 * dt_s**2)
+        pushed[..., _RATE] = density * dt_s
+        pushed[..., _CONSTANT] = (self._drift * dt_s)[:, None]
         if forgetting is not None:
-            self._spread(noise[:, None], forgetting)
+            moved[:, _RATE], moved[:, _ANGLE_BY_RATE] = forgetting.keep_rate, forgetting.keep_rate * dt_s
+            pushed[..., _ANGLE] += forgetting.angle2[:, None]
+            pushed[..., _RATE] += forgetting.rate2[:, None]
         return forward, noise
-
-    def _fading(self, forgetting: Forgetting) -> FloatArray:
-        forward = self._forward.copy()
-        forward[:, SLOTS + _SLOT, SLOTS + _SLOT] = forgetting.keep_rate
-        forward[:, _SLOT, SLOTS + _SLOT] = forgetting.keep_rate * self._dt_s
-        return forward
-
-    def _spread(self, covariance: FloatArray, forgetting: Forgetting) -> None:
-        covariance[..., _SLOT, _SLOT] += forgetting.angle2[:, None]
-        covariance[..., SLOTS + _SLOT, SLOTS + _SLOT] += forgetting.rate2[:, None]
 
 
 @dataclass(frozen=True, slots=True)
