@@ -52,18 +52,34 @@ def compute_log_odds(
     wide: cython.const[cython.double][:, :, ::1] = given(covariance, "its covariance", (markers, 3, 3))
     blob: cython.const[cython.double][:, ::1] = given(measured, "what is measured", (blobs, 3))
     noise: cython.const[cython.double][:, ::1] = given(noise_variance, "its variance", (blobs, 3))
-    prior: cython.double = densities[0]
-    by_depth: cython.double = densities[1]
-    by_outlier: cython.double = densities[2]
-    gate: cython.double = gate2
-    never: cython.double = impossible
     out, believed = np.empty((markers, blobs)), np.empty((markers, blobs), dtype=np.uint8)
     value: cython.double[:, ::1] = out
     with_depth: cython.uchar[:, ::1] = believed
+    fill_log_odds(at, wide, blob, noise, densities[0], densities[1], densities[2], gate2, impossible, value, with_depth)
+    return out, believed.view(np.bool_)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def fill_log_odds(
+    at: cython.const[cython.double][:, ::1],
+    wide: cython.const[cython.double][:, :, ::1],
+    blob: cython.const[cython.double][:, ::1],
+    noise: cython.const[cython.double][:, ::1],
+    prior: cython.double,
+    by_depth: cython.double,
+    by_outlier: cython.double,
+    gate2: cython.double,
+    impossible: cython.double,
+    value: cython.double[:, ::1],
+    with_depth: cython.uchar[:, ::1],
+) -> cython.void:
+    """Fill in what :func:`compute_log_odds` returns."""
     j: cython.Py_ssize_t
     i: cython.Py_ssize_t
-    for j in range(markers):
-        for i in range(blobs):
+    for j in range(at.shape[0]):
+        for i in range(blob.shape[0]):
             # S = L D L': innovations u, v, z and their variances, each given those before it.
             u = blob[i, 0] - at[j, 0]
             s_u = wide[j, 0, 0] + noise[i, 0]
@@ -78,8 +94,7 @@ def compute_log_odds(
             whole2 = flat2 + z * z / s_z
             has_depth = isfinite(blob[i, 2])
             flat = prior - 0.5 * (flat2 + log(s_u * s_v))
-            whole = flat + by_depth - 0.5 * (z * z / s_z + log(s_z)) if whole2 <= gate else never
-            flat = never if flat2 > gate else flat + by_outlier if has_depth else flat
+            whole = flat + by_depth - 0.5 * (z * z / s_z + log(s_z)) if whole2 <= gate2 else impossible
+            flat = impossible if flat2 > gate2 else flat + by_outlier if has_depth else flat
             with_depth[j, i] = has_depth and whole >= flat
             value[j, i] = whole if whole >= flat else flat  # unknown where that by the pixel is
-    return out, believed.view(np.bool_)

@@ -10,8 +10,9 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython.cimports.carpus.core.compiled.association import fill_log_odds
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
-from cython.cimports.libc.math import acos, isfinite, sqrt
+from cython.cimports.libc.math import acos, cos, exp, expm1, isfinite, log, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.digits import BENT, OTHER, POSE
@@ -25,6 +26,14 @@ ACROSS_M = 0.00015
 """So closely a disc holds its joints across the line of sight where errors stay."""
 INHERITED = 0.25
 """Share of a joint's information that resists errors of its discs that stay."""
+HIDDEN_S, SHOWN_S = 0.4, 3.0
+"""So long a disc stays hidden or seen on average."""
+STEEPEST_RAD, STEEPEST_SD_RAD = 1.22, 0.15
+"""The tilt at which discs vanish, give or take."""
+MIN_SEEN, MAX_SEEN = 1e-4, 0.98
+"""Between these the chance stays that a disc is to be seen."""
+MIN_FACING = 0.15
+"""Tilted discs show no less of themselves."""
 
 Array = NDArray[np.float64]
 _PI = cython.declare(cython.double, np.pi)
@@ -325,6 +334,112 @@ def compute_tilts(normal: Array, covariance: Array, linearised: Any, view: Any) 
                 total += wide[r, 2 + d, 2 + d]
             variance[r, d] = total
     return out
+
+
+def compute_visibility(
+    visible: Array, tilt: Array, variance: Array, linearised: Any, view: Any, dt_s: float
+) -> tuple[Array, Array]:
+    """
+    Compute how likely discs are to be seen, and how large.
+
+    A disc stays hidden or seen for some time, and vanishes when it is turned away: a logistic function in place of the
+    normal integral over its tilt.
+
+    Parameters
+    ----------
+    visible : numpy.ndarray
+        Chance (5, 3) that each disc was to be seen a moment ago.
+    tilt, variance : numpy.ndarray
+        Tilts (5, 3) in rad, and their variances.
+    linearised : DigitsLinearisation
+        The discs in camera axes.
+    view : DigitView
+        From W to the pictures.
+    dt_s : float
+        How long ago that moment is.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        Chance (5, 3) now, and pixels (5, 3) for each square metre of a disc.
+    """
+    before: cython.const[cython.double][:, ::1] = given(visible, "chances", (5, 3))
+    tilted: cython.const[cython.double][:, ::1] = given(tilt, "tilts", (5, 3))
+    unsure: cython.const[cython.double][:, ::1] = given(variance, "their variances", (5, 3))
+    centre: cython.const[cython.double][:, :, ::1] = given(linearised.centre_m, "discs", (5, 3, 3))
+    fx: cython.double = view.camera.fx_px
+    stays: cython.double = exp(-dt_s / SHOWN_S)
+    comes: cython.double = -expm1(-dt_s / HIDDEN_S)
+    steepest: cython.double = STEEPEST_RAD
+    soft2: cython.double = STEEPEST_SD_RAD**2
+    low: cython.double = MIN_SEEN
+    high: cython.double = MAX_SEEN
+    least: cython.double = MIN_FACING
+    out = np.empty((5, 3)), np.empty((5, 3))
+    chance: cython.double[:, ::1] = out[0]
+    facing: cython.double[:, ::1] = out[1]
+    r: cython.int
+    d: cython.int
+    for r in range(5):
+        for d in range(3):
+            past_sd = 1.7 * (tilted[r, d] - steepest) / sqrt(unsure[r, d] + soft2)
+            turned = 1.0 / (1.0 + exp(min(max(past_sd, -30.0), 30.0)))
+            by_time = before[r, d] * stays + (1.0 - before[r, d]) * comes
+            chance[r, d] = min(max(by_time * turned, low), high)
+            per_m = fx / centre[r, d, 2]
+            facing[r, d] = max(cos(tilted[r, d]), least) * per_m * per_m
+    return out
+
+
+def compute_disc_odds(
+    scene: Any, densities: tuple[float, float, float], gate2: float, impossible: float, assumed: float
+) -> tuple[Array, NDArray[np.bool_]]:
+    """
+    Compute the log odds that the blobs are the discs, given how likely these are to be seen.
+
+    Parameters
+    ----------
+    scene : DigitScene
+        What is expected of the discs, and the blobs.
+    densities, gate2, impossible
+        As :func:`association.compute_log_odds` takes them.
+    assumed : float
+        The log odds to be seen that a marker's prior holds.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        The odds (15, D), ``impossible`` where a blob is not free or a digit has no discs, and whether the blob's depth
+        is believed (15, D).
+    """
+    blobs: cython.Py_ssize_t = len(scene.free)
+    expected: cython.const[cython.double][:, ::1] = given(scene.linearised.value, "images", (5, 9)).reshape(15, 3)
+    spread: cython.const[cython.double][:, :, ::1] = given(scene.spread, "their covariance", (5, 9, 9))
+    visible: cython.const[cython.double][:, ::1] = given(scene.visible, "chances", (5, 3))
+    value: cython.const[cython.double][:, ::1] = given(scene.blobs.value, "the blobs", (blobs, 3))
+    noise: cython.const[cython.double][:, ::1] = given(scene.blobs.variance, "the blobs' variances", (blobs, 3))
+    free: cython.const[cython.uchar][::1] = given(scene.free, "free blobs", (blobs,)).view(np.uint8)
+    has_discs: cython.const[cython.uchar][::1] = given(scene.has_discs, "digits with discs", (5,)).view(np.uint8)
+    out, believed = np.empty((15, blobs)), np.empty((15, blobs), dtype=np.uint8)
+    odds: cython.double[:, ::1] = out
+    with_depth: cython.uchar[:, ::1] = believed
+    own: cython.double[:, :, ::1] = np.empty((15, 3, 3))
+    prior: cython.double = assumed
+    never: cython.double = impossible
+    d: cython.int
+    i: cython.int
+    j: cython.int
+    b: cython.Py_ssize_t
+    for d in range(15):
+        for i in range(3):
+            for j in range(3):
+                own[d, i, j] = spread[d // 3, d % 3 * 3 + i, d % 3 * 3 + j]
+    fill_log_odds(expected, own, value, noise, densities[0], densities[1], densities[2], gate2, never, odds, with_depth)
+    for d in range(15):
+        seen = log(visible[d // 3, d % 3] / (1.0 - visible[d // 3, d % 3])) - prior
+        for b in range(blobs):
+            odds[d, b] = odds[d, b] + seen if free[b] and has_discs[d // 3] else never
+    return out, believed.view(np.bool_)
 
 
 def compute_inherited(covariance: Array, seat: Any, linearised: Any, normal: Array) -> Array:

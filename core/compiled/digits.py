@@ -163,6 +163,73 @@ def place_discs(pose: Array, root_m: Array, digits: list[int]) -> Array:
     return out
 
 
+def move_digits(motion: Any, dt_s: float, scale2: Array, forgetting: Any | None) -> tuple[Array, Array]:
+    """
+    Move the digits a step: x <- F x + w with w ~ N(0, Q).
+
+    Rates stay, pushed all along the step by a white acceleration of density q: Q holds q dt^3 / 3, q dt^2 / 2 and q dt.
+    Slots with a variance in the long run return to zero (Ornstein-Uhlenbeck); constants drift.
+
+    Parameters
+    ----------
+    motion : DigitMotion
+        Densities, drift and variances in the long run.
+    dt_s : float
+        How long the step takes.
+    scale2 : numpy.ndarray
+        By how much the density is larger (5, K).
+    forgetting : Forgetting or None
+        What becomes of slots that nothing shows.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        F (5, 21, 21) and Q (5, K, 21, 21).
+    """
+    modes: cython.Py_ssize_t = scale2.shape[1]
+    density: cython.const[cython.double][:, ::1] = given(motion.density, "densities", (5, 5))
+    drift: cython.const[cython.double][:, ::1] = given(motion.drift, "drifts", (5, 11))
+    lasting: cython.const[cython.double][:, ::1] = given(motion.stationary2, "variances in the long run", (5, 5))
+    scale: cython.const[cython.double][:, ::1] = given(scale2, "scales", (5, modes))
+    fades: cython.bint = forgetting is not None
+    keep_rate: cython.const[cython.double][:, ::1] = given(
+        forgetting.keep_rate if fades else motion.density, "shares kept", (5, 5)
+    )
+    angle2: cython.const[cython.double][:, ::1] = given(
+        forgetting.angle2 if fades else motion.density, "variances of angles", (5, 5)
+    )
+    rate2: cython.const[cython.double][:, ::1] = given(
+        forgetting.rate2 if fades else motion.density, "variances of rates", (5, 5)
+    )
+    dt: cython.double = dt_s
+    settling: cython.double = exp(-dt_s / motion.settles_s)
+    forward, noise = np.zeros((5, 21, 21)), np.zeros((5, modes, 21, 21))
+    f: cython.double[:, :, ::1] = forward
+    q: cython.double[:, :, :, ::1] = noise
+    r: cython.int
+    s: cython.int
+    k: cython.Py_ssize_t
+    for r in range(5):
+        for s in range(21):
+            f[r, s, s] = 1.0
+        for s in range(5):
+            settled = settling if lasting[r, s] > 0.0 else 1.0
+            kept = keep_rate[r, s] if fades else 1.0
+            f[r, s, s], f[r, s, 5 + s], f[r, 5 + s, 5 + s] = settled, kept * dt, kept
+            for k in range(modes):
+                pushed = density[r, s] * scale[r, k]
+                q[r, k, s, s] = pushed * (dt * dt * dt / 3.0) + lasting[r, s] * (1.0 - settled * settled)
+                q[r, k, s, 5 + s] = q[r, k, 5 + s, s] = pushed * (0.5 * dt * dt)
+                q[r, k, 5 + s, 5 + s] = pushed * dt
+                if fades:
+                    q[r, k, s, s] += angle2[r, s]
+                    q[r, k, 5 + s, 5 + s] += rate2[r, s]
+        for s in range(11):
+            for k in range(modes):
+                q[r, k, 10 + s, 10 + s] = drift[r, s] * dt
+    return forward, noise
+
+
 def spread_points(
     mean: Array, covariance: Array, root_m: Array, scale: float
 ) -> tuple[Array, Array, Array, Array, Array]:

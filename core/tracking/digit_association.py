@@ -15,7 +15,13 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digit_images import compute_tilts, measure_named
+from carpus.core.compiled.digit_images import (
+    STEEPEST_RAD,
+    STEEPEST_SD_RAD,
+    compute_disc_odds,
+    compute_tilts,
+    measure_named,
+)
 from carpus.core.compiled.digits import place_digits
 from carpus.core.tracking import association
 from carpus.core.tracking.association import is_jointly_compatible
@@ -40,12 +46,6 @@ _LOG_2_PI = float(np.log(2.0 * np.pi))
 
 SKIN_PX = 0.1
 """So far a disc on a finger strays from where the model has it, besides the noise of its centre."""
-HIDDEN_S, SHOWN_S = 0.4, 3.0
-"""So long a disc stays hidden or seen on average."""
-STEEPEST_RAD, STEEPEST_SD_RAD = 1.22, 0.15
-"""The tilt at which discs vanish, give or take."""
-MIN_SEEN, MAX_SEEN = 1e-4, 0.98
-"""Between these the chance stays that a disc is to be seen."""
 WAS_SEEN = 0.5
 """With less than this chance a disc was hidden a moment ago."""
 CLUTTER = 3.0
@@ -184,28 +184,15 @@ def _impossible(found: UpdatedDigits, scene: DigitScene) -> NDArray[np.bool_]:
 
 
 def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssignment:
-    free = np.flatnonzero(scene.free)
-    assigned = np.full(CHAINS * DISCS, -1, dtype=np.int64)
-    if not free.size:
-        return DigitAssignment(assigned.reshape(CHAINS, DISCS), np.zeros((CHAINS, DISCS), dtype=bool))
-    own = np.einsum("rdidj->rdij", scene.spread.reshape(CHAINS, DISCS, 3, DISCS, 3)).reshape(-1, 3, 3)
-    odds = association.log_odds(
-        scene.linearised.value.reshape(-1, 3),
-        own,
-        scene.blobs.value[free],
-        scene.blobs.variance[free],
-        scene.resolution_px2 / CLUTTER,
-        association.DEPTH_OUTLIER,
-        settings.association,
-    )
-    assumed = math.log(settings.association.prior_marker / settings.association.prior_clutter)
-    value = odds.value + (np.log(scene.visible / (1.0 - scene.visible)).ravel() - assumed)[:, None]
-    value.reshape(CHAINS, DISCS, -1)[~scene.has_discs] = association.IMPOSSIBLE
-    found = association.resolve(value)
-    named = found >= 0
-    assigned[named] = free[found[named]]
-    with_depth = odds.with_depth[np.arange(found.size), found] & named
-    return DigitAssignment(assigned.reshape(CHAINS, DISCS), with_depth.reshape(CHAINS, DISCS))
+    if not len(scene.blobs):
+        return DigitAssignment(np.full((CHAINS, DISCS), -1), np.zeros((CHAINS, DISCS), dtype=bool))
+    names = settings.association
+    densities = association.log_densities(scene.resolution_px2 / CLUTTER, association.DEPTH_OUTLIER, names)
+    assumed = math.log(names.prior_marker / names.prior_clutter)
+    odds, with_depth = compute_disc_odds(scene, densities, names.gate_sd**2, association.IMPOSSIBLE, assumed)
+    found = association.resolve(odds)
+    believed = with_depth[np.arange(found.size), found] & (found >= 0)
+    return DigitAssignment(found.reshape(CHAINS, DISCS), believed.reshape(CHAINS, DISCS))
 
 
 def measured_as_named(
@@ -295,13 +282,3 @@ def _digit_jointly(
     score = log_normal + np.sum(np.where(named, by_seen + clutter, 0.0), axis=1)
     best = int(np.argmax(score))
     return assigned[best], depth[best]
-
-
-def seen_chance(visible: FloatArray, tilt_rad: FloatArray, tilt_sd_rad: FloatArray, dt_s: float) -> FloatArray:
-    """Chance (5, 3) that each disc is to be seen now, from that of a moment ago and its tilt to the camera."""
-    stays, comes = np.exp(-dt_s / SHOWN_S), -np.expm1(-dt_s / HIDDEN_S)
-    by_time = visible * stays + (1.0 - visible) * comes
-    sd = np.sqrt(tilt_sd_rad**2 + STEEPEST_SD_RAD**2)
-    # Logistic in place of the normal integral.
-    facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt_rad - STEEPEST_RAD) / sd, -30.0, 30.0)))
-    return np.asarray(np.clip(by_time * facing, MIN_SEEN, MAX_SEEN))

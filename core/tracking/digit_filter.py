@@ -9,7 +9,6 @@ Arrays lead with the digit (5) and, in an estimate, the mode (K).
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,14 +26,6 @@ ANATOMY = slice(RATES.stop, RATES.stop + CONSTANTS)
 DIGIT_SIZE = ANATOMY.stop
 SEEN = np.r_[JOINTS, ANATOMY]
 """States on which the discs depend."""
-_NEXT = DIGIT_SIZE + 1
-_ANGLE, _RATE = slice(0, SLOTS * _NEXT, _NEXT), slice(SLOTS * _NEXT, 2 * SLOTS * _NEXT, _NEXT)
-_ANGLE_BY_RATE, _RATE_BY_ANGLE = (
-    slice(SLOTS, SLOTS * _NEXT, _NEXT),
-    slice(SLOTS * DIGIT_SIZE, 2 * SLOTS * DIGIT_SIZE, _NEXT),
-)
-_CONSTANT = slice(2 * SLOTS * _NEXT, None, _NEXT)
-"""Where the diagonals stand in a matrix of the state whose rows lie one after the other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,40 +49,20 @@ class DigitMotion:
     def __init__(
         self, density: FloatArray, scales: FloatArray, drift: FloatArray, stationary2: FloatArray, settles_s: float
     ) -> None:
-        self._density, self._drift = density, drift
-        self._stationary2, self._settles_s = stationary2, settles_s
-        self._scales2 = np.broadcast_to(scales**2, (CHAINS, scales.size))
-        self._still = np.repeat(np.eye(DIGIT_SIZE)[None], CHAINS, axis=0)
+        self.density, self.drift = density, drift
+        self.stationary2, self.settles_s = stationary2, settles_s
+        self._scales2 = np.tile(scales**2, (CHAINS, 1))
 
     def predicted(
         self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
     ) -> ModeMixture:
         """The estimates ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
-        return predicted(estimates, *self._transition(dt_s, self._scales2, forgetting), switch)
+        return predicted(estimates, *digits.move_digits(self, dt_s, self._scales2, forgetting), switch)
 
     def step(self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None) -> tuple[FloatArray, FloatArray]:
         """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
-        forward, noise = self._transition(dt_s, (scale**2)[:, None], forgetting)
+        forward, noise = digits.move_digits(self, dt_s, (scale**2)[:, None], forgetting)
         return forward, noise[:, 0]
-
-    def _transition(
-        self, dt_s: float, scale2: FloatArray, forgetting: Forgetting | None
-    ) -> tuple[FloatArray, FloatArray]:
-        """Transition (5, n, n) and noise (5, K, n, n) of a step, that of the rates scaled by ``scale2`` (5, K)."""
-        forward, noise = self._still.copy(), np.zeros((*scale2.shape, DIGIT_SIZE, DIGIT_SIZE))
-        keep = np.where(self._stationary2 > 0.0, math.exp(-dt_s / self._settles_s), 1.0)
-        moved, pushed = forward.reshape(CHAINS, -1), noise.reshape(*scale2.shape, -1)
-        moved[:, _ANGLE], moved[:, _ANGLE_BY_RATE] = keep, dt_s
-        density = self._density[:, None] * scale2[..., None]
-        pushed[..., _ANGLE] = density * (dt_s**3 / 3.0) + (self._stationary2 * (1.0 - keep**2))[:, None]
-        pushed[..., _ANGLE_BY_RATE] = pushed[..., _RATE_BY_ANGLE] = density * (0.5 * dt_s**2)
-        pushed[..., _RATE] = density * dt_s
-        pushed[..., _CONSTANT] = (self._drift * dt_s)[:, None]
-        if forgetting is not None:
-            moved[:, _RATE], moved[:, _ANGLE_BY_RATE] = forgetting.keep_rate, forgetting.keep_rate * dt_s
-            pushed[..., _ANGLE] += forgetting.angle2[:, None]
-            pushed[..., _RATE] += forgetting.rate2[:, None]
-        return forward, noise
 
 
 @dataclass(frozen=True, slots=True)

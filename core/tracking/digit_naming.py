@@ -8,19 +8,17 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digit_images import compute_tilts, propagate_palm_error
+from carpus.core.compiled.digit_images import MAX_SEEN, compute_tilts, compute_visibility, propagate_palm_error
 from carpus.core.tracking.association import (
     AssociationSettings,
     is_jointly_compatible,
 )
 from carpus.core.tracking.digit_association import (
-    MAX_SEEN,
     DigitScene,
     UpdatedDigits,
     associate_digits,
     beyond_reach,
     far_digits,
-    seen_chance,
     updated_as_associated,
     without,
 )
@@ -55,8 +53,6 @@ SIZE_GROWS, SIZE_SHRINKS = 0.2, 0.02
 """So much of a picture's is taken into a disc's size, which half a disc understates and nothing overstates,"""
 FLAT_RAD = math.radians(50.0)
 """while it is tilted by less."""
-MIN_FACING = 0.15
-"""Tilted discs show no less of themselves."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -304,10 +300,8 @@ def disc_visibility(
 ) -> DiscVisibility:
     """How the discs at ``points`` are to be seen ``dt_s`` after they were ``visible`` (5, 3)."""
     tilt, variance = compute_tilts(points.normal, points.covariance, linearised, seat.view)
-    chance = seen_chance(visible, tilt, np.sqrt(variance), dt_s)
+    chance, facing_m2 = compute_visibility(visible, tilt, variance, linearised, seat.view, dt_s)
     shift = propagate_palm_error(linearised, seat)
-    facing = np.maximum(np.cos(tilt), MIN_FACING)
-    facing_m2 = facing * (seat.view.camera.fx_px / linearised.centre_m[..., 2]) ** 2
     return DiscVisibility(shift, linearised.spread + shift, chance, tilt, facing_m2)
 
 

@@ -14,6 +14,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.compiled import digit_images
 from carpus.core.compiled import digits as compiled
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.association import DEPTH_OUTLIER, IMPOSSIBLE, log_densities
 from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
 from carpus.core.tracking.digit_filter import (
     SEEN,
@@ -108,10 +109,12 @@ def test_points_and_their_images_are_the_oracles(which: tuple[str, int, bool]) -
     assert_same(points, oracle.spread_points(it.mean, it.covariance, it.root_m, Spread()))
     linearised = it.linearised()
     assert_same(linearised, seen_oracle.linearise_images(points, it.seat.view, Spread()))
+    tilted = digit_images.compute_tilts(points.normal, it.covariance, linearised, it.seat.view)
     for name, of in {
         "project_discs": (points, it.seat.view, 1.5),
         "propagate_palm_error": (linearised, it.seat),
         "compute_tilts": (points.normal, it.covariance, linearised, it.seat.view),
+        "compute_visibility": (np.linspace(0.0, 1.0, 15).reshape(5, 3), *tilted, linearised, it.seat.view, 0.033),
         "compute_inherited": (it.covariance, it.seat, linearised, points.normal),
     }.items():
         assert_same(getattr(digit_images, name)(*of), getattr(seen_oracle, name)(*of))
@@ -137,12 +140,32 @@ def test_what_named_blobs_measure_is_the_oracles(blobs: int) -> None:
         )  # fmt: skip
         expected = seen_oracle.measured_as_named(scene, names, SETTINGS)
         assert_same(measured_as_named(scene, names, SETTINGS), expected)
+        scene = replace(scene, free=rng.uniform(size=blobs) < 0.7)
+        asked = scene, log_densities(3e5, DEPTH_OUTLIER, SETTINGS.association), 25.0, IMPOSSIBLE, 2.2
+        assert_same(digit_images.compute_disc_odds(*asked), seen_oracle.compute_disc_odds(*asked))
         for layout in LAYOUTS:
             scene_so, names_so = laid_out(scene, layout), laid_out(names, layout)
+            odds = digit_images.compute_disc_odds(scene_so, *asked[1:])
+            assert_same(odds, digit_images.compute_disc_odds(*asked), 0.0)
             assert_same(measured_as_named(scene_so, names_so, SETTINGS), expected)
+        with pytest.raises(ValueError, match="is read"):
+            digit_images.compute_disc_odds(replace(scene, visible=scene.visible[:4]), *asked[1:])
         for wrong in (replace(names, assigned=assigned[:4]), replace(names, assigned=np.full((5, 3), blobs))):
             with pytest.raises(ValueError, match="names"):
                 measured_as_named(scene, wrong, SETTINGS)
+
+
+@pytest.mark.parametrize("dt_s", [0.0, 0.033, 0.2])
+def test_a_step_of_digits_is_the_oracles(dt_s: float) -> None:
+    it, rng = hand(), np.random.default_rng(21)
+    unseen_s = np.where(rng.uniform(size=(5, 5)) < 0.5, 0.0, rng.uniform(0.0, 1.0, size=(5, 5)))
+    motion, scale2 = it.fingers.model.motion, rng.uniform(0.1, 4.0, size=(5, 2))
+    for forgetting in (None, it.fingers.model.forgetting(it.mean, unseen_s, dt_s)):
+        found = compiled.move_digits(motion, dt_s, scale2, forgetting)
+        assert_same(found, oracle.move_digits(motion, dt_s, scale2, forgetting))
+        assert_same(compiled.move_digits(motion, dt_s, np.asfortranarray(scale2), forgetting), found, 0.0)
+    with pytest.raises(ValueError, match="is read"):
+        compiled.move_digits(motion, dt_s, scale2[:4], None)
 
 
 def test_bones_joints_and_discs_are_the_oracles() -> None:

@@ -8,7 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
-from carpus.core.compiled.digit_images import ACROSS_M, DEPTH_STAYS_M, INHERITED, NARROW2
+from carpus.core.compiled.digit_images import (
+    ACROSS_M,
+    DEPTH_STAYS_M,
+    HIDDEN_S,
+    INHERITED,
+    MAX_SEEN,
+    MIN_FACING,
+    MIN_SEEN,
+    NARROW2,
+    SHOWN_S,
+    STEEPEST_RAD,
+    STEEPEST_SD_RAD,
+)
 from carpus.core.compiled.digits import BENT, OTHER
 from carpus.core.tracking.digit_association import (
     MERGED_FROM,
@@ -32,6 +44,7 @@ from carpus.core.tracking.palm_association import SHADE_SHARE, WHOLE_FROM
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
+from tests.compiled.oracle.association import compute_log_odds
 
 _TILTING = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 """Slots (5, 5) that tilt the discs past them."""
@@ -108,6 +121,36 @@ def compute_inherited(
     seen = linearised.by_place @ moved[..., None] * (DEPTH_STAYS_M * unit)
     by_disc = (response.reshape(CHAINS, SLOTS, DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
     return np.asarray(turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2))
+
+
+def compute_visibility(
+    visible: FloatArray,
+    tilt: FloatArray,
+    variance: FloatArray,
+    linearised: DigitsLinearisation,
+    view: DigitView,
+    dt_s: float,
+) -> tuple[FloatArray, FloatArray]:
+    """Chance (5, 3) that discs are to be seen now, and pixels (5, 3) for each square metre of them."""
+    stays, comes = np.exp(-dt_s / SHOWN_S), -np.expm1(-dt_s / HIDDEN_S)
+    by_time = visible * stays + (1.0 - visible) * comes
+    sd = np.sqrt(variance + STEEPEST_SD_RAD**2)
+    facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt - STEEPEST_RAD) / sd, -30.0, 30.0)))
+    per_m = view.camera.fx_px / linearised.centre_m[..., 2]
+    return np.clip(by_time * facing, MIN_SEEN, MAX_SEEN), np.maximum(np.cos(tilt), MIN_FACING) * per_m**2
+
+
+def compute_disc_odds(
+    scene: DigitScene, densities: tuple[float, float, float], gate2: float, impossible: float, assumed: float
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Log odds (15, D) that the blobs are the discs, and whether the blobs' depths are believed (15, D)."""
+    own = np.einsum("rdidj->rdij", scene.spread.reshape(CHAINS, DISCS, 3, DISCS, 3)).reshape(-1, 3, 3)
+    expected, blobs = scene.linearised.value.reshape(-1, 3), scene.blobs
+    value, with_depth = compute_log_odds(expected, own, blobs.value, blobs.variance, densities, gate2, impossible)
+    value = value + (np.log(scene.visible / (1.0 - scene.visible)).ravel() - assumed)[:, None]
+    value[:, ~scene.free] = impossible
+    value.reshape(CHAINS, DISCS, -1)[~scene.has_discs] = impossible
+    return value, with_depth
 
 
 def measured_as_named(
