@@ -278,7 +278,7 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
     unknown: cython.double[::1] = wide[SEEN + 1]
     for i in range(6):
         for j in range(6):
-            root[i, j] = spread[of_pose(i), of_pose(j)]
+            root[i, j] = spread[find_pose_row(i), find_pose_row(j)]
         root[i, i] += FLOOR
     if not inverse_root(root, unroot):
         raise np.linalg.LinAlgError("Matrix is not positive definite")
@@ -331,7 +331,7 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
             missed[a, b] = missed[b, a] = total
         for i in range(6):
             for p in range(i, 6):
-                h[a, of_pose(i)] += half[p, a] * unroot[p, i]
+                h[a, find_pose_row(i)] += half[p, a] * unroot[p, i]
     for d in range(DISCS):
         u, v, z = sigma[0, 3 * d], sigma[0, 3 * d + 1], sigma[0, 3 * d + 2]
         for j in range(3):
@@ -421,7 +421,7 @@ def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def of_pose(i: cython.Py_ssize_t) -> cython.Py_ssize_t:
+def find_pose_row(i: cython.Py_ssize_t) -> cython.Py_ssize_t:
     """Where a number of the pose stands: those of the position, then those of the turn."""
     return POSITION + i if i < 3 else TURN + i - 3
 

@@ -108,8 +108,8 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
             x = rotation[0, 0] * ahead + rotation[1, 0] * across + rotation[2, 0] * up - middle[0]
             y = rotation[0, 1] * ahead + rotation[1, 1] * across + rotation[2, 1] * up - middle[1]
             z = rotation[0, 2] * ahead + rotation[1, 2] * across + rotation[2, 2] * up - middle[2]
-            j = nearest(x * node[0, 1] + y * node[1, 1] + z * node[2, 1] + node[3, 1], rows + 1) * (columns + 2)
-            j += nearest(x * node[0, 0] + y * node[1, 0] + z * node[2, 0] + node[3, 0], columns + 1)
+            j = round_within(x * node[0, 1] + y * node[1, 1] + z * node[2, 1] + node[3, 1], rows + 1) * (columns + 2)
+            j += round_within(x * node[0, 0] + y * node[1, 0] + z * node[2, 0] + node[3, 0], columns + 1)
             nx, ny, nz = plane[j, 0], plane[j, 1], plane[j, 2]
             h = x * nx + y * ny + z * nz + plane[j, 3]
             w = huber / max(fabs(h), huber) if fabs(h) < most else 0.0
@@ -218,7 +218,7 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
 @cython.cfunc
 @cython.inline
 @cython.exceptval(check=False)
-def nearest(x: cython.double, most: cython.Py_ssize_t) -> cython.Py_ssize_t:
+def round_within(x: cython.double, most: cython.Py_ssize_t) -> cython.Py_ssize_t:
     """Whole number from 0 to ``most`` nearest to x; 0 where that is unknown."""
     return cython.cast(cython.Py_ssize_t, min(x, most) + 0.5) if x > 0.0 else 0
 

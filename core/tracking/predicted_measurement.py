@@ -260,7 +260,8 @@ def adapted_factor(
     if dt_s <= 0.0:
         return factor
     weight = 1.0 - math.exp(-dt_s / ADAPT_S)
-    squared = np.where(measured, np.minimum(residual**2, noise.most_adapted), 1.0)
-    squared[..., :2] = 0.5 * (squared[..., :1] + squared[..., 1:2])
-    grown = factor * (1.0 + weight * (squared - 1.0))
-    return np.where(measured, np.clip(grown, noise.least_adapted, noise.most_adapted), factor)
+    news = np.where(measured, np.minimum(residual * residual, noise.most_adapted), 1.0)
+    news[..., :2] = 0.5 * (news[..., :1] + news[..., 1:2])
+    news -= 1.0
+    grown = factor + weight * factor * news
+    return np.where(measured, np.minimum(np.maximum(grown, noise.least_adapted), noise.most_adapted), factor)

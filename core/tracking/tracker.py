@@ -135,11 +135,14 @@ class FrameResults:
         predicted, palm, fingers, order = posterior.predicted, posterior.palm, posterior.fingers, self._order
         noise = self._settings.noise
         blob = order.by_marker(palm.assigned, None if fingers is None else fingers.blob)
-        used = np.flatnonzero(blob >= 0)
         seen_px, seen_depth_m = np.full((blob.size, 2), np.nan), np.full(blob.size, np.nan)
-        seen_px[used], seen_depth_m[used] = detections.pixel[blob[used]], detections.depth_m[blob[used]]
+        if len(detections):
+            is_seen = blob >= 0
+            seen_px = np.where(is_seen[:, None], detections.pixel.take(blob, 0), np.nan)
+            seen_depth_m = np.where(is_seen, detections.depth_m.take(blob), np.nan)
         pixel, covariance = predicted.mean[:, :2], predicted.covariance[:, :2, :2]
-        discs, surprise = predicted.view.discs_cam_m(posterior.estimate), (palm.raw_residual**2).sum(axis=-1)
+        discs = predicted.view.discs_cam_m(posterior.estimate)
+        surprise = np.vecdot(palm.raw_residual, palm.raw_residual)
         if fingers is not None and joints is not None:
             pixel = order.by_marker(pixel, fingers.predicted_px)
             covariance = order.by_marker(covariance, fingers.predicted_cov_px2)
