@@ -106,6 +106,13 @@ class Patients:
         """A random pseudonym that no patient has."""
         return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))], chance)
 
+    def keep(self, patient: Patient) -> str:
+        """Enter a patient who is new, or change one; the identity. Raises what :meth:`add` and :meth:`change` do."""
+        if not patient.patient_id:
+            return self.add(patient)
+        self.change(patient)
+        return patient.patient_id
+
     def add(self, patient: Patient, now: datetime | None = None) -> str:
         """Enter a new patient; returns the identity given. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
         patient_id = new_id()

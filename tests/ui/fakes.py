@@ -19,6 +19,7 @@ from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections
+from carpus.core.records.patients import Patients
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import Onset, Patient, SessionEntry
 from carpus.core.results.figures import SessionFigures, session_figures
@@ -471,6 +472,8 @@ class FakeStore:
 
     def change(self, patient: Patient) -> None:
         self.rows = [patient if one.patient_id == patient.patient_id else one for one in self.rows]
+
+    keep = Patients.keep
 
     def diagnoses(self) -> list[str]:
         return list(self.listed)

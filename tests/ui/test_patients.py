@@ -272,11 +272,9 @@ def form(host: QWidget, theme: Theme, store: FakeStore) -> PatientForm:
 
 
 @pytest.fixture
-def given(form: PatientForm) -> Given:
-    """What was accepted."""
-    entries: Given = []
-    form.accepted.connect(entries.append)
-    return entries
+def given(store: FakeStore) -> Given:
+    """What was kept."""
+    return store.added
 
 
 @pytest.mark.parametrize("letters", [5, MOST_CHARACTERS])

@@ -39,10 +39,10 @@ MADE_UP_NAME = re.compile(r"\w+ \d+")
 
 
 class PatientForm(Sheet):
-    """Emits ``accepted`` with the patient; Enter in any line accepts, Esc closes. The clinic's list of
+    """Enter in any line keeps the patient, and ``kept`` carries the identity; Esc closes. The clinic's list of
     diagnoses is changed at once."""
 
-    accepted = Signal(Patient)
+    kept = Signal(str)
 
     def __init__(self, host: QWidget, theme: Theme, register: Patients, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 740)
@@ -233,7 +233,7 @@ class PatientForm(Sheet):
             self._say(fault)
         else:
             self.close_sheet()
-            self.accepted.emit(patient)
+            self.kept.emit(self._register.keep(patient))
 
     def _say(self, fault: NameUnsuited) -> None:
         words = fault_words(fault)

@@ -125,7 +125,7 @@ class PatientsScreen(QWidget):
         self.card.progress_button.clicked.connect(lambda: self.progress.emit(self._chosen_id()))
         self.card.sessions_button.clicked.connect(lambda: self.sessions.emit(self._chosen_id()))
         self.card.edit_button.clicked.connect(lambda: self.change_patient(self._chosen_id()))
-        self.form.accepted.connect(self._keep)
+        self.form.kept.connect(self._show_kept)
         self.form.remove.clicked.connect(self._erase)
 
     def _erase(self) -> None:
@@ -204,12 +204,7 @@ class PatientsScreen(QWidget):
         taken = frozenset(name.casefold() for name in (*others, *self._archived))
         self.form.begin(row, taken)
 
-    def _keep(self, patient: Patient) -> None:
-        chosen = patient.patient_id
-        if chosen:
-            self._store.register.change(patient)
-        else:
-            chosen = self._store.register.add(patient)
+    def _show_kept(self, chosen: str) -> None:
         self.search.clear()
         self.refresh(chosen)
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)

@@ -47,7 +47,6 @@ class SettingsScreen(QWidget):
         self.chosen = Form(theme, [field for *_, fields in table for field in fields])
         self.chosen.fill(preferences)
         self.chosen["therapist"].setMaximumWidth(theme.px(220))
-        self.chosen["therapist"].setAccessibleName(self.tr("Initials on reports"))
         self.language_note = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.language_note.hide()
         self.folder = Text(theme, preferences.data_folder, 14)
@@ -138,6 +137,7 @@ class SettingsScreen(QWidget):
             card = self._card(title, words)
             for field in fields:
                 one = self.chosen.parts[field.name]
+                field.widget.setAccessibleName(field.widget.accessibleName() or title)
                 fill(card.body, 0 if field is fields[0] else 8, (one, 0, narrow) if isinstance(one, Tick) else one)
             self._pages[part].addWidget(card)
             if part == "looks":
