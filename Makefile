@@ -101,5 +101,5 @@ hashes:                         ## the hashes of the pins that are there, after 
 
 clean:                          ## all that was built here, except what `make run` recorded
 	rm -rf .venv build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
-	rm -f core/kernels/kernels-*.shared core/compiled/*.so
+	rm -f core/compiled/*.so core/compiled/*.pyd
 	find app core ui resources tests -name __pycache__ -type d -prune -exec rm -rf {} +

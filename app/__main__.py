@@ -103,11 +103,6 @@ def _run(asked: Sequence[str]) -> int:
     arguments, extra = top.parse_known_args(asked)
     if extra:
         getattr(arguments, "parser", top).refuse(extra)
-    if kernels := os.environ.get("CARPUS_KERNELS"):
-        from carpus.core.kernels.choice import TO_ASK_FOR, VARIABLE
-
-        if kernels not in TO_ASK_FOR:
-            say(f"{VARIABLE}={kernels} is not known; it can be {' or '.join(TO_ASK_FOR)}. It is as if it were not set.")
     if arguments.command is None:
         from carpus.app.commands import desktop
 

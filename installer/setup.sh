@@ -28,7 +28,6 @@ is_compiled() {  # whether every module of core/compiled is there, and none of a
 }
 compile() { .venv/bin/python setup.py -q build_ext --inplace || fail "core/compiled could not be built; a C compiler is needed (Debian: gcc libc6-dev)."; }
 if ready "$purpose" "$lock" || { [ "$purpose" = run ] && ready test requirements-dev.lock; }; then
-    .venv/bin/python core/kernels/build.py >/dev/null || true  # their source may be another one by now
     is_compiled || compile
     exit 0
 fi
@@ -168,6 +167,5 @@ install --require-hashes --no-deps -r .venv/locked.txt
 say "building Carpus"
 .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e . ||
     fail "Carpus could not be built; a C compiler is needed (Debian: gcc libc6-dev)."
-.venv/bin/python core/kernels/build.py | sed 's/^/setup: /' || true
 mark "$lock" >".venv/.ready-for-$purpose"
 say "ready: .venv/bin/carpus starts it (. .venv/bin/activate, then: carpus)"

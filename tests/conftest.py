@@ -49,7 +49,7 @@ _SERVES_ALL = "carpus-reading"
 _GRACE_S = 60.0
 """How long a thread may take to end after its test; a leak never ends, so the figure only delays the report."""
 
-_UNITS = {"agreement", "calibration", "compiled", "detection", "formats", "hand", "kernels", "measures", "tracking"}
+_UNITS = {"agreement", "calibration", "compiled", "detection", "formats", "hand", "measures", "tracking"}
 """Folders of tests that need no window, no process, no server; those of them that ask for a recording are journeys."""
 _WINDOWS = {"ui", "app", "results"}
 _OLD_S = 86_400.0

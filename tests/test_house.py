@@ -24,7 +24,6 @@ EXTRAS = ("cluster", "tables", "stream", "realsense")
 BUILD_ONLY = {"cython"}
 """What the compiled modules are built with; once built they do not import it."""
 BROUGHT_BY = {
-    "_cffi_backend": "cffi",
     "argon2": "argon2-cffi",
     "cv2": "opencv-python-headless",
     "yaml": "pyyaml",

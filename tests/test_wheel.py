@@ -17,7 +17,6 @@ from pathlib import Path
 import pytest
 
 from carpus import __version__
-from carpus.core.kernels import build
 from tests.rendered import FLEXION, Rendered
 from tests.session.test_golden import unpacked
 
@@ -53,7 +52,7 @@ def parts_of_the_checkout() -> set[str]:
     return {
         f"carpus/{path.relative_to(ROOT)}"
         for path in files
-        if "__pycache__" not in path.parts and path.suffix not in (".so", ".pyd") and not path.match("kernels-*")
+        if "__pycache__" not in path.parts and path.suffix not in (".so", ".pyd")
     }
 
 
@@ -63,11 +62,9 @@ def test_a_wheel_holds_the_program_and_nothing_beside_it(wheel: Path) -> None:
     program = {name for name in names if ".dist-info/" not in name}
     expected = parts_of_the_checkout()
     assert len(expected) > 300
-    kernels = {f"carpus/core/kernels/{path.name}" for path in build.built()}
-    assert kernels
     modules = {f"carpus/core/compiled/{path.stem}.abi3.so" for path in COMPILED.glob("[!_]*.py")}
     assert len(modules) > 1
-    assert program == expected | FACE | {REVISION} | kernels | modules
+    assert program == expected | FACE | {REVISION} | modules
     assert "-cp311-abi3-" in wheel.name
     assert not wheel.name.endswith("-any.whl")
 
@@ -94,8 +91,6 @@ def test_a_wheel_of_the_source_archive_is_that_of_a_checkout(archive: Path, whee
     """Though its parts are no links there."""
     subprocess.run(["tar", "-xf", archive, "-C", tmp_path], check=True)
     (unpacked,) = (folder for folder in tmp_path.iterdir() if folder.is_dir())
-    for library in build.built():
-        shutil.copy(library, unpacked / "carpus/core/kernels")  # compiling them is another test's
     again = f"from setuptools.build_meta import build_wheel; print(build_wheel({str(tmp_path)!r}))"
     subprocess.run([sys.executable, "-c", again], cwd=unpacked, check=True, capture_output=True)
     with zipfile.ZipFile(wheel) as first, zipfile.ZipFile(next(tmp_path.glob("*.whl"))) as second:
@@ -175,8 +170,6 @@ def empty(tmp_path_factory: pytest.TempPathFactory) -> Path:
         if not name.startswith(("tests/", "resources/guide/")) and (path := ROOT / name).exists():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, folder / name, follow_symlinks=False)
-    for library in build.built():
-        shutil.copy(library, folder / "core/kernels")  # compiling them is another test's
     return folder
 
 

@@ -37,7 +37,6 @@ from carpus.core.errors import (
     OtherCamera,
 )
 from carpus.core.installing import Finding, how_to_install, is_packed
-from carpus.core.kernels.choice import NUMPY, VARIABLE, damaged, in_c
 from carpus.core.phrase import phrase
 from carpus.core.rounding import written
 from carpus.core.types import Frame
@@ -71,7 +70,6 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
     yield python_finding(sys.version_info[:3])
     yield packages_finding()
     yield compiled_finding()
-    yield kernels_finding()
     yield window_finding()
     yield fonts_finding()
     yield data_folder_finding(data_folder)
@@ -137,29 +135,6 @@ def compiled_finding() -> Finding:
         missing = phrase("missing: {name}", name=fault.subject)
         return Finding(phrase("Compiled parts"), "bad", missing, phrase("Install Carpus anew."))
     return Finding(phrase("Compiled parts"), "good", phrase("all there"))
-
-
-def kernels_finding() -> Finding:
-    """Whether the costly steps run in C, or in NumPy at half the speed."""
-    if spoilt := damaged():
-        return Finding(
-            phrase("Kernels"),
-            "warning",
-            phrase("{name} is damaged and not used; tracking takes longer", name=spoilt[0].name),
-            phrase("Install Carpus anew."),
-        )
-    if (kernels := in_c()) is not None:
-        return Finding(phrase("Kernels"), "good", phrase("in C, {level}", level=kernels.level))
-    if os.environ.get(VARIABLE) == NUMPY:
-        return Finding(
-            phrase("Kernels"), "warning", phrase("NumPy alone, as {name} asks", name=VARIABLE), f"unset {VARIABLE}"
-        )
-    return Finding(
-        phrase("Kernels"),
-        "warning",
-        phrase("NumPy alone, which takes twice the time"),
-        phrase("Install a C compiler (Debian: {packages}) and Carpus anew.", packages="gcc libc6-dev"),
-    )
 
 
 def window_finding() -> Finding:

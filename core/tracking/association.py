@@ -160,7 +160,7 @@ def most_chi2(chance: float) -> tuple[float, ...]:
 
 @lru_cache(maxsize=4)
 def most_chi2_row(chance: float) -> FloatArray:
-    """The same as an array, for the kernels."""
+    """The same as an array, for what is compiled."""
     return np.array(most_chi2(chance))
 
 

@@ -64,7 +64,7 @@ def make_roots(matrix: FloatArray) -> None:
 
     In place, as in the filter's step a root by ``numpy.linalg`` costs twice as much; fails as that does.
     """
-    from scipy.linalg.lapack import dpotrf  # a fifth of a second to load, and the kernels in C do without
+    from scipy.linalg.lapack import dpotrf  # a fifth of a second to load
 
     if not matrix.flags.c_contiguous:
         raise ValueError("not stored row by row: LAPACK would change a copy")

@@ -3616,10 +3616,6 @@
         <translation>Installieren Sie Python 3.11 oder neuer und damit Carpus.</translation>
     </message>
     <message>
-        <source>Install a C compiler (Debian: {packages}) and Carpus anew.</source>
-        <translation>Einen C-Compiler (Debian: {packages}) und Carpus neu installieren.</translation>
-    </message>
-    <message>
         <source>Install it again.</source>
         <translation>Installieren Sie es neu.</translation>
     </message>
@@ -3652,10 +3648,6 @@
         <translation>Halten Sie die Hand eine halbe Sekunde ruhig.</translation>
     </message>
     <message>
-        <source>Kernels</source>
-        <translation>Rechenkerne</translation>
-    </message>
-    <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
         <translation>Sehen Sie die Linien im Bild an, und geben Sie dem Marker seinen richtigen Namen.</translation>
     </message>
@@ -3686,14 +3678,6 @@
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
         <translation>Noch nicht alle Dateien konnten gelöscht werden ({detail} übrig, zum Beispiel {subject}).</translation>
-    </message>
-    <message>
-        <source>NumPy alone, as {name} asks</source>
-        <translation>NumPy allein, wie {name} verlangt</translation>
-    </message>
-    <message>
-        <source>NumPy alone, which takes twice the time</source>
-        <translation>NumPy allein, was doppelt so lange dauert</translation>
     </message>
     <message>
         <source>OpenNI2</source>
@@ -4268,10 +4252,6 @@
         <translation>Hand {hand}</translation>
     </message>
     <message>
-        <source>in C, {level}</source>
-        <translation>in C, {level}</translation>
-    </message>
-    <message>
         <source>in colour, a depth picture of 16 bits is expected</source>
         <translation>farbig, erwartet ist ein Tiefenbild mit 16 Bit</translation>
     </message>
@@ -4766,10 +4746,6 @@
     <message>
         <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
         <translation>{name} ({vendor}:{product}) an {node}, {speed_mbit} Mbit/s</translation>
-    </message>
-    <message>
-        <source>{name} is damaged and not used; tracking takes longer</source>
-        <translation>{name} ist beschädigt und wird nicht verwendet; das Verfolgen dauert länger</translation>
     </message>
     <message>
         <source>{own_s} s while {here_s} s passed here</source>

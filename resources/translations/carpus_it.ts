@@ -3652,10 +3652,6 @@
         <translation>Tenere ferma la mano per mezzo secondo.</translation>
     </message>
     <message>
-        <source>Kernels</source>
-        <translation>Nuclei di calcolo</translation>
-    </message>
-    <message>
         <source>Look at the lines on the picture, and give the marker its right name.</source>
         <translation>Guardare le linee nell’immagine, e dare al marcatore il nome giusto.</translation>
     </message>
@@ -3686,14 +3682,6 @@
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
         <translation>Non è stato ancora possibile eliminare tutti i file (ne restano {detail}, per esempio {subject}).</translation>
-    </message>
-    <message>
-        <source>NumPy alone, as {name} asks</source>
-        <translation>solo NumPy, come chiede {name}</translation>
-    </message>
-    <message>
-        <source>NumPy alone, which takes twice the time</source>
-        <translation>solo NumPy, che impiega il doppio del tempo</translation>
     </message>
     <message>
         <source>OpenNI2</source>
@@ -4264,10 +4252,6 @@
         <translation>hand {hand}</translation>
     </message>
     <message>
-        <source>in C, {level}</source>
-        <translation>in C, {level}</translation>
-    </message>
-    <message>
         <source>in colour, a depth picture of 16 bits is expected</source>
         <translation>a colori, attesa un’immagine di profondità a 16 bit</translation>
     </message>
@@ -4764,10 +4748,6 @@
         <translation>{name} ({vendor}:{product}) in {node}, {speed_mbit} Mbit/s</translation>
     </message>
     <message>
-        <source>{name} is damaged and not used; tracking takes longer</source>
-        <translation>{name} è danneggiato e non viene usato; il tracciamento dura di più</translation>
-    </message>
-    <message>
         <source>{own_s} s while {here_s} s passed here</source>
         <translation>{own_s} s mentre qui passano {here_s} s</translation>
     </message>
@@ -5186,10 +5166,6 @@
     <message>
         <source>ASSH, sum of active bending in a fist</source>
         <translation>ASSH, somma della flessione attiva nel pugno</translation>
-    </message>
-    <message>
-        <source>Install a C compiler (Debian: {packages}) and Carpus anew.</source>
-        <translation>Installare un compilatore C (Debian: {packages}) e di nuovo Carpus.</translation>
     </message>
     <message>
         <source>The packed program does without {packages}; Carpus from its source can have it.</source>

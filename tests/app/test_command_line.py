@@ -133,7 +133,7 @@ def test_closed_streams_are_no_trouble(recording: Path, tmp_path: Path) -> None:
 
 NOT_LOADED = {
     "demo": ("h5py", "yaml", "threadpoolctl", "sqlalchemy", "carpus.core.detection", "carpus.core.measures"),
-    "info": ("h5py", "threadpoolctl", "sqlalchemy", "carpus.core.detection", "carpus.core.kernels"),
+    "info": ("h5py", "threadpoolctl", "sqlalchemy", "carpus.core.detection", "carpus.core.compiled"),
     "track": ("yaml", "threadpoolctl", "sqlalchemy", "carpus.core.measures", "carpus.core.results.figures"),
 }
 """By commands that only tell what they take: a tenth of a second each, for whoever types one."""
@@ -220,13 +220,6 @@ def test_stopped_while_modules_load_it_ends_without_a_traceback() -> None:
     assert signalled([sys.executable, "-c", stop], lambda: True) == (-signal.SIGINT, "")
     after = "import signal, carpus.app.__main__\nassert signal.getsignal(2) is signal.default_int_handler\n"
     assert signalled([sys.executable, "-c", after], lambda: True) == (0, "")
-
-
-def test_kernels_that_there_are_not_are_told(session: Path) -> None:
-    environment = os.environ | {"CARPUS_KERNELS": "bogus"}
-    done = subprocess.run([*COMMAND, "info", session], cwd=ROOT, env=environment, capture_output=True, text=True)
-    assert (done.returncode, done.stderr.count("\n")) == (0, 1)
-    assert "numpy or plain" in done.stderr
 
 
 def test_stopped_while_tracking_leaves_no_part(recording: Path, tmp_path: Path) -> None:

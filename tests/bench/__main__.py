@@ -19,7 +19,6 @@ def main() -> int:
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")  # before any part loads NumPy
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    from carpus.core.kernels import choice
 
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     parser.add_argument("parts", nargs="*", choices=[*PARTS, []], help=f"{', '.join(PARTS)}; all when none is named")
@@ -36,8 +35,6 @@ def main() -> int:
         parser.error(f"no such part: {', '.join(sorted(unknown))}")
     print(f"{platform.platform()}, Python {platform.python_version()}, {os.cpu_count()} processors")
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
-    kernels = choice.in_c()
-    print(f"Kernels: {'NumPy alone' if kernels is None else f'in C, {kernels.level}'}")
     print(f"CPU time; ratios to the yardstick of the same run. Load at the start: {load:.1f}\n")
     options: dict[str, dict[str, object]] = {
         "tracking": {"rounds": arguments.rounds},

@@ -25,7 +25,7 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
     found = examine(tmp_path / "data", camera_uri="xtion:Dummy", measure_s=0.5)
     findings = {finding.name: finding for finding in found}
     assert list(findings) == [
-        "Python", "Packages", "Compiled parts", "Kernels", "Window", "Fonts", "Data folder", "Disk", "Disk encryption",
+        "Python", "Packages", "Compiled parts", "Window", "Fonts", "Data folder", "Disk", "Disk encryption",
         "Driver", "RealSense driver", "Orbbec driver", "Camera rights, Asus Xtion", "Camera", "Pictures",
         "Registration", "Mirror", "Clock",
     ]  # fmt: skip
