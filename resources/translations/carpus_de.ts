@@ -2360,14 +2360,6 @@
         <translation>Was zum Teil verdeckt war, wird nicht beurteilt.</translation>
     </message>
     <message>
-        <source>{finger} {size} better</source>
-        <translation>{finger} {size} besser</translation>
-    </message>
-    <message>
-        <source>{finger} {size} less</source>
-        <translation>{finger} {size} weniger</translation>
-    </message>
-    <message>
         <source>Since {when}: {changes} (error {limit}).</source>
         <translation>Seit {when}: {changes} (Fehler {limit}).</translation>
     </message>

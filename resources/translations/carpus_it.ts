@@ -2360,14 +2360,6 @@
         <translation>Ciò che era in parte nascosto non è valutato.</translation>
     </message>
     <message>
-        <source>{finger} {size} better</source>
-        <translation>{finger} {size} in più</translation>
-    </message>
-    <message>
-        <source>{finger} {size} less</source>
-        <translation>{finger} {size} in meno</translation>
-    </message>
-    <message>
         <source>Since {when}: {changes} (error {limit}).</source>
         <translation>Confronto con {when}: {changes} (errore {limit}).</translation>
     </message>

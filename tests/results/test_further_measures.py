@@ -13,9 +13,10 @@ from carpus.core.results.further_measures import _distance_sd_m, session_reaches
 from carpus.core.results.measure import Measure, measure_values
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.norms import SHARE_OF_OTHER, grade_share, total_shares
-from carpus.ui.words.further import further_rows, main_words, measure_name, short_words
-from carpus.ui.words.ranges import table_rows
+from carpus.ui.words.further import further_table, main_words, measure_name, short_words
+from carpus.ui.words.ranges import range_table
 from carpus.ui.words.session import method
+from carpus.ui.words.table import cell_words
 from tests.ui.fakes import figures_once, session
 from tests.ui.hand_fakes import hand_session
 
@@ -123,7 +124,7 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
     figures = figures_once(replace(made, motion=replace(motion, angles_rad=angles)))
     row = figures.find("flexion", "extension")
     assert -24.0 < row.mean < -12.0
-    shown = {line.movement: line.today for line in table_rows(figures, None, None)}
+    shown = {cell_words(line[0]): line[1] for line in range_table(figures, None, None).rows}
     assert "Extension deficit" in shown
     assert "-" not in shown["Extension deficit"]
     assert "\N{MINUS SIGN}" not in shown["Extension deficit"]
@@ -134,9 +135,9 @@ def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -
     gone = measure_values("task", "return", "smoothness", "SPARC", (math.nan,))
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     figures = replace(figures, measures=(lost, gone))
-    assert [(row.name, row.today) for row in further_rows(figures)] == [
-        ("Smoothness (SPARC), out", "too slow to judge")
-    ]
+    (row,) = further_table(figures).rows
+    assert row[:2] == ("Smoothness (SPARC), out", "too slow to judge")
+    assert not any(row[2:])
     row = next(row for row in measure_rows(figures, "s") if (row.measure, row.of) == ("smoothness", "reach"))
     assert row.count == 0
     assert math.isnan(row.mean)
@@ -157,7 +158,8 @@ def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
     assert not any(
         math.isfinite(item.mean) for item in figures.group("task") if item.of in ("thumb across", "thumb back")
     )
-    said = [row.today for row in further_rows(figures) if "across" in row.name]
+    rows = [row[place : place + 2] for row in further_table(figures).rows for place in (0, 3)]
+    said = [today for name, today in rows if "across" in str(name)]
     assert said == ["hidden from the camera"], "one line for all that is not known of the ways"
 
 

@@ -116,7 +116,7 @@ def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
 def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     found = active_passive(figures, hand_values_today())
-    flexion = next(row for row in found.rows if row[0] == "Flexion")
+    flexion = next(row for row in found.table.rows if row[0] == "Flexion")
     assert flexion[4] == f"{BY_HAND} 48° / 60°"
     assert f"{mean_of(figures):.0f}°" in flexion[1]
     assert f"{mean_of(figures.as_passive()):.0f}°" in flexion[2]
@@ -127,7 +127,7 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
 
 def test_where_passive_went_less_far_the_table_says_so_and_the_sentence_keeps_the_sign() -> None:
     found = active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
-    arc = next(row for row in found.rows if row[0] == "Whole arc")
+    arc = next(row for row in found.table.rows if row[0] == "Whole arc")
     assert arc[3].startswith("\N{MINUS SIGN}")
     assert "error" in arc[3]
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
@@ -138,10 +138,10 @@ def test_where_passive_went_less_far_the_table_says_so_and_the_sentence_keeps_th
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:
     figures = figures_once(FakeHandSessions().session("hand-7"))
     found = active_passive(figures, hand_values_today())
-    ring = next(row for row in found.rows if row[0] == "Ring")
+    ring = next(row for row in found.table.rows if row[0] == "Ring")
     assert f"{BY_HAND} 70° / 90°" in ring
-    assert any(cell.startswith("≥") for row in found.rows for cell in row)
-    assert not any(head.endswith("passive") for head in found.heads), "nothing was passive: no column of it"
+    assert any(cell.startswith("≥") for row in found.table.rows for cell in row)
+    assert not any(head.endswith("passive") for head in found.table.heads), "nothing was passive: no column of it"
 
 
 def test_the_report_prints_both_and_what_was_measured_by_hand(tmp_path: Path) -> None:

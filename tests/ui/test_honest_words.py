@@ -45,10 +45,11 @@ from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import change_since_first, difference, limit_words, no_change_words, verdict_word
-from carpus.ui.words.fingers import column_heads, compared_figures, limits_words, main_figure
+from carpus.ui.words.fingers import compared_figures, finger_table, limits_words, main_figure
 from carpus.ui.words.progress import before_after
-from carpus.ui.words.ranges import repetition_words, table_rows
+from carpus.ui.words.ranges import range_table, repetition_words
 from carpus.ui.words.session import method, other_lines
+from carpus.ui.words.table import cell_words
 from tests.moments import with_moment
 from tests.results.days import with_ranges
 from tests.sources import SOURCES, modules, nodes
@@ -233,7 +234,7 @@ def test_the_middle_finger_spreads_radially_and_ulnarly() -> None:
 @pytest.mark.parametrize("exercise", ["THUMB_OPP", "FIST_HOOK"])
 def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None:
     figures = figures_once(hand_session(exercise=exercise))
-    assert "TAM" not in " ".join(column_heads(figures, None)) + limits_words(figures) + method(
+    assert "TAM" not in " ".join(map(cell_words, finger_table(figures, None).heads)) + limits_words(figures) + method(
         figures, 21, compared=True
     )
 
@@ -259,9 +260,7 @@ def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is
     assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
     lost = measure_values("speed", made.main_angle, "peak speed", "deg/s", (math.nan,), unknown="too_slow")
     slow = replace(made, measures=tuple(lost if row.key == lost.key else row for row in made.measures))
-    assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (
-        "too slow to judge"
-    )
+    assert next(row for row in range_table(slow, None, None).rows if row[0] == "Peak speed")[1] == ("too slow to judge")
     assert dict(other_lines(slow))["Peak speed, mean ± sd"] == "too slow to judge"
     assert "too slow" not in dict(other_lines(made))["Peak speed, mean ± sd"]
 

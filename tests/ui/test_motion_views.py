@@ -12,6 +12,7 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QFontMetricsF
 from pytestqt.qtbot import QtBot
 
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.seen import session_curves
 from carpus.ui.controls.text import Text
@@ -24,8 +25,9 @@ from carpus.ui.ports import PatientCard
 from carpus.ui.report.gather import write_session_report
 from carpus.ui.review.charts import WRIST
 from carpus.ui.theme import Theme
-from carpus.ui.words.fingers import column_heads, finger_rows, main_figure
-from carpus.ui.words.further import further_rows, main_words
+from carpus.ui.words.fingers import finger_table, main_figure
+from carpus.ui.words.further import further_table, main_words
+from carpus.ui.words.table import Cell
 from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
@@ -162,12 +164,12 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(review: Re
 def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     before = figures_once(hand_session(NOW - timedelta(days=7), 0.9, "REACH_GRASP", "hand-6", "reach_grasp"))
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    rows = further_rows(figures, before)
-    assert [row.name for row in rows[:4]] == [
-        "Movement time, out", "Movement time, back", "Peak speed, out", "Peak speed, back",
+    rows = further_table(figures, before).rows
+    assert [row[::3] for row in rows[:2]] == [
+        ("Movement time, out", "Movement time, back"), ("Peak speed, out", "Peak speed, back"),
     ]  # fmt: skip
-    assert all(row.last for row in rows[:4])
-    assert rows[0].today.endswith("s")
+    assert all(all(row) for row in rows[:2])
+    assert str(rows[0][1]).endswith("s")
     assert main_words(figures).startswith("Out in 1.")
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     assert main_words(touched) == "The thumb touched 4 of 4 finger tips"
@@ -185,20 +187,25 @@ def test_list_and_card_say_of_a_reach_what_it_is_about(theme: Theme) -> None:
     assert said in [text.text() for text in card.findChildren(Text) if text.isVisibleTo(card)]
 
 
+def shares_of(figures: SessionFigures, other: SessionFigures | None = None) -> list[Cell]:
+    cells = [row[6] for row in finger_table(figures, None, other).rows]
+    return [cell for cell in cells if isinstance(cell, Cell)]
+
+
 def test_totals_are_graded_beside_their_share() -> None:
     whole = figures_once(hand_session(hides_beyond_deg=999.0))
-    assert column_heads(whole, None)[5] == "Of usual"
-    rows = finger_rows(whole, None)
-    assert all(row.share.main.endswith("%") for row in rows)
+    assert finger_table(whole, None).heads[6] == "Of usual"
+    shares = shares_of(whole)
+    assert all(share.text.endswith("%") for share in shares)
     index = whole.find("TAM2", "arc")
-    assert rows[1].share.main.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean / 260.0:.0f}"
-    assert rows[1].share.small in ("good", "fair")
-    hidden = finger_rows(figures_once(hand_session()), None)
-    assert hidden[1].share.main.startswith("≥")
-    assert hidden[1].share.small == "not graded"
+    assert shares[1].text.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean / 260.0:.0f}"
+    assert shares[1].below in ("good", "fair")
+    hidden = shares_of(figures_once(hand_session()))
+    assert hidden[1].text.startswith("≥")
+    assert hidden[1].below == "not graded"
     other = figures_once(hand_session(side="left", hides_beyond_deg=999.0))
-    assert column_heads(whole, None, other)[5] == "Of other hand"
-    assert finger_rows(whole, None, other)[1].share.small in ("excellent", "good")
+    assert finger_table(whole, None, other).heads[6] == "Of other hand"
+    assert shares_of(whole, other)[1].below in ("excellent", "good")
 
 
 # --- paper ------------------------------------------------------------------------------------------------

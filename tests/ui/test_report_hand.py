@@ -22,14 +22,14 @@ from carpus.ui.report.gather import progress_report, session_report, write_progr
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.words.fingers import (
     cell_of,
-    finger_rows,
+    finger_table,
     followed_keys,
     followed_kinds,
-    hand_summary,
     limits_words,
 )
 from carpus.ui.words.progress import headline
-from carpus.ui.words.session import quality_lines
+from carpus.ui.words.session import hand_summary, quality_lines
+from carpus.ui.words.table import Cell, cell_words
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
@@ -52,11 +52,10 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
     assert pages_of(path) == 2
     words = plain(words_of(path))
     figures = figures_once(store.session("hand-7"))
-    for row in finger_rows(figures, None):
-        assert row.name in words
-        for cell in row.cells:
-            assert plain(cell.shown) in words
-            assert plain(cell.small) in words
+    for row in finger_table(figures, None).rows:
+        for cell in row:
+            assert plain(cell_words(cell)) in words
+            assert isinstance(cell, str) or plain(cell.below) in words
     for head in ("(MCP)", "(PIP)", "(DIP)", "TAM", "Bending arc", "Limited by the camera’s view", "DIP not measured"):
         assert head in words
     assert LEGAL_SENTENCE in words
@@ -181,13 +180,13 @@ def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
 
 def test_a_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen() -> None:
     figures = figures_once(hand_session())
-    rows = finger_rows(figures, None)
-    bounds = [cell.main for row in rows for cell in row.cells if cell.limited]
+    rows = [[cell_words(cell) for cell in row[1:6]] for row in finger_table(figures, None).rows]
+    bounds = [words for row in rows for words in row if "≥" in words]
     assert bounds
-    assert all(words.startswith("≥") and "±" not in words for words in bounds)
+    assert not any("±" in words for words in bounds)
     thumb, *fingers = rows
-    assert [cell.shown.split()[0] for cell in thumb.cells[:3]] == ["MCP", "Lift", "IP"], "no finger's joint"
-    assert all(not cell.joint for row in fingers for cell in row.cells)
+    assert [words.split()[0] for words in thumb[:3]] == ["MCP", "Lift", "IP"], "no finger's joint"
+    assert not any(words.startswith(("MCP", "Lift", "IP")) for row in fingers for words in row)
     assert "the camera did not see" in hand_summary(figures, None, None)
     assert "did not see" not in hand_summary(figures_once(hand_session(hides_beyond_deg=999.0)), None, None)
 
@@ -205,9 +204,11 @@ def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
     low = ("PIP3_flexion", "extension")
     beyond = with_ranges(figures, lambda row: {"mean": -3.2} if row.key == low else {})
     cell = cell_of(beyond, Figure(3, "middle"))
-    assert cell.small.startswith("−3° to ")
-    spread = cell_of(figures, Figure(4, "spread")).small
-    assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread)
+    assert isinstance(cell, Cell)
+    assert cell.below.startswith("−3° to ")
+    spread = cell_of(figures, Figure(4, "spread"))
+    assert isinstance(spread, Cell)
+    assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread.below)
     assert with_side(-2.0) == "2° in"
     assert with_side(0.4) == "0°"
 

@@ -10,11 +10,12 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import fill, in_column, in_line
-from carpus.ui.controls.table import Cell, Table, TableColumn
+from carpus.ui.controls.table import Table
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.keys import KEYS
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
+from carpus.ui.words.table import Cell, TableColumn
 
 _VALUE = TableColumn(SEMIBOLD, scale=1.14)
 COLUMNS = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QWidget
 from carpus.ui.controls.card import Fill, Line
 from carpus.ui.controls.layouts import empty, in_column, in_grid, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Sign, Text
-from carpus.ui.icons import State
 from carpus.ui.theme import Theme
+from carpus.ui.words.table import Cell, TableColumn, cell_words
 
 MAX_LETTERS = 26
 """A longer text asks for no wider column: it goes on in the next line."""
@@ -22,34 +22,6 @@ BAR, DASH = (0.35, 1.0), (0.85, 0.28)
 """Width and height, in sizes of the words, of the mark of a curve: before the name of a row, and of a column."""
 SMALLEST = 0.7
 """Share of its usual size in which a table can still be read."""
-VERDICT_TOKENS = {"improved": "good", "worse": "bad", "warn": "warn"}
-
-
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """Words with a look of their own, a smaller line ``below`` them, and before them the ``mark`` of their curve or a
-    state's ``sign``."""
-
-    text: str
-    weight: int = REGULAR
-    token: str = "text"
-    below: str = ""
-    mark: str = ""
-    sign: State | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class TableColumn:
-    """How the cells of a column look: ``ends`` where they end at its right edge, ``wraps`` where words go on in the
-    next line once they have so many letters as ``least``, ``scale`` of the table's size."""
-
-    weight: int = REGULAR
-    token: str = "text"
-    ends: bool = False
-    wraps: bool = True
-    least: int = 0
-    scale: float = 1.0
-
 
 _HEAD = TableColumn(MEDIUM, "text2")
 
@@ -82,7 +54,7 @@ class Table(QWidget):
     ) -> None:
         """Replace what is shown; columns without head and words are left out."""
         lines = [*([heads] if heads else []), *rows]
-        used = [at for at in range(len(columns)) if any(_words(line[at]) for line in lines)]
+        used = [at for at in range(len(columns)) if any(cell_words(line[at]) for line in lines)]
         self._columns = tuple(columns[at] for at in used)
         self._heads = tuple(_to_cell(heads[at], _HEAD) for at in used) if heads else ()
         self.rows = tuple(tuple(_to_cell(row[at], columns[at]) for at in used) for row in rows)
@@ -178,10 +150,6 @@ class Table(QWidget):
         self._grid.addWidget(whole, row, place)
         whole.show()  # at once: the room for it is asked before Qt would come to it
         return int(width)
-
-
-def _words(cell: str | Cell) -> str:
-    return cell if isinstance(cell, str) else cell.text
 
 
 def _to_cell(cell: str | Cell, column: TableColumn) -> Cell:

@@ -12,18 +12,17 @@ from carpus.ui.controls.text import REGULAR, SEMIBOLD
 from carpus.ui.figures import TOKENS, row_name
 from carpus.ui.plot.session import BENDING, HandPlot
 from carpus.ui.report.page import PAPER, column, label, line, paragraph, points, rule, session_curves, table, title
-from carpus.ui.report.table_cells import FINGER_COLUMNS, finger_cells
 from carpus.ui.terms import arc_name
 from carpus.ui.translate import tr
-from carpus.ui.words.fingers import column_heads, finger_rows, limits_words
+from carpus.ui.words.fingers import finger_table, limits_words
 from carpus.ui.words.ranges import mean_words, repetition_words
+from carpus.ui.words.table import cell_words
 
 
-def finger_table(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> list[Part]:
+def finger_part(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> list[Part]:
     """One row for each finger, then in words what the camera's view limits."""
-    heads = ["", *column_heads(figures, previous, other)]
-    rows = [finger_cells(row) for row in finger_rows(figures, previous, other)]
-    shown = table(FINGER_COLUMNS, heads, rows, pitch=2.0)
+    columns, heads, rows = finger_table(figures, previous, other)
+    shown = table(columns, [cell_words(head) for head in heads], rows, pitch=2.0)
     words = limits_words(figures)
     below = [paragraph(words, 8.0)] if words else []
     return [column(title(tr("Range of motion of the fingers"), repetition_words(figures)), shown, *below, gap=2.0)]

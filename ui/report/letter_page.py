@@ -15,7 +15,6 @@ from PySide6.QtWidgets import QLayout
 
 from carpus.ui import numbers, terms
 from carpus.ui.controls.layouts import STRETCH, Item, Part
-from carpus.ui.controls.table import TableColumn
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.page import (
@@ -33,10 +32,11 @@ from carpus.ui.report.page import (
 )
 from carpus.ui.report.session_page import OfSession, SessionReport, comment_lines, comment_text
 from carpus.ui.translate import inside, tr
-from carpus.ui.words.fingers import AT_LEAST, compared_figures, hand_since_words, range_words, trains_thumb
+from carpus.ui.words.fingers import AT_LEAST, compared_figures, range_words, trains_thumb
 from carpus.ui.words.progress import corrected_words
-from carpus.ui.words.ranges import table_rows
-from carpus.ui.words.session import method, since_compared, since_sessions, warnings
+from carpus.ui.words.ranges import range_table
+from carpus.ui.words.session import method, since_sessions, warnings
+from carpus.ui.words.table import TableColumn, cell_words
 
 SMALLEST = 0.8
 OMISSIONS = 3
@@ -99,9 +99,8 @@ def _parts(letter: LetterReport, omitted: int) -> QLayout:
     if any(cell.startswith(AT_LEAST) for row in figure_rows(report) for cell in row):
         words = tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST)
         parts.append(paragraph(words, 8.5, REGULAR, "text2"))
-    since = since_compared if report.joints is None else hand_since_words
     first = report.first if omitted < 2 else None
-    parts += [paragraph(words, SIZE_PT) for words in since_sessions(figures, report.previous, first, since)]
+    parts += [paragraph(words, SIZE_PT) for words in since_sessions(figures, report.previous, first)]
     if report.comment.strip():
         has_room = omitted < OMISSIONS
         said_of_it = tr("The comment is too long for this letter; it is in the report.")
@@ -133,13 +132,14 @@ def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
     """Name, mean with its spread, the other hand's and last time's; a figure that is not known is said to be so."""
     figures = report.figures
     if report.joints is None:
-        rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
-        return [(row.movement, row.today, row.other_hand, row.last) for row in rows]
+        shown = range_table(figures, report.previous, report.other_hand, on_paper=True)
+        lines = [[cell_words(cell) for cell in row] for row in shown.rows]
+        return [(name, today, beside, last) for name, today, _, beside, _, last, _ in lines]
     found = []
     for figure in compared_figures(figures):
         cells = []
-        for shown in (figures, report.other_hand, report.previous):
-            row = None if shown is None else shown.find(figure.joint, "arc")
+        for one in (figures, report.other_hand, report.previous):
+            row = None if one is None else one.find(figure.joint, "arc")
             cells.append(range_words(row) if row is not None and row.count else tr("not measured"))
         name = figure.row_name if trains_thumb(figures) else f"{finger_name(str(figure.finger))}, {figure.row_name}"
         found.append((name, cells[0], cells[1], cells[2]))

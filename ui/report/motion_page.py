@@ -12,9 +12,8 @@ from carpus.ui.controls.layouts import STRETCH, Part
 from carpus.ui.plot.motion import MotionKind, MotionPlot, zyz_words
 from carpus.ui.plot.ways import WayPlot, finger_ways, paint_ways, wrist_way
 from carpus.ui.report.page import CHART, PaintedPart, column, legal_line, paragraph, session_curves, table, title
-from carpus.ui.report.table_cells import FURTHER_COLUMNS, further_cells
 from carpus.ui.translate import tr
-from carpus.ui.words.further import further_rows, further_title
+from carpus.ui.words.further import further_table, further_title
 
 
 def motion_page(
@@ -45,11 +44,11 @@ def motion_page(
 
 def _further(figures: SessionFigures, previous: SessionFigures | None) -> list[Part]:
     """Two figures to a line."""
-    rows = further_rows(figures, previous)
+    columns, _, rows = further_table(figures, previous)
     if not rows:
         return []
     day = numbers.day_beside(previous.when, figures.when) if previous is not None and previous.group("task") else ""
-    shown = table(FURTHER_COLUMNS, (), further_cells(rows, 2), size=8.5, pitch=1.5)
+    shown = table(columns, (), rows, size=8.5, pitch=1.5)
     aside = tr("mean ± sd; at the right: {day}").format(day=day) if day else ""
     return [column(title(further_title(figures), aside), shown, gap=2.0)]
 

@@ -13,7 +13,7 @@ from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.ui import terms
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.layouts import STRETCH, Part, in_column, in_line
-from carpus.ui.controls.table import Cell, Table, TableColumn
+from carpus.ui.controls.table import Table
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.fonts import font
 from carpus.ui.language import borrowed, speaking
@@ -21,6 +21,7 @@ from carpus.ui.plot.session import SessionPlot, paint_session
 from carpus.ui.plot.style import PlotStyle, paper_style
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside, tr
+from carpus.ui.words.table import Cell, TableColumn
 
 UNIT = 4
 """Pixels of a layout in a point: Qt places in whole ones, and a quarter of a point is finer than print shows."""

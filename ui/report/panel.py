@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit
 
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import compare
 from carpus.core.results.report_form import MOST_SENTENCES, SECTIONS, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button, Tick
@@ -22,7 +21,7 @@ from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside, tr
-from carpus.ui.words.fingers import hand_since_words, range_words
+from carpus.ui.words.fingers import range_words
 from carpus.ui.words.ranges import is_deficit, mean_words, prints_spread
 from carpus.ui.words.session import since_words
 
@@ -247,10 +246,7 @@ def _change(report: SessionReport) -> str:
     if report.previous is None:
         return _sentence(tr("not measured"))
     day = numbers.day_beside(report.previous.when, report.figures.when)
-    if report.joints is not None:
-        said = hand_since_words(report.figures, report.previous, day)
-    else:
-        said = since_words(compare(report.previous, report.figures), day)
+    said = since_words(report.figures, report.previous, day)
     return said or _sentence(tr("not measured"))
 
 

@@ -13,7 +13,6 @@ from carpus.core.results.progress import Progress
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers
 from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.controls.table import Cell, TableColumn
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.plot.course import paint_chart
 from carpus.ui.report.page import (
@@ -33,6 +32,7 @@ from carpus.ui.translate import tr
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
 from carpus.ui.words.by_hand import change_words, changes, day_words, full_name, verdict_words
 from carpus.ui.words.progress import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
+from carpus.ui.words.table import Cell, TableColumn
 
 MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
 MOST_UNFAIR = 4

@@ -19,11 +19,10 @@ from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.controls.table import TableColumn
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.plot.range_bars import BAR_PX, FOOT_PX, paint_range_bars, range_bars
 from carpus.ui.plot.session import SessionPlot
-from carpus.ui.report.hand_part import finger_curves, finger_table, wrist_line
+from carpus.ui.report.hand_part import finger_curves, finger_part, wrist_line
 from carpus.ui.report.motion_page import motion_page
 from carpus.ui.report.page import (
     BODY_PT,
@@ -47,14 +46,13 @@ from carpus.ui.report.page import (
     title,
     value_rows,
 )
-from carpus.ui.report.table_cells import RANGE_COLUMNS, range_cells
 from carpus.ui.translate import inside, tr
 from carpus.ui.words.active_passive import active_passive
 from carpus.ui.words.by_hand import day_words
-from carpus.ui.words.fingers import compared_figures, hand_summary
+from carpus.ui.words.fingers import compared_ranges
 from carpus.ui.words.progress import corrected_words
-from carpus.ui.words.ranges import column_names, norm_words, repetition_words, table_rows
-from carpus.ui.words.session import method, other_lines, quality_lines, summary, warnings
+from carpus.ui.words.ranges import norm_words, range_table, repetition_words
+from carpus.ui.words.session import hand_summary, method, other_lines, quality_lines, summary, warnings
 
 COMMENT_PT = 9.0
 MAX_COMMENT_LINES, LINES_ON_A_PAGE = 6, 52
@@ -151,7 +149,7 @@ def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> Q
     parts.append(paragraph(summed_up(figures, report.previous, report.first), 10.0, SEMIBOLD))
     if form.has("table"):
         is_hand, sessions = report.joints is not None, (figures, report.previous, report.other_hand)
-        parts += finger_table(*sessions) if is_hand else _range_table(report)
+        parts += finger_part(*sessions) if is_hand else _range_table(report)
         parts += _active_passive(report)
         parts += wrist_line(figures) if is_hand else []
     if form.has("curves"):
@@ -227,11 +225,10 @@ def _diagnosis_words(report: SessionReport) -> str:
 
 def _range_table(report: SessionReport) -> list[Part]:
     figures = report.figures
-    rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
-    if not rows and figures.has_passive:
+    found = range_table(figures, report.previous, report.other_hand, on_paper=True)
+    if not found.rows and figures.has_passive:
         return []  # the table of what was passive says all there is
-    heads = column_names(figures, report.previous, report.other_hand)
-    shown = table(RANGE_COLUMNS, range_cells(heads), [range_cells(row, is_short=True) for row in rows])
+    shown = table(*found)
     source = norm_words(figures)
     below = [paragraph(source, 7.5, REGULAR, "text2")] if source else []
     return [column(title(tr("Range of motion"), repetition_words(figures)), shown, *below, gap=2.0)]
@@ -243,7 +240,7 @@ def _active_passive(report: SessionReport) -> list[Part]:
     if found is None:
         return []
     aside = "" if report.figures.wrist_ranges or report.joints is not None else repetition_words(report.figures)
-    shown = table([TableColumn()] * len(found.heads), found.heads, found.rows)
+    shown = table(*found.table)
     above = [paragraph(found.said, 9.0, MEDIUM)] if found.said else []
     below = [paragraph(found.note, 7.5, REGULAR, "text2")] if found.note else []
     return [column(title(tr("Active and passive"), aside), *above, shown, *below, gap=2.0)]
@@ -293,11 +290,7 @@ def _boxes(report: SessionReport) -> list[Part]:
 
 def _speaks_of_error(report: SessionReport) -> bool:
     """Whether any change is judged on the page, against its measurement error."""
-    figures = report.figures
-    rows = list(figures.wrist_ranges)
-    if report.joints is not None:
-        joints = [figure.joint for figure in compared_figures(figures)]
-        rows = [row for row in figures.joint_ranges if row.what == "arc" and row.of in joints]
+    figures, rows = report.figures, compared_ranges(report.figures)
     before = [item for item in (report.previous, report.first) if item is not None]
     return any(item.verdict != "not_judged" for earlier in before for item in compare(earlier, figures, rows))
 

@@ -15,25 +15,16 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import NO_LIMIT_PX, STRETCH, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
-from carpus.ui.controls.table import Table, TableColumn
+from carpus.ui.controls.table import Table
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, plain_tooltip
-from carpus.ui.report.table_cells import (
-    FINGER_COLUMNS,
-    FURTHER_COLUMNS,
-    RANGE_COLUMNS,
-    finger_cells,
-    finger_heads,
-    further_cells,
-    range_cells,
-)
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
 from carpus.ui.words.active_passive import active_passive
-from carpus.ui.words.fingers import column_heads, finger_rows, limits_words, main_figure
-from carpus.ui.words.further import further_rows, further_title
+from carpus.ui.words.fingers import finger_table, limits_words, main_figure
+from carpus.ui.words.further import further_table, further_title
 from carpus.ui.words.progress import corrected_words
-from carpus.ui.words.ranges import column_names, repetition_words, table_rows
+from carpus.ui.words.ranges import range_table, repetition_words
 
 LEAST_TABLE_PX = 84
 """The head of the table and two rows."""
@@ -189,12 +180,10 @@ class ResultTables(ScrollArea):
         figures = reviewed.figures
         previous, other = previous_of(reviewed.history, figures), other_hand_of(reviewed.history, figures)
         if reviewed.is_hand:
-            heads, rows = column_heads(figures, previous, other), finger_rows(figures, previous, other)
-            self.hand.show_rows(FINGER_COLUMNS, finger_heads(heads), [finger_cells(row) for row in rows])
+            self.hand.show_rows(*finger_table(figures, previous, other))
             self.limits.setText(limits_words(figures))
         else:
-            names, movements = column_names(figures, previous, other), table_rows(figures, previous, other)
-            self.range.show_rows(RANGE_COLUMNS, range_cells(names), [range_cells(row) for row in movements])
+            self.range.show_rows(*range_table(figures, previous, other))
         self.range.setVisible(not reviewed.is_hand and bool(self.range.rows))
         self._show_active_passive(reviewed)
         self._show_further(figures, previous, is_hand=reviewed.is_hand)
@@ -205,7 +194,7 @@ class ResultTables(ScrollArea):
         found = active_passive(reviewed.figures, reviewed.by_hand)
         if found is not None:
             self.ways_said.setText(found.said)
-            self.ways.show_rows([TableColumn()] * len(found.heads), found.heads, found.rows)
+            self.ways.show_rows(*found.table)
             self.ways_note.setText(found.note)
         for place, widget in enumerate(self._ways):
             self._column.removeWidget(widget)  # what was done both ways is the first to be read
@@ -215,12 +204,11 @@ class ResultTables(ScrollArea):
         self.ways_note.setVisible(found is not None and bool(found.note))
 
     def _show_further(self, figures: SessionFigures, previous: SessionFigures | None, *, is_hand: bool) -> None:
-        rows = further_rows(figures, previous)
-        day = numbers.day_beside(previous.when, figures.when) if previous is not None else ""
+        found = further_table(figures, previous)
         self.further_title.setText(further_title(figures))
-        self.further.show_rows(FURTHER_COLUMNS, ("", "", day) * 2, further_cells(rows, 2))
-        self._further.setVisible(bool(rows))
-        if rows and is_hand:  # what the exercise is about comes first
+        self.further.show_rows(*found)
+        self._further.setVisible(bool(found.rows))
+        if found.rows and is_hand:  # what the exercise is about comes first
             self._column.removeWidget(self._further)
             last = self._column.count() - 1  # before the stretch, after what explains the table
             self._column.insertWidget(0 if figures.exercise.is_task else last, self._further)

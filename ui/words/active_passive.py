@@ -19,6 +19,7 @@ from carpus.ui.words.by_hand import value_words
 from carpus.ui.words.fingers import AT_LEAST, has_totals, range_words
 from carpus.ui.words.progress import range_name
 from carpus.ui.words.ranges import is_deficit, mean_words
+from carpus.ui.words.table import TableColumn, TableWords
 
 BY_HAND = "\N{WHITE SQUARE}"
 """Before what a person measured, here as in every chart."""
@@ -27,11 +28,10 @@ _JOINTS: tuple[Row, ...] = ("knuckle", "middle", "end")
 
 @dataclass(frozen=True, slots=True)
 class ActivePassive:
-    """A table in words: a sentence, heads (two lines each) and rows; columns without content are not in it."""
+    """A sentence, the table, whose heads may have two lines, and what explains it."""
 
     said: str
-    heads: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    table: TableWords
     note: str
 
 
@@ -52,9 +52,8 @@ def active_passive(figures: SessionFigures, by_hand: Sequence[HandValue]) -> Act
         said = tr("{sign}: measured by hand that day, active / passive; never averaged with the rest.")
         note.append(said.format(sign=BY_HAND))
     shown = tuple(tuple(compress(row, known)) for row in rows if any(row[1:]))
-    return ActivePassive(
-        "" if helped is None else _sentence(figures, helped), tuple(compress(heads, known)), shown, " ".join(note)
-    )
+    table = TableWords((TableColumn(),) * sum(known), tuple(compress(heads, known)), shown)
+    return ActivePassive("" if helped is None else _sentence(figures, helped), table, " ".join(note))
 
 
 def _is_beside(figures: SessionFigures, by_hand: Sequence[HandValue]) -> bool:

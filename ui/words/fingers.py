@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from carpus.core.phrase import Phrase, phrase
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import Measure, MeasureKey, is_total, turn_round
-from carpus.core.results.norms import SHARE_OF_OTHER, Grade, grade_share, total_norm, total_shares
+from carpus.core.results.norms import SHARE_OF_OTHER, grade_share, total_norm, total_shares
 from carpus.core.results.progress import compare
 from carpus.core.results.ranges import finger_keys, spread_keys, thumb_keys
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
-from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
+from carpus.ui.figures import FINGERS, TOKENS, Figure, Row, figure_of, with_side
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.marker_words import finger_name
 from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import change_short, reason_words
-from carpus.ui.words.further import main_words, short_words
+from carpus.ui.words.further import short_words
 from carpus.ui.words.ranges import is_deficit, mean_words
-from carpus.ui.words.session import since_sessions
+from carpus.ui.words.table import VERDICT_TOKENS, Cell, TableColumn, TableLine, TableWords
 
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
 AT_LEAST = "≥"
@@ -42,84 +42,45 @@ _OF_FINGERS = {
 _OF_THUMB: dict[Row, Phrase] = {"knuckle": phrase("MCP"), "middle": phrase("Lift"), "end": phrase("IP")}
 
 
-@dataclass(frozen=True, slots=True)
-class FingerCell:
-    """One figure: the range with its spread, and from where to where. ``joint`` is set where the column's head is not
-    its name: a thumb has no middle joint, and none of its angles may be copied as a finger's PIP or DIP."""
-
-    main: str
-    small: str = ""
-    limited: bool = False
-    joint: str = ""
-
-    @property
-    def shown(self) -> str:
-        """``Lift 18° ± 2°``."""
-        return f"{self.joint} {self.main}" if self.joint else self.main
+_COLUMN = TableColumn(wraps=False)
+FINGER_COLUMNS = (
+    TableColumn(MEDIUM, wraps=False), *(_COLUMN,) * 6, TableColumn(wraps=False, scale=0.95),
+    TableColumn(MEDIUM, "text2", least=15, scale=0.9),
+)  # fmt: skip
+"""Finger, five values, share of the total, last time, change."""
 
 
-@dataclass(frozen=True, slots=True)
-class FingerRow:
-    """One finger: a cell per column of :data:`COLUMNS`, last time's figure, and what may be said of the change."""
-
-    finger: int
-    name: str
-    cells: tuple[FingerCell, ...]
-    share: FingerCell
-    """Of the TAM of the other hand, or of the usual one, with its grade; empty where there is none."""
-    last: str
-    change: str
-    verdict: str
-
-
-def finger_rows(
+def finger_table(
     figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None = None
-) -> list[FingerRow]:
+) -> TableWords:
     """Thumb to little finger; last time and change are those of the total, of spreading or of the middle joint,
     whichever the exercise is about. ``other`` the other hand, of which a total is a share."""
-    shares = {share.of: share for share in _shares(figures, other)}
-    return [_finger_row(finger, figures, previous, shares.get(f"TAM{finger}")) for finger in FINGERS]
+    shares = {share.of: share for share in _find_shares(figures, other)}
+    rows = (_line_of_finger(finger, figures, previous, shares.get(f"TAM{finger}")) for finger in FINGERS)
+    return TableWords(FINGER_COLUMNS, _head_line(figures, previous, other), tuple(rows))
 
 
-def _shares(figures: SessionFigures, other: SessionFigures | None) -> tuple[Measure, ...]:
+def _find_shares(figures: SessionFigures, other: SessionFigures | None) -> tuple[Measure, ...]:
     """Of every total, of the other hand's where that is known."""
     return total_shares(figures.joint_ranges, figures.exercise, () if other is None else other.joint_ranges)
 
 
-def grade_words(grade: Grade | None) -> str:
-    """``good``; a total that was not seen whole has no grade."""
-    return say(_GRADES[grade])
-
-
-def _share_cell(share: Measure | None) -> FingerCell:
-    if share is None:
-        return FingerCell("")
-    words = f"{written(100.0 * share.mean)}{numbers.NARROW_GAP}%"
-    at_least = f"{AT_LEAST}{numbers.NARROW_GAP}" if share.at_least else ""
-    return FingerCell(f"{at_least}{words}", grade_words(grade_share(share)))
-
-
-def of_other_hand(figures: SessionFigures, other: SessionFigures | None) -> bool:
-    """Whether totals are shares of the other hand's, not of the usual ones."""
-    shares = _shares(figures, other)
-    return bool(shares) and all(share.what == SHARE_OF_OTHER for share in shares)
-
-
-def column_heads(
-    figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None = None
-) -> list[str]:
-    """Heads after the finger's name: the columns, the share of the total, last time, the change."""
-    day = numbers.since(previous.when, figures.when) if previous else ""
+def _head_line(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> TableLine:
+    """The joints with the colours of their curves, the share of the total, last time, the change."""
+    day = numbers.since(previous.when, figures.when) if previous and trains_joints(figures) else ""
     compared = tr("lift") if trains_thumb(figures) else say(_COMPARED[compared_row(figures)][0])
-    if not trains_joints(figures):
-        day = ""
-    return [
-        tr("Knuckle (MCP)"), tr("Middle (PIP)"), tr("End (DIP)"), tr("Spread"),
-        tr("Total (TAM)") if has_totals(figures) else "",
-        (tr("Of other hand") if of_other_hand(figures, other) else tr("Of usual")) if has_totals(figures) else "",
-        tr("{what}, {day}").format(what=compared, day=day) if day else "",
-        tr("Change since {day}").format(day=day) if day else "",
-    ]  # fmt: skip
+    total = share = ""
+    if has_totals(figures):
+        shares = _find_shares(figures, other)
+        of_other = bool(shares) and all(share.what == SHARE_OF_OTHER for share in shares)
+        total, share = tr("Total (TAM)"), tr("Of other hand") if of_other else tr("Of usual")
+    joints: tuple[tuple[Row, str], ...] = (
+        ("knuckle", tr("Knuckle (MCP)")), ("middle", tr("Middle (PIP)")), ("end", tr("End (DIP)")), ("tam", total),
+    )  # fmt: skip
+    *bent, all_joints = (Cell(words, MEDIUM, "text2", mark=TOKENS[row]) for row, words in joints)
+    last = tr("{what}, {day}").format(what=compared, day=day) if day else ""
+    change = tr("Change since {day}").format(day=day) if day else ""
+    return ("", *bent, tr("Spread"), all_joints, share, last, change)
 
 
 def trains_joints(figures: SessionFigures) -> bool:
@@ -139,6 +100,11 @@ def compared_row(figures: SessionFigures) -> Row:
     return figure_of(figures.exercise.joint).row
 
 
+def compared_name(figures: SessionFigures) -> str:
+    """What of a finger the exercise is about, before a list of fingers."""
+    return tr("Thumb") if trains_thumb(figures) else say(_COMPARED[compared_row(figures)][1])
+
+
 def trains_thumb(figures: SessionFigures) -> bool:
     """Whether the exercise is the thumb's alone."""
     return bool(figures.exercise.joint) and figure_of(figures.exercise.joint).finger == 1
@@ -148,6 +114,14 @@ def compared_figures(figures: SessionFigures) -> tuple[Figure, ...]:
     """What is compared with last time: of the fingers that the exercise trains, or of the thumb alone."""
     fingers = (1,) if trains_thumb(figures) else figures.exercise.digits or FINGERS
     return tuple(Figure(finger, compared_row(figures)) for finger in fingers)
+
+
+def compared_ranges(figures: SessionFigures) -> tuple[Measure, ...]:
+    """The ranges whose change is said: of the wrist all, of the whole hand what the exercise is about."""
+    if not figures.joint_ranges:
+        return figures.wrist_ranges
+    found = (figures.find(figure.joint, "arc") for figure in compared_figures(figures))
+    return tuple(row for row in found if row is not None)
 
 
 def limits_words(figures: SessionFigures) -> str:
@@ -205,73 +179,34 @@ def total_words(figures: SessionFigures) -> list[str]:
     return words
 
 
-def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
-    """Today's figure of every finger, then what may be said of change; of reaches what they were like."""
-    main = main_words(figures)
-    if main and not trains_joints(figures):
-        return f"{main}."
-    compared = compared_row(figures)
-    what = say(_COMPARED[compared][1])
-    shown = compared_figures(figures)
-    if trains_thumb(figures):
-        what = tr("Thumb")
-        shown = tuple(Figure(1, row) for row in ("middle", "spread", "knuckle", "end"))
-    today, bounds = [], 0
-    for figure in shown:
-        row = figures.find(figure.joint, "arc")
-        known = row is not None and row.count
-        words = range_words(row, spread=False) if row is not None and known else tr("not seen")
-        name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
-        today.append(f"{inside(name)} {words}")
-        bounds += bool(known and row is not None and row.at_least)
-    parts = [f"{main}."] if main else []
-    parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
-    if bounds:
-        parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
-    return " ".join([*parts, *since_sessions(figures, previous, first, hand_since_words)])
-
-
-def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str) -> str:
-    """What may be said of change of the fingers since a day."""
-    keys = [figure.joint for figure in compared_figures(figures)]
-    rows = [row for row in figures.joint_ranges if row.of in keys and row.what == "arc"]
-    changes = compare(before, figures, rows)
-    judged = [item for item in changes if item.verdict != "not_judged"]
-    beyond = [item for item in judged if item.verdict != "no_change"]
-    if not judged:
-        why = reason_words([reason for item in changes for reason in item.reasons])
-        return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
-    rest = tr("What was hidden in part is not judged.") if len(judged) < len(changes) else ""
-    if not beyond:
-        return f"{tr('No change proven since {when}.').format(when=when)} {rest}".strip()
-    words = []
-    for item in beyond:
-        size = numbers.degrees(item.shown_difference_deg)
-        if item.at_least:
-            size = tr("at least {size}").format(size=size)
-        pattern = tr("{finger} {size} better") if item.verdict == "improved" else tr("{finger} {size} less")
-        words.append(pattern.format(finger=inside(finger_name(item.after.of[3:4])), size=size))
-    limit = numbers.degrees(beyond[0].limit_deg)
-    said = tr("Since {when}: {changes} (error {limit}).").format(when=when, changes=", ".join(words), limit=limit)
-    return f"{said} {rest}".strip()
-
-
-def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
-    """The range of one joint or finger in words."""
+def cell_of(figures: SessionFigures, figure: Figure) -> str | Cell:
+    """The range of one joint or finger, over the ends that it went to. A thumb has no middle joint, and none of its
+    angles may be copied as a finger's PIP or DIP: its joints have their names."""
     row = figures.find(figure.joint, "arc")
-    joint = say(_OF_THUMB.get(figure.row, "")) if figure.finger == 1 else ""
     if row is None and figure.row == "tam":
-        return FingerCell("")
+        return ""
+    words, ends = tr("not seen"), ""
     if row is None:
-        return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN, joint=joint)
-    if not row.count:
-        return FingerCell(tr("not seen"), limited=True, joint=joint)
-    return FingerCell(range_words(row), _ends(figures, figure), row.at_least, joint)
+        words = tr("not measured") if figure.row == "end" else numbers.UNKNOWN
+    elif row.count:
+        words, ends = range_words(row), _ends(figures, figure)
+    joint = say(_OF_THUMB.get(figure.row, "")) if figure.finger == 1 else ""
+    shown = f"{joint} {words}" if joint else words
+    return Cell(shown, SEMIBOLD, below=ends) if ends else Cell(shown, REGULAR, "text2")
 
 
-def _finger_row(
+def _share_cell(share: Measure | None) -> str | Cell:
+    """Its grade under it; a total that was not seen whole has none."""
+    if share is None:
+        return ""
+    at_least = f"{AT_LEAST}{numbers.NARROW_GAP}" if share.at_least else ""
+    words = f"{at_least}{written(100.0 * share.mean)}{numbers.NARROW_GAP}%"
+    return Cell(words, SEMIBOLD, below=say(_GRADES[grade_share(share)]))
+
+
+def _line_of_finger(
     finger: int, figures: SessionFigures, previous: SessionFigures | None, share: Measure | None
-) -> FingerRow:
+) -> TableLine:
     compared = Figure(finger, compared_row(figures))
     today = before = None
     if compared in compared_figures(figures) and trains_joints(figures):
@@ -285,14 +220,12 @@ def _finger_row(
             change = tr("at least {change}").format(change=change)
         if verdict == "not_judged":
             change = tr("not judged: {why}").format(why=reason_words(found[0].reasons))
-    return FingerRow(
-        finger,
+    return (
         finger_name(str(finger)),
-        tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS),
+        *(cell_of(figures, Figure(finger, row)) for row in COLUMNS),
         _share_cell(share),
         range_words(before, spread=False) if before is not None and before.count else "",
-        change,
-        verdict,
+        Cell(change, MEDIUM, VERDICT_TOKENS.get(verdict, "text2")),
     )
 
 

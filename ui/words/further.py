@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from carpus.core.measures.together import TREMOR_LEAST_FPS
 from carpus.core.phrase import phrase
@@ -13,7 +12,9 @@ from carpus.core.results.further_measures import QUANTITIES
 from carpus.core.results.measure import Measure
 from carpus.core.rounding import written
 from carpus.ui import numbers
+from carpus.ui.fonts import SEMIBOLD
 from carpus.ui.translate import say, tr
+from carpus.ui.words.table import TableColumn, TableLine, TableWords
 
 _BACK_OF = {"reach": "return", "thumb across": "thumb back"}
 """Of each way out the way back, which stands beside it."""
@@ -32,22 +33,21 @@ _UNKNOWN = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class FurtherRow:
-    """One measure: what it is, today's value and last time's; empty where there is none."""
-
-    name: str
-    today: str
-    last: str = ""
+FURTHER_COLUMNS = (TableColumn(token="text2"), TableColumn(SEMIBOLD), TableColumn(ends=True, wraps=False))
+"""Name, today's value and last time's, twice."""
 
 
-def further_rows(figures: SessionFigures, previous: SessionFigures | None = None) -> list[FurtherRow]:
+def further_table(figures: SessionFigures, previous: SessionFigures | None = None) -> TableWords:
     """All of them in the order in which they are read, two to a line: the way out beside the way back."""
-    return [
-        FurtherRow(measure_name(item), value_words(item), _last(item, previous))
+    cells: list[TableLine] = [
+        (measure_name(item), value_words(item), _last(item, previous))
         for item in _paired(figures.group("task"))
         if math.isfinite(item.mean) or _worth_saying(item)
     ]
+    cells += [("", "", "")] * (len(cells) % 2)
+    day = numbers.day_beside(previous.when, figures.when) if previous is not None else ""
+    rows = tuple((*one, *other) for one, other in zip(cells[::2], cells[1::2], strict=True))
+    return TableWords(FURTHER_COLUMNS * 2, ("", "", day) * 2, rows)
 
 
 def _worth_saying(item: Measure) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from carpus.core.hand.exercises import STILL_NAMES
 from carpus.core.measures.repetitions import Uncounted
@@ -16,9 +15,11 @@ from carpus.core.results.progress import Comparison, compare
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
+from carpus.ui.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import say, tr
 from carpus.ui.verdicts import change_short, change_with_limit, reason_words
+from carpus.ui.words.table import VERDICT_TOKENS, Cell, TableColumn, TableLine, TableWords
 
 _UNMEASURED: Mapping[str, Phrase] = {
     "hidden": phrase("not seen well enough"),
@@ -36,47 +37,34 @@ _UNCOUNTED: Mapping[Uncounted, Phrase] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class TableRow:
-    """One movement as the columns show it; ``token`` colours its mark, empty for none."""
-
-    movement: str
-    today: str
-    best: str
-    other_hand: str
-    usual: str
-    last: str
-    change: str
-    short_change: str = ""
-    token: str = ""
-    verdict: str = ""
+_VALUE, _CHANGE = TableColumn(ends=True, wraps=False), TableColumn(MEDIUM, "text2", least=15)
+RANGE_COLUMNS = (
+    TableColumn(MEDIUM), TableColumn(SEMIBOLD, wraps=False, scale=1.1), _VALUE, _VALUE,
+    TableColumn(token="text2", ends=True, wraps=False), _VALUE, _CHANGE,
+)  # fmt: skip
+"""Movement, today, best, other hand, reference, last time, change."""
 
 
-def column_names(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> TableRow:
-    """Heads of the columns; a column without content has an empty head."""
+def range_table(
+    figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None, *, on_paper: bool = False
+) -> TableWords:
+    """Arc first, then its two ends, what should have stayed still, and the speed; ``on_paper``, where another box has
+    them, without what stayed still or is not known, in shorter words."""
     day = numbers.since(previous.when, figures.when) if previous else ""
-    return TableRow(
-        movement=tr("Movement"),
-        today=tr("Today, mean ± sd"),
-        best=tr("Best"),
-        other_hand=terms.hand_name(other.side) if other else "",
-        usual=tr("Usual (adults)"),
-        last=day,
-        change=tr("Change since {day}").format(day=day) if day else "",
-    )
-
-
-def table_rows(
-    figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None
-) -> list[TableRow]:
-    """Arc first, then its two ends, what should have stayed still, and the speed."""
+    heads = (
+        tr("Movement"), tr("Today, mean ± sd"), tr("Best"), terms.hand_name(other.side) if other else "",
+        tr("Usual (adults)"), day, tr("Change since {day}").format(day=day) if day else "",
+    )  # fmt: skip
     changes = {item.key: item for item in compare(previous, figures)} if previous else {}
-    out = [_range_row(row, figures, previous, other, changes.get(row.key)) for row in figures.wrist_ranges]
-    out += [_row_of_still_angle(row, figures, previous) for row in figures.group("still")]
+    rows = [
+        _line_of_range(row, figures, previous, other, changes.get(row.key), on_paper) for row in figures.wrist_ranges
+    ]
+    if not on_paper:
+        rows += [_line_of_still_angle(row, figures, previous) for row in figures.group("still")]
     speed = figures.speed("peak speed")
-    if speed is not None and (speed.count or speed.unknown):
-        out.append(_speed_row(speed, figures, previous, other))
-    return out
+    if speed is not None and (speed.count or (speed.unknown and not on_paper)):
+        rows.append(_line_of_speed(speed, previous, other, on_paper))
+    return TableWords(RANGE_COLUMNS, heads, tuple(rows))
 
 
 def norm_words(figures: SessionFigures) -> str:
@@ -148,53 +136,50 @@ def is_deficit(row: Measure) -> bool:
     return row.angle >= 0 and row.what not in ("arc", *terms.FOREARM) and row.mean < 0.0
 
 
-def _range_row(
+def _line_of_range(
     row: Measure, figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None,
-    change: Comparison | None,
-) -> TableRow:  # fmt: skip
+    change: Comparison | None, is_short: bool,
+) -> TableLine:  # fmt: skip
     name = terms.movement_name(row.what)
     if is_deficit(row):
         name, row = terms.deficit_name(row.what), turn_round(row)
     if figures.exercise.angle is None and row.what == "arc":
         name = terms.arc_name(row.angle)
     before, beside = (item.find(*row.key) if item else None for item in (previous, other))
-    words = ""
-    if change is not None:
-        words = change_with_limit(change.verdict, change.shown_difference_deg, change.limit_deg)
-        words = words or tr("not judged: {why}").format(why=reason_words(change.reasons))
-    short = "" if change is None else change_short(change.verdict, change.shown_difference_deg, change.limit_deg)
-    if row.at_least:
-        words = "; ".join(part for part in (words, tr("limited by the camera's view")) if part)
-        short = "; ".join(part for part in (short, tr("limited by view")) if part)
+    said = ""
+    if change is not None and is_short:
+        said = change_short(change.verdict, change.shown_difference_deg, change.limit_deg)
+    elif change is not None:
+        said = change_with_limit(change.verdict, change.shown_difference_deg, change.limit_deg)
+        said = said or tr("not judged: {why}").format(why=reason_words(change.reasons))
+    limited = (tr("limited by view") if is_short else tr("limited by the camera's view")) if row.at_least else ""
+    words, verdict = "; ".join(filter(None, (said, limited))), change.verdict if change else ""
     norm = wrist_norm(row.what, row.angle, figures.exercise)
-    return TableRow(
-        movement=name,
-        today=mean_words(row),
-        best=terms.end_words(row.best, row.what),
-        other_hand=terms.end_words(beside.mean, row.what) if beside else "",
-        usual=numbers.UNKNOWN if norm is None else _range(norm.low_deg, norm.high_deg),
-        last=terms.end_words(before.mean, row.what) if before else "",
-        change=words,
-        short_change=short or words,
-        token="" if row.what == "arc" else CURVE_TOKENS[row.angle],
-        verdict=change.verdict if change else "",
+    return (
+        name if row.what == "arc" else Cell(name, MEDIUM, mark=CURVE_TOKENS[row.angle]),
+        mean_words(row),
+        terms.end_words(row.best, row.what),
+        terms.end_words(beside.mean, row.what) if beside else "",
+        numbers.UNKNOWN if norm is None else _span(norm.low_deg, norm.high_deg),
+        terms.end_words(before.mean, row.what) if before else "",
+        Cell(words, MEDIUM, VERDICT_TOKENS[verdict]) if verdict in VERDICT_TOKENS else words,
     )
 
 
-def _row_of_still_angle(row: Measure, figures: SessionFigures, previous: SessionFigures | None) -> TableRow:
+def _line_of_still_angle(row: Measure, figures: SessionFigures, previous: SessionFigures | None) -> TableLine:
     limit = figures.exercise.trick_limit_deg
-    inside = row.mean <= limit
     before = previous.find(*row.key) if previous else None
-    return TableRow(
-        movement=say(STILL_NAMES[row.angle]),
-        today=tr("{angle} at most").format(angle=numbers.degrees(row.mean)),
-        best="",
-        other_hand="",
-        usual=tr("under {angle}").format(angle=numbers.degrees(limit)),
-        last="" if before is None else numbers.degrees(before.mean),
-        change=tr("as asked: the hand stays in line") if inside else tr("more than asked: watch the exercise"),
-        token=CURVE_TOKENS[row.angle],
-        verdict="" if inside else "warn",
+    change: str | Cell = tr("as asked: the hand stays in line")
+    if row.mean > limit:
+        change = Cell(tr("more than asked: watch the exercise"), MEDIUM, VERDICT_TOKENS["warn"])
+    return (
+        Cell(say(STILL_NAMES[row.angle]), MEDIUM, mark=CURVE_TOKENS[row.angle]),
+        tr("{angle} at most").format(angle=numbers.degrees(row.mean)),
+        "",
+        "",
+        tr("under {angle}").format(angle=numbers.degrees(limit)),
+        "" if before is None else numbers.degrees(before.mean),
+        change,
     )
 
 
@@ -210,20 +195,20 @@ def mean_speed_words(figures: SessionFigures) -> str:
     return numbers.speed(math.nan if speed is None else speed.mean)
 
 
-def _speed_row(
-    speed: Measure, figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None
-) -> TableRow:
-    return TableRow(
-        movement=tr("Peak speed"),
-        today=speed_words(speed),
-        best=numbers.speed(speed.best) if speed.count else "",
-        other_hand=mean_speed_words(other) if other else "",
-        usual=numbers.UNKNOWN,
-        last=mean_speed_words(previous) if previous else "",
-        change=tr("not judged: no error limit is known") if previous else "",
-        short_change=tr("not judged") if previous else "",
+def _line_of_speed(
+    speed: Measure, previous: SessionFigures | None, other: SessionFigures | None, is_short: bool
+) -> TableLine:
+    change = tr("not judged") if is_short else tr("not judged: no error limit is known")
+    return (
+        tr("Peak speed"),
+        speed_words(speed),
+        numbers.speed(speed.best) if speed.count else "",
+        mean_speed_words(other) if other else "",
+        numbers.UNKNOWN,
+        mean_speed_words(previous) if previous else "",
+        change if previous else "",
     )
 
 
-def _range(low: float, high: float) -> str:
+def _span(low: float, high: float) -> str:
     return f"{written(low)}°" if low == high else f"{written(low)}–{written(high)}°"

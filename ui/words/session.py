@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from datetime import datetime
 
 from carpus.core.hand.exercises import SIDES, STILL_NAMES, STILL_RADIUS_MM
@@ -14,8 +14,20 @@ from carpus.core.results.progress import Comparison, compare
 from carpus.core.rounding import written
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
+from carpus.ui.figures import Figure
+from carpus.ui.marker_words import finger_name
 from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
+from carpus.ui.words.fingers import (
+    AT_LEAST,
+    compared_figures,
+    compared_name,
+    compared_ranges,
+    range_words,
+    trains_joints,
+    trains_thumb,
+)
+from carpus.ui.words.further import main_words
 from carpus.ui.words.ranges import is_deficit, prints_spread, speed_words
 
 
@@ -32,51 +44,79 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
     if not today:
         return tr("No range could be measured.") if not figures.has_passive else tr("No active range was measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
-    return " ".join([*parts, *since_sessions(figures, previous, first, since_compared)])
+    return " ".join([*parts, *since_sessions(figures, previous, first)])
 
 
-def since_sessions(
-    figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None,
-    said: Callable[[SessionFigures, SessionFigures, str], str],
-) -> list[str]:  # fmt: skip
-    """What is ``said`` of change since last time, and since the first session where that is another one."""
+def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
+    """Today's value of every finger, then what may be said of change; of reaches what they were like."""
+    main = main_words(figures)
+    if main and not trains_joints(figures):
+        return f"{main}."
+    shown, what = compared_figures(figures), compared_name(figures)
+    if trains_thumb(figures):
+        shown = tuple(Figure(1, row) for row in ("middle", "spread", "knuckle", "end"))
+    today, bounds = [], 0
+    for figure in shown:
+        row = figures.find(figure.joint, "arc")
+        words = range_words(row, spread=False) if row is not None and row.count else tr("not seen")
+        name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
+        today.append(f"{inside(name)} {words}")
+        bounds += bool(row is not None and row.count and row.at_least)
+    parts = [f"{main}."] if main else []
+    parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
+    if bounds:
+        parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
+    return " ".join([*parts, *since_sessions(figures, previous, first)])
+
+
+def since_sessions(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> list[str]:
+    """What may be said of change since last time, and since the first session where that is another one."""
     found = []
     if previous is not None:
-        found.append(said(figures, previous, numbers.day_beside(previous.when, figures.when)))
+        found.append(since_words(figures, previous, numbers.day_beside(previous.when, figures.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
         day = numbers.day_beside(first.when, figures.when)
-        found.append(said(figures, first, tr("the first session on {day}").format(day=day)))
+        found.append(since_words(figures, first, tr("the first session on {day}").format(day=day)))
     return [words for words in found if words]
 
 
-def since_compared(figures: SessionFigures, before: SessionFigures, when: str) -> str:
-    """What may be said of change of the wrist since a session."""
-    return since_words(compare(before, figures), when)
+def since_words(figures: SessionFigures, before: SessionFigures, when: str) -> str:
+    """What may be said of change since a session, of the error once where it is the same; empty without anything to
+    compare."""
+    changes = compare(before, figures, compared_ranges(figures))
+    judged = [item for item in changes if item.verdict != "not_judged"]
+    if not judged:
+        why = reason_words([reason for item in changes for reason in item.reasons])
+        return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
+    beyond = [item for item in judged if item.is_beyond]
+    said = tr("No change proven since {when}.").format(when=when)
+    if beyond:
+        limits = [numbers.degrees(item.limit_deg) for item in beyond]
+        once = len(set(limits)) == 1
+        words = ", ".join(
+            _describe_change(item, "" if once else limit) for item, limit in zip(beyond, limits, strict=True)
+        )
+        pattern = tr("Since {when}: {changes} (error {limit}).") if once else tr("Since {when}: {changes}.")
+        said = pattern.format(when=when, changes=words, limit=limits[0])
+    hidden = bool(figures.joint_ranges) and len(judged) < len(changes)
+    return f"{said} {tr('What was hidden in part is not judged.')}" if hidden else said
+
+
+def _describe_change(item: Comparison, limit: str) -> str:
+    """``whole arc 34° better (error 14°)``, ``index at least 20° better``."""
+    of, what = item.key
+    name = inside(finger_name(of[3:4]) if item.is_of_joint else terms.movement_long_name(what))
+    size = numbers.degrees(item.shown_difference_deg)
+    size = tr("at least {size}").format(size=size) if item.at_least else size
+    pattern = tr("{name} {size} better") if item.verdict == "improved" else tr("{name} {size} less")
+    words = pattern.format(name=tr("whole arc") if what == "arc" and not item.is_of_joint else name, size=size)
+    return f"{words} {tr('(error {limit})').format(limit=limit)}" if limit else words
 
 
 def _name(row: Measure, figures: SessionFigures) -> str:
     if row.what == "arc":
         return tr("whole arc") if figures.exercise.angle is not None else inside(terms.arc_name(row.angle))
     return inside(terms.movement_long_name(row.what))
-
-
-def since_words(changes: tuple[Comparison, ...], when: str) -> str:
-    """What may be said of change since a day; empty without anything to compare."""
-    beyond = [item for item in changes if item.is_beyond]
-    judged = [item for item in changes if item.verdict != "not_judged"]
-    if not judged:
-        why = reason_words([reason for item in changes for reason in item.reasons])
-        return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
-    if not beyond:
-        return tr("No change proven since {when}.").format(when=when)
-    words = []
-    for item in beyond:
-        what = item.after.what
-        name = tr("whole arc") if what == "arc" else inside(terms.movement_long_name(what))
-        size, limit = numbers.degrees(item.shown_difference_deg), numbers.degrees(item.limit_deg)
-        pattern = tr("{name} {size} better") if item.verdict == "improved" else tr("{name} {size} less")
-        words.append(pattern.format(name=name, size=size) + " " + tr("(error {limit})").format(limit=limit))
-    return tr("Since {when}: {changes}.").format(when=when, changes=", ".join(words))
 
 
 def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Sequence[HandValue] = ()) -> str:
