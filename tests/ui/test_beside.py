@@ -10,12 +10,13 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.side_by_side import side_by_side
+from carpus.core.results.side_by_side import SideBySide, side_by_side
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
-from carpus.ui.beside.words import facts_words, headline, keys_of, kinds, table_rows, unfair_words
+from carpus.ui.beside.words import difference_table, facts_words, headline, keys_of, kinds, unfair_words
 from carpus.ui.theme import Theme
 from carpus.ui.words.fingers import followed_keys
+from carpus.ui.words.table import cell_words
 from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, figures_once, session
 from tests.ui.hand_fakes import hand_session
@@ -31,6 +32,11 @@ def left() -> SessionFigures:
     return figures_once(session(NOW, 1.25, session_id="left", side="left"))
 
 
+def lines_of(both: SideBySide) -> dict[str, list[str]]:
+    rows = ([cell_words(cell) for cell in row] for row in difference_table(both).rows)
+    return {row[0]: row for row in rows}
+
+
 def test_the_sentence_names_the_hand_that_moves_less(right: SessionFigures, left: SessionFigures) -> None:
     assert headline(side_by_side(right, left))[0] == "Whole arc: 23° less on the right than on the left."
     assert headline(side_by_side(left, right))[0] == "Whole arc: 23° more on the left than on the right."
@@ -38,7 +44,7 @@ def test_the_sentence_names_the_hand_that_moves_less(right: SessionFigures, left
     assert sentence == "No difference beyond measurement error between right and left."
     assert "within the measurement error of 14°" in basis
     both = side_by_side(right, left)
-    words = {row.movement: row.words for row in table_rows(both)}
+    words = {name: row[-1] for name, row in lines_of(both).items()}
     assert words["Whole arc"] == "less than the left, beyond error"
     assert words["Extension"] == "less than the left, beyond error"
     assert facts_words(both) == (
@@ -53,11 +59,11 @@ def test_of_fingers_a_lower_bound_is_said_to_be_one() -> None:
     hidden = figures_once(hand_session(session_id="hand-left", side="left"))
     both = side_by_side(few, hidden, followed_keys("tam"))
     assert headline(both)[0].endswith("less on the right than on the left.")
-    rows = {row.movement: row for row in table_rows(both)}
-    assert rows["Middle finger, TAM"].second.startswith("≥")
-    assert rows["Middle finger, TAM"].difference.startswith("at least")
-    assert rows["Index finger, TAM"].words == "not judged: hidden in part"
-    assert rows["Index finger, TAM"].difference == "–"
+    rows = lines_of(both)
+    assert rows["Middle finger, TAM"][2].startswith("≥")
+    assert rows["Middle finger, TAM"][3].startswith("at least")
+    assert rows["Index finger, TAM"][5] == "not judged: hidden in part"
+    assert rows["Index finger, TAM"][3] == "–"
 
 
 def test_of_a_hook_the_middle_joints_of_all_fingers_come_first() -> None:
@@ -75,10 +81,10 @@ def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionFigur
     both = side_by_side(right, replace(left, quality=replace(left.quality, distance_m=0.95)))
     assert headline(both) == ("Shown beside each other, not judged.", "")
     assert "the camera was at another distance" in unfair_words(both)
-    rows = table_rows(both)
-    assert {row.words for row in rows} == {"not judged"}
-    assert not any(row.strong for row in rows)
-    assert rows[0].difference == "23° less", "the figures are shown"
+    rows = lines_of(both)
+    assert {row[5] for row in rows.values()} == {"not judged"}
+    assert not any(one.is_beyond for one in both.ranges)
+    assert rows["Whole arc"][3] == "23° less", "the values are shown"
 
 
 def test_the_left_hand_is_mirrored_and_says_so_until_m(

@@ -5,28 +5,16 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 
 from carpus.core.results.side_by_side import SideBySide
-from carpus.ui.beside.words import BesideRow, facts_words, heads, kinds, other_hand_words, table_rows
+from carpus.ui.beside.words import difference_table, facts_words, kinds, other_hand_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import fill, in_column, in_line
 from carpus.ui.controls.table import Table
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.keys import KEYS
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
-from carpus.ui.words.table import Cell, TableColumn
-
-_VALUE = TableColumn(SEMIBOLD, scale=1.14)
-COLUMNS = (
-    TableColumn(MEDIUM),
-    _VALUE,
-    _VALUE,
-    TableColumn(ends=True, wraps=False),
-    TableColumn(token="text2", ends=True),
-    TableColumn(),
-)
-"""Movement, both sessions, the difference, its error, what is said of it."""
 
 
 class DifferencesCard(Card):
@@ -35,7 +23,6 @@ class DifferencesCard(Card):
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 20)
         self._theme = theme
-        self.rows: tuple[BesideRow, ...] = ()
         self._facts = ElidedText(theme, "", 14, REGULAR, "text2")
         self.followed = Combo()
         self.followed.setAccessibleName(self.tr("What is compared"))
@@ -44,10 +31,10 @@ class DifferencesCard(Card):
         self.mirror_button.setCheckable(True)
         self.mirror_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.mirror_button.setToolTip(self.tr("Show the left hand as it would look as a right one"))
-        self._table = Table(theme, gap=16)
+        self.table = Table(theme, gap=16)
         self._limits = caption(theme, wrap=True)
         named = in_column(Text(theme, self.tr("Differences"), 20, SEMIBOLD), self._facts, gap=0)
-        fill(self.body, in_line((named, 1), self.followed, self.mirror_button, gap=12), self._table, self._limits)
+        fill(self.body, in_line((named, 1), self.followed, self.mirror_button, gap=12), self.table, self._limits)
 
     def begin(self, both: SideBySide) -> None:
         """What can be looked at of two sessions, and whether one of them can be mirrored."""
@@ -61,15 +48,6 @@ class DifferencesCard(Card):
         facts = facts_words(both)
         self._facts.setText(facts)
         self._facts.setToolTip(plain_tooltip(facts))
-        self.rows = tuple(table_rows(both))
-        said = [f"{row.movement} {row.first} {row.second} {row.words}" for row in self.rows]
-        self._table.show_rows(COLUMNS, heads(both), [_cells(row) for row in self.rows], spoken=said)
+        self.table.show_rows(*difference_table(both))
         words = [limit_words(both.first.study), *([other_hand_words()] if both.relation == "hands" else [])]
         self._limits.setText(" ".join(words))
-
-
-def _cells(row: BesideRow) -> tuple[str | Cell, ...]:
-    weight, token = (SEMIBOLD, "text") if row.strong else (REGULAR, "text2")
-    name = Cell(row.movement, MEDIUM, mark=row.token) if row.token else row.movement
-    judged = Cell(row.words, weight, token, sign=row.state)
-    return (name, row.first, row.second, Cell(row.difference, weight, token), row.error, judged)

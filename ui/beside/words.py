@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measure import Measure, MeasureKey, turn_round
@@ -11,6 +10,7 @@ from carpus.core.results.progress import Comparison, Progress, ProgressPoint
 from carpus.core.results.side_by_side import SideBySide
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.icons import State
 from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import tr
@@ -19,22 +19,14 @@ from carpus.ui.words.fingers import AT_LEAST, compared_row, followed_keys, follo
 from carpus.ui.words.progress import comparison_name, doubt_words, range_name
 from carpus.ui.words.progress import headline as progress_headline
 from carpus.ui.words.ranges import is_deficit, mean_words, repetition_words
+from carpus.ui.words.table import Cell, TableColumn, TableLine, TableWords
 
-
-@dataclass(frozen=True, slots=True)
-class BesideRow:
-    """Movement, both figures, their difference, the error it must exceed, and what may be said; ``strong`` where the
-    difference is beyond error."""
-
-    movement: str
-    first: str
-    second: str
-    difference: str
-    error: str
-    words: str
-    token: str = ""
-    state: State = "none"
-    strong: bool = False
+_VALUE = TableColumn(SEMIBOLD, scale=1.14)
+COLUMNS = (
+    TableColumn(MEDIUM), _VALUE, _VALUE, TableColumn(ends=True, wraps=False), TableColumn(token="text2", ends=True),
+    TableColumn(),
+)  # fmt: skip
+"""Movement, both sessions, the difference, its error, what is said of it."""
 
 
 def name_of(figures: SessionFigures, other: SessionFigures) -> str:
@@ -146,20 +138,17 @@ def facts_words(both: SideBySide) -> str:
     return "; ".join(parts)
 
 
-def heads(both: SideBySide) -> tuple[str, ...]:
-    """Heads of the table's columns."""
+def difference_table(both: SideBySide) -> TableWords:
+    """The ranges that both have, then what only one has."""
     pattern = tr("{name}, mean ± sd")
     first, second = name_of(both.first, both.second), name_of(both.second, both.first)
-    return (
+    heads = (
         tr("Movement"), pattern.format(name=first), pattern.format(name=second), tr("Difference"), tr("Error"),
         tr("In words"),
     )  # fmt: skip
-
-
-def table_rows(both: SideBySide) -> list[BesideRow]:
-    """The ranges that both have, then what only one has."""
-    rows = [_range_row(one, both) for one in both.ranges]
-    return rows + [_alone_row(row, both, is_first=is_first) for row, is_first in both.alone if row.count]
+    rows = [_line_of_both(one, both) for one in both.ranges]
+    rows += [_line_of_one(row, both, is_first=is_first) for row, is_first in both.alone if row.count]
+    return TableWords(COLUMNS, heads, tuple(rows))
 
 
 def value_words(row: Measure) -> str:
@@ -171,7 +160,7 @@ def value_words(row: Measure) -> str:
     return terms.lacking(mean_words(turn_round(row))) if is_deficit(row) else mean_words(row)
 
 
-def _range_row(one: Comparison, both: SideBySide) -> BesideRow:
+def _line_of_both(one: Comparison, both: SideBySide) -> TableLine:
     known = math.isfinite(one.difference_deg) and (one.is_beyond or not any(one.are_bounds))
     in_part = not one.is_of_joint and (one.after.at_least or one.before.at_least)
     limited = tr("limited by the camera's view") if in_part else ""
@@ -179,26 +168,28 @@ def _range_row(one: Comparison, both: SideBySide) -> BesideRow:
     said = difference(one.shown_difference_deg) if known else numbers.UNKNOWN
     if _is_bound(one):
         said = tr("at least {difference}").format(difference=said)
-    return BesideRow(
-        comparison_name(one, both.ranges), value_words(one.after), value_words(one.before),
-        said,
-        numbers.degrees(one.limit_deg) if both.fair else numbers.UNKNOWN, words, _token(one.after),
-        "none" if one.verdict == "not_judged" else _state(one, both), one.is_beyond,
+    look = (SEMIBOLD, "text") if one.is_beyond else (REGULAR, "text2")
+    sign: State = "none" if one.verdict == "not_judged" else _state(one, both)
+    return (
+        _name_cell(one.after, comparison_name(one, both.ranges)), value_words(one.after), value_words(one.before),
+        Cell(said, *look), numbers.degrees(one.limit_deg) if both.fair else numbers.UNKNOWN,
+        Cell(words, *look, sign=sign),
     )  # fmt: skip
 
 
-def _alone_row(row: Measure, both: SideBySide, *, is_first: bool) -> BesideRow:
+def _line_of_one(row: Measure, both: SideBySide, *, is_first: bool) -> TableLine:
     """What only one of the two has."""
     cells = [value_words(row), numbers.UNKNOWN]
-    first, second = cells if is_first else cells[::-1]
     words = tr("not judged: only one of the two has it") if both.fair else tr("not judged")
-    return BesideRow(
-        range_name(row, several=True), first, second, numbers.UNKNOWN, numbers.UNKNOWN, words, _token(row)
+    return (
+        _name_cell(row, range_name(row, several=True)), *(cells if is_first else cells[::-1]),
+        Cell(numbers.UNKNOWN, REGULAR, "text2"), numbers.UNKNOWN, Cell(words, REGULAR, "text2", sign="none"),
     )  # fmt: skip
 
 
-def _token(row: Measure) -> str:
-    return "" if row.angle < 0 or row.what == "arc" else CURVE_TOKENS[row.angle]
+def _name_cell(row: Measure, name: str) -> str | Cell:
+    """A movement with the colour of its curve."""
+    return name if row.angle < 0 or row.what == "arc" else Cell(name, MEDIUM, mark=CURVE_TOKENS[row.angle])
 
 
 def _state(one: Comparison, both: SideBySide) -> State:
