@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 
 import numpy as np
@@ -29,7 +29,7 @@ from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
 from carpus.core.results.further_measures import Attempts, further_measures
-from carpus.core.results.measure import Group, Measure, Unknown, measure_values
+from carpus.core.results.measure import Group, Measure, MeasureKey, Unknown, measure_values
 from carpus.core.results.norms import total_shares
 from carpus.core.results.ranges import joint_ranges, measure_still_angles, wrist_ranges
 from carpus.core.results.repetition_rows import (
@@ -208,6 +208,10 @@ class SessionFigures:
     """Since when it stands with markers that a person put right; None as measured."""
     without_passive: bool = False
     """Whether ranges over the whole recording leave out stretches in which somebody else moved the hand."""
+    _by_key: Mapping[MeasureKey, Measure] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_by_key", {one.key: one for one in self.measures if not one.passive})
 
     @property
     def study(self) -> RetestStudy | None:
@@ -231,7 +235,7 @@ class SessionFigures:
 
     def find(self, of: str, what: str) -> Measure | None:
         """The measure of an angle, joint or way, without what was passive."""
-        return next((one for one in self.measures if one.key == (of, what) and not one.passive), None)
+        return self._by_key.get((of, what))
 
     def group(self, group: Group) -> tuple[Measure, ...]:
         """All measures of a group, without what was passive."""
