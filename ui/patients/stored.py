@@ -12,7 +12,7 @@ from carpus.core.records.values import Patient
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare, unfair_reasons
 from carpus.ui.ports import MOST_ROWS, PatientCard, Result
-from carpus.ui.words.fingers import compared_ranges
+from carpus.ui.words.fingers import find_compared_ranges
 from carpus.ui.words.further import main_words
 from carpus.ui.words.ranges import repetition_words
 from carpus.ui.words.session import warnings
@@ -70,7 +70,7 @@ class StoredPatients:
 def _results(first: SessionFigures | None, last: SessionFigures) -> Sequence[Result]:
     """Of the wrist both ends of what is trained, which the therapist trains; of the whole hand what the exercise is
     about, finger by finger."""
-    rows = [row for row in compared_ranges(last) if row.count]
+    rows = [row for row in find_compared_ranges(last) if row.count]
     if not last.joint_ranges:
         rows = [row for row in rows if row.what != "arc" and last.exercise.angle is not None]
     changes = {}

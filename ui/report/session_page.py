@@ -49,7 +49,7 @@ from carpus.ui.report.page import (
 from carpus.ui.translate import inside, tr
 from carpus.ui.words.active_passive import active_passive
 from carpus.ui.words.by_hand import day_words
-from carpus.ui.words.fingers import compared_ranges
+from carpus.ui.words.fingers import find_compared_ranges
 from carpus.ui.words.progress import corrected_words
 from carpus.ui.words.ranges import norm_words, range_table, repetition_words
 from carpus.ui.words.session import hand_summary, method, other_lines, quality_lines, summary, warnings
@@ -290,7 +290,7 @@ def _boxes(report: SessionReport) -> list[Part]:
 
 def _speaks_of_error(report: SessionReport) -> bool:
     """Whether any change is judged on the page, against its measurement error."""
-    figures, rows = report.figures, compared_ranges(report.figures)
+    figures, rows = report.figures, find_compared_ranges(report.figures)
     before = [item for item in (report.previous, report.first) if item is not None]
     return any(item.verdict != "not_judged" for earlier in before for item in compare(earlier, figures, rows))
 

@@ -100,7 +100,7 @@ def compared_row(figures: SessionFigures) -> Row:
     return figure_of(figures.exercise.joint).row
 
 
-def compared_name(figures: SessionFigures) -> str:
+def name_compared_joints(figures: SessionFigures) -> str:
     """What of a finger the exercise is about, before a list of fingers."""
     return tr("Thumb") if trains_thumb(figures) else say(_COMPARED[compared_row(figures)][1])
 
@@ -116,7 +116,7 @@ def compared_figures(figures: SessionFigures) -> tuple[Figure, ...]:
     return tuple(Figure(finger, compared_row(figures)) for finger in fingers)
 
 
-def compared_ranges(figures: SessionFigures) -> tuple[Measure, ...]:
+def find_compared_ranges(figures: SessionFigures) -> tuple[Measure, ...]:
     """The ranges whose change is said: of the wrist all, of the whole hand what the exercise is about."""
     if not figures.joint_ranges:
         return figures.wrist_ranges

@@ -21,8 +21,8 @@ from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
 from carpus.ui.words.fingers import (
     AT_LEAST,
     compared_figures,
-    compared_name,
-    compared_ranges,
+    find_compared_ranges,
+    name_compared_joints,
     range_words,
     trains_joints,
     trains_thumb,
@@ -52,7 +52,7 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
     main = main_words(figures)
     if main and not trains_joints(figures):
         return f"{main}."
-    shown, what = compared_figures(figures), compared_name(figures)
+    shown, what = compared_figures(figures), name_compared_joints(figures)
     if trains_thumb(figures):
         shown = tuple(Figure(1, row) for row in ("middle", "spread", "knuckle", "end"))
     today, bounds = [], 0
@@ -83,7 +83,7 @@ def since_sessions(figures: SessionFigures, previous: SessionFigures | None, fir
 def since_words(figures: SessionFigures, before: SessionFigures, when: str) -> str:
     """What may be said of change since a session, of the error once where it is the same; empty without anything to
     compare."""
-    changes = compare(before, figures, compared_ranges(figures))
+    changes = compare(before, figures, find_compared_ranges(figures))
     judged = [item for item in changes if item.verdict != "not_judged"]
     if not judged:
         why = reason_words([reason for item in changes for reason in item.reasons])
