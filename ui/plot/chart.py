@@ -62,6 +62,7 @@ class Plot(pg.ViewBox):
         super().__init__(enableMenu=False, enableMouse=False, defaultPadding=0.0)
         self.disableAutoRange()
         self.setFlag(self.GraphicsItemFlag.ItemHasNoContents)
+        self.setBorder(QPen(Qt.PenStyle.NoPen))
         self.chart, self.panel, self.look = chart, panel, chart.look
         chart.add(self)
         self.setGeometry(panel.box)
@@ -123,7 +124,7 @@ class Plot(pg.ViewBox):
         """Values from ``low`` to ``high`` filled, and hatched in a second token where there is one."""
         brush = pg.mkBrush(self.look.color(token))
         ends = self.up((low, high)).tolist()
-        self.put(pg.LinearRegionItem(ends, "horizontal", brush, pg.mkPen(None), movable=False), BAND)
+        self.put(pg.LinearRegionItem(ends, "horizontal", brush, QPen(Qt.PenStyle.NoPen), movable=False), BAND)
         if hatched:
             self.put(Hatching(self, [(-math.inf, math.inf, low, high)], hatched, 90), BAND)
 
