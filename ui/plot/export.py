@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSize
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
-from carpus.ui.plot.style import PlotStyle, paper_style
+from carpus.ui.plot.style import paper_style
 from carpus.ui.saved_table import save_private, table_bytes
 from carpus.ui.theme import LIGHT
+
+if TYPE_CHECKING:
+    from carpus.ui.plot.zoom_chart import ZoomChart
 
 WIDTH_MM, DPI = 170.0, 300.0
 """The width of a page's text, at the resolution of print."""
@@ -21,24 +23,12 @@ MARGIN_PT = 8.0
 POINTS_PER_MM = 72.0 / 25.4
 
 
-class Printable(Protocol):
-    """What can be drawn on paper and told as a table."""
-
-    def width(self) -> int: ...
-
-    def height(self) -> int: ...
-
-    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None: ...
-
-    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]: ...
-
-
-def _size_pt(plot: Printable) -> tuple[float, float]:
+def _size_pt(plot: ZoomChart) -> tuple[float, float]:
     width_pt = WIDTH_MM * POINTS_PER_MM
     return width_pt, width_pt * min(max(plot.height() / max(plot.width(), 1), 0.4), 1.4)
 
 
-def _paint(painter: QPainter, plot: Printable, point: float) -> None:
+def _paint(painter: QPainter, plot: ZoomChart, point: float) -> None:
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     width_pt, height_pt = _size_pt(plot)
     margin = MARGIN_PT * point
@@ -46,7 +36,7 @@ def _paint(painter: QPainter, plot: Printable, point: float) -> None:
     plot.paint_on(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
 
 
-def picture(plot: Printable) -> QImage:
+def picture(plot: ZoomChart) -> QImage:
     """170 mm wide at 300 dots to the inch."""
     point = DPI / 72.0
     width_pt, height_pt = _size_pt(plot)
@@ -60,7 +50,7 @@ def picture(plot: Printable) -> QImage:
     return image
 
 
-def drawing(plot: Printable) -> bytes:
+def drawing(plot: ZoomChart) -> bytes:
     """The same as lines and letters."""
     point = SVG_UNITS_PER_POINT
     width_pt, height_pt = _size_pt(plot)
@@ -79,7 +69,7 @@ def drawing(plot: Printable) -> bytes:
     return bytes(store.data())
 
 
-def save(plot: Printable, path: Path) -> None:
+def save(plot: ZoomChart, path: Path) -> None:
     """Write the plot as the name ends. Raises :class:`OutputNotWritable`."""
     kind = path.suffix.lower()
     if kind == ".svg":

@@ -102,20 +102,19 @@ class FingerCurves(Chart):
         """Bending and spreading of a finger; time ends at now."""
         scale, column = self._theme.text_scale, self.column(finger)
         top = TOP_PX * scale
-        if not self._spreads():  # the one that is large has all the room
-            whole = QRectF(column.left(), top, column.width(), self.rows_top() - 12 - top)
-            none = QRectF(column.left(), whole.bottom(), column.width(), 0.0)
-            boxes = (none, whole) if self._figure.row == "spread" else (whole, none)
-            return tuple(  # type: ignore[return-value]
-                Panel(axes.crisp(box), own, -SHOWN_S, 0.0) for box, own in zip(boxes, self._scales(), strict=True)
-            )
-        room = self.rows_top() - 12 - top - 22 * scale
-        bending = QRectF(column.left(), top, column.width(), 0.62 * room)
-        spreading = QRectF(column.left(), top + 0.62 * room + 22 * scale, column.width(), 0.38 * room)
-        scales = self._scales()
-        return tuple(  # type: ignore[return-value]
-            Panel(axes.crisp(box), own, -SHOWN_S, 0.0) for box, own in zip((bending, spreading), scales, strict=True)
+        room, between = self.rows_top() - 12 - top, 22 * scale
+        if self._spreads():
+            high = 0.62 * (room - between)
+        else:  # the one that is large has all the room
+            between, high = 0.0, 0.0 if self._figure.row == "spread" else room
+        boxes = (
+            QRectF(column.left(), top, column.width(), high),
+            QRectF(column.left(), top + high + between, column.width(), room - high - between),
         )
+        bending, spreading = (
+            Panel(axes.crisp(box), own, -SHOWN_S, 0.0) for box, own in zip(boxes, self._scales(), strict=True)
+        )
+        return bending, spreading
 
     def _scales(self) -> tuple[Scale, Scale]:
         if not self._speeds:

@@ -54,6 +54,11 @@ class Series:
         """The same with times counted from ``start_s``."""
         return replace(self, time_s=self.time_s - start_s, start_s=start_s)
 
+    def at(self, rows: slice | np.ndarray) -> Series:
+        """Some of the samples."""
+        sd = None if self.sd is None else self.sd[rows]
+        return replace(self, time_s=self.time_s[rows], value=self.value[rows], sd=sd, predicted=self.predicted[rows])
+
     def gaps_s(self) -> list[tuple[float, float]]:
         """Times without a value, between and inside samples."""
         known = np.flatnonzero(np.isfinite(self.value))
@@ -304,10 +309,8 @@ def thinned(series: Series, columns: int) -> Series:
         spread[:count] = np.where(np.isfinite(series.sd), series.sd, -np.inf)
         widest = spread.reshape(rows, size).max(axis=1)[index // size]
         sd = np.where(np.isfinite(widest), widest, np.nan)
-    return Series(
-        series.time_s[index], series.value[index], sd, series.predicted[index],
-        max(series.longest_step_s, LONGEST_STRETCHES * stretch_s),
-    )  # fmt: skip
+    longest_s = max(series.longest_step_s, LONGEST_STRETCHES * stretch_s)
+    return replace(series.at(index), sd=sd, longest_step_s=longest_s)
 
 
 def within(series: Series, start_s: float, end_s: float) -> Series:
@@ -316,9 +319,7 @@ def within(series: Series, start_s: float, end_s: float) -> Series:
     last = int(np.searchsorted(series.time_s, end_s, side="right")) + 1
     if first == 0 and last >= len(series.time_s):
         return series
-    part = slice(first, last)
-    sd = None if series.sd is None else series.sd[part]
-    return Series(series.time_s[part], series.value[part], sd, series.predicted[part], series.longest_step_s)
+    return series.at(slice(first, last))
 
 
 def _with_gaps(series: Series) -> Series:
@@ -327,10 +328,6 @@ def _with_gaps(series: Series) -> Series:
     if not len(before):
         return series
     middle_s = 0.5 * (series.time_s[before] + series.time_s[before + 1])
-    return Series(
-        np.insert(series.time_s, before + 1, middle_s),
-        np.insert(series.value, before + 1, np.nan),
-        None if series.sd is None else np.insert(series.sd, before + 1, np.nan),
-        np.insert(series.predicted, before + 1, False),
-        series.longest_step_s,
-    )
+    sd = None if series.sd is None else np.insert(series.sd, before + 1, np.nan)
+    time_s, value = np.insert(series.time_s, before + 1, middle_s), np.insert(series.value, before + 1, np.nan)
+    return replace(series, time_s=time_s, value=value, sd=sd, predicted=np.insert(series.predicted, before + 1, False))

@@ -395,7 +395,6 @@ class SessionChart(ZoomChart):
         self._single = False
         self._curves: list[tuple[Curves, int]] = []
         self._cursors: list[Any] = []
-        self._edges: list[Any] = []
         self._readings: list[ChartText] = []
         self.setAccessibleName(self.tr("Curves of the session"))
 
@@ -458,7 +457,7 @@ class SessionChart(ZoomChart):
     def build(self) -> None:
         plot = self._plot
         self.more.setVisible(plot is not None)
-        self._curves, self._cursors, self._edges, self._readings = [], [], [], []
+        self._curves, self._cursors, self._readings = [], [], []
         if plot is None:
             return
         for place, (panel, key) in enumerate(self.panels()):
@@ -506,8 +505,7 @@ class SessionChart(ZoomChart):
         if 0 <= plot.current < len(plot.repetitions):
             one = plot.repetitions[plot.current]
             for at in (one.start_s, one.end_s):
-                self._edges.append(first.add_cursor(at, "accent"))
-                self._edges[-1].addMarker("o", 0.5, 10.0)
+                first.add_cursor(at, "accent").addMarker("o", 0.5, 10.0)
         self._cursors = [own.add_cursor(self._time_s) for own in self.plots]
         self._under_mouse = [own.add_cursor(0.0, "text2", 1.0) for own in self.plots]
         self._dots = self.add_symbols()
