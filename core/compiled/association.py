@@ -98,3 +98,38 @@ def fill_log_odds(
             flat = impossible if flat2 > gate2 else flat + by_outlier if has_depth else flat
             with_depth[j, i] = has_depth and whole >= flat
             value[j, i] = whole if whole >= flat else flat  # unknown where that by the pixel is
+
+
+def take_likeliest(odds: Array) -> NDArray[np.int64] | None:
+    """
+    Take the likeliest blob of every marker; where these are all others, none better can be had.
+
+    Parameters
+    ----------
+    odds : numpy.ndarray
+        Log odds (M, D).
+
+    Returns
+    -------
+    numpy.ndarray or None
+        Blob (M,) of every marker, -1 where no odds are above zero; None where two take the same.
+    """
+    markers: cython.Py_ssize_t = odds.shape[0]
+    blobs: cython.Py_ssize_t = odds.shape[1]
+    value: cython.const[cython.double][:, ::1] = given(odds, "odds", (markers, blobs))
+    out = np.full(markers, -1, dtype=np.int64)
+    taken: cython.longlong[::1] = out
+    is_used: cython.uchar[::1] = np.zeros(blobs, dtype=np.uint8)
+    j: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    for j in range(markers):
+        best: cython.double = 0.0
+        for i in range(blobs):
+            if value[j, i] > best:
+                best = value[j, i]
+                taken[j] = i
+        if taken[j] >= 0:
+            if is_used[taken[j]]:
+                return None
+            is_used[taken[j]] = 1
+    return out

@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.association import compute_log_odds
+from carpus.core.compiled.association import compute_log_odds, take_likeliest
 from carpus.core.types import FloatArray
 
 IMPOSSIBLE = -1e9
@@ -109,24 +109,15 @@ def resolve(odds: FloatArray) -> NDArray[np.int64]:
 
     Leaving a blob to clutter costs nothing, so only positive odds are taken.
     """
-    assigned = [-1] * odds.shape[0]
-    if odds.shape[1]:
-        # Where the likeliest blobs of all markers are others, none better can be had.
-        for marker, row in enumerate(odds.tolist()):
-            likeliest = max(row)
-            if likeliest > 0.0:
-                assigned[marker] = row.index(likeliest)
-        named = [blob for blob in assigned if blob >= 0]
-        if len(set(named)) == len(named):
-            return np.array(assigned, dtype=np.int64)
-        from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
+    likeliest = take_likeliest(odds)
+    if likeliest is not None:
+        return likeliest
+    from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
 
-        assigned = [-1] * odds.shape[0]
-        rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
-        for marker, blob in zip(rows.tolist(), columns.tolist(), strict=True):
-            if odds.item(marker, blob) > 0.0:
-                assigned[marker] = blob
-    return np.array(assigned, dtype=np.int64)
+    rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
+    assigned = np.full(odds.shape[0], -1, dtype=np.int64)
+    assigned[rows] = np.where(odds[rows, columns] > 0.0, columns, -1)
+    return assigned
 
 
 MOST_DOF, MOST_STEPS = 200, 40

@@ -131,6 +131,9 @@ def jointly_checked(
             assigned[chain], with_depth[chain] = _digit_jointly(chain, scene, others, settings)
         names = DigitAssignment(assigned, with_depth)
         found = updated_as_associated(estimates, scene, names, settings)
+    back = (names.assigned >= 0) & (scene.visible < WAS_SEEN)
+    if not back.any() and not (names.assigned[0, 2] >= 0 > names.assigned[0, 1]):
+        return found
     impossible = _impossible(found, scene) | _lone(names, scene)
     return without(impossible, found, estimates, scene, settings) if impossible.any() else found
 

@@ -26,7 +26,8 @@ from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
-_SLOT, _DIP_OFF = np.arange(SLOTS), 3
+_DIP_OFF = 3
+"""The slot of a finger's DIP flexion beyond what PIP flexion brings with it."""
 
 SKIN_SD_RAD = 0.022
 """So far discs that ride on gliding skin mislead about a joint, however long it is seen."""
@@ -57,7 +58,8 @@ class DigitReadout:
 
     def __init__(self, clicks: Clicks, camera: Camera, settings: TrackerSettings, wrist_depth_m: float) -> None:
         protocol, self._side = clicks.protocol, clicks.side
-        self._skin_offsets, self._dip_free = settings.fingers.skin_offsets, settings.dip == "free"
+        self._dip_free = settings.dip == "free"
+        self._skin_rad2 = settings.fingers.skin_offsets * SKIN_SD_RAD**2 * np.eye(SLOTS)
         self.reading = JointReading.of(self._dip_free, protocol.digits)
         self.direct_markers = direct_markers(protocol, self._dip_free)
         self._sites = np.array(list(protocol.sites), dtype=np.int64)
@@ -79,8 +81,7 @@ class DigitReadout:
         unsure = covariance[:, :SLOTS, :SLOTS] + compute_inherited(covariance, seat, linearised, normal)
         slots[:, FLEXION] -= palm.cup_rad
         unsure[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
-        if self._skin_offsets:
-            unsure[:, _SLOT, _SLOT] += SKIN_SD_RAD**2
+        unsure += self._skin_rad2
         centre = np.empty((1 + CHAINS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
         centre[1:] = joint_m.reshape(-1, 3)
