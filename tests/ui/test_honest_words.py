@@ -48,7 +48,7 @@ from carpus.ui.verdicts import change_since_first, difference, limit_words, no_c
 from carpus.ui.words.fingers import compared_figures, finger_table, limits_words, main_figure
 from carpus.ui.words.progress import before_after
 from carpus.ui.words.ranges import range_table, repetition_words
-from carpus.ui.words.session import method, other_lines
+from carpus.ui.words.session import method, other_lines, since_words
 from carpus.ui.words.table import cell_words
 from tests.moments import with_moment
 from tests.results.days import with_ranges
@@ -201,6 +201,17 @@ def test_the_footnote_names_the_sd_that_is_printed() -> None:
     assert "spread between repetitions" not in method(single, 6, compared=False)
     mixed = with_ranges(many, lambda row: {} if row.what == "arc" else {"sd": math.nan, "values": row.values[:1]})
     assert "of fewer than 3 the tracker’s own" in method(mixed, 6, compared=False)
+
+
+def test_an_error_that_all_changes_share_is_said_once_and_else_with_each() -> None:
+    made = figures_once(session())
+    before = with_ranges(replace(made, session_id="before"), lambda row: {"mean": row.mean - 40.0})
+    assert since_words(made, before, "then").count("(error ") == 3, "an arc has two ends"
+    ends = replace(made, measures=tuple(row for row in made.measures if row.what != "arc"))
+    said = since_words(ends, before, "then")
+    assert said.endswith("(error 10°).")
+    assert said.count("40° better") == 2
+    assert said.count("(error ") == 1
 
 
 def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_larger(
