@@ -70,16 +70,6 @@ class Camera:
         y = (pixel[..., 1] - self.cy_px) / self.fy_px
         return np.stack((x * depth_m, y * depth_m, depth_m + 0.0 * x), axis=-1)
 
-    def slope(self, image: FloatArray) -> FloatArray:
-        """Derivative (..., 3, 3) of pixel u, v and depth z by the place in camera axes, at u, v, z (..., 3)."""
-        z = image[..., 2]
-        out = np.zeros((*image.shape, 3))
-        out[..., 0, 0], out[..., 1, 1] = self.fx_px / z, self.fy_px / z
-        out[..., 0, 2] = (self.cx_px - image[..., 0]) / z
-        out[..., 1, 2] = (self.cy_px - image[..., 1]) / z
-        out[..., 2, 2] = 1.0
-        return out
-
     def undistort(self, pixel: FloatArray) -> FloatArray:
         """Pixels (D, 2) as an ideal pinhole would see them."""
         if not self.is_distorted or pixel.size == 0:

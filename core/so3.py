@@ -110,25 +110,6 @@ def _log_one(rotation: FloatArray) -> FloatArray | None:
     return np.array((scale * x, scale * y, scale * z))
 
 
-def right_jacobian(turn_rad: FloatArray) -> FloatArray:
-    """Jr (3, 3) of one turn (3,), with Exp(t + d) = Exp(t) Exp(Jr d) to first order."""
-    x, y, z = turn_rad.tolist()
-    angle2 = x * x + y * y + z * z
-    if angle2 < 1e-6:
-        b, c = 0.5 - angle2 / 24.0, 1.0 / 6.0 - angle2 / 120.0
-    else:
-        angle = math.sqrt(angle2)
-        b, c = (1.0 - math.cos(angle)) / angle2, (angle - math.sin(angle)) / (angle2 * angle)
-    d = 1.0 - c * angle2
-    return np.array(
-        [
-            [d + c * x * x, c * x * y + b * z, c * x * z - b * y],
-            [c * x * y - b * z, d + c * y * y, c * y * z + b * x],
-            [c * x * z + b * y, c * y * z - b * x, d + c * z * z],
-        ]
-    )
-
-
 def nearest_rotation(matrix: FloatArray) -> FloatArray:
     """Rotation matrices (..., 3, 3) nearest to ``matrix`` in the least-squares sense."""
     u, _, vt = np.linalg.svd(matrix)

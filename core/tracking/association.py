@@ -149,12 +149,6 @@ def most_chi2(chance: float) -> tuple[float, ...]:
     return (np.inf, *(2.0 * half).tolist())
 
 
-@lru_cache(maxsize=4)
-def most_chi2_row(chance: float) -> FloatArray:
-    """The same as an array, for what is compiled."""
-    return np.array(most_chi2(chance))
-
-
 def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -> bool:
     """Whether the innovations of all markers together are what the filter foresaw."""
     most = most_chi2(settings.consistent)

@@ -89,13 +89,6 @@ def transitioned(
     return ModeMixture(*compiled.transitioned(mixture, step, nominal), mixture.probability)
 
 
-def like(mixture: ModeMixture) -> ModeMixture:
-    """A mixture of the same shape, to be filled."""
-    return ModeMixture(
-        np.empty(mixture.mean.shape), np.empty(mixture.covariance.shape), np.empty(mixture.probability.shape)
-    )
-
-
 @dataclass(frozen=True, slots=True)
 class Linearisation:
     """A measurement linearised statistically: y = ``value`` + ``slope`` (x - ``about``) + error.

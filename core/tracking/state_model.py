@@ -47,7 +47,7 @@ PALM_STATE = (
     StatePart(
         "turn", TURN, "rad", "error d of the rotation, R_true = R Exp(d), in W2",
         ("rate",), "Exp(w dt)' d + Jr(w dt) w dt", "q dt^3 / 3 Jr Jr', with the rate q dt^2 / 2 Jr",
-        ("MotionNoise.turn_acceleration_rad_s2", "so3.right_jacobian"),
+        ("MotionNoise.turn_acceleration_rad_s2", "palm.move_palm"),
     ),
     StatePart(
         "rate", RATE, "rad/s", "angular velocity in W2", (), "w",

@@ -57,18 +57,3 @@ def deviations(covariance: FloatArray, scale: float) -> FloatArray:
     out[..., 1 : n + 1, :] = columns
     out[..., n + 1 :, :] = -columns
     return out
-
-
-def make_roots(matrix: FloatArray) -> None:
-    """Make positive definite matrices (K, n, n), stored row by row, their lower triangular roots.
-
-    In place, as in the filter's step a root by ``numpy.linalg`` costs twice as much; fails as that does.
-    """
-    from scipy.linalg.lapack import dpotrf  # a fifth of a second to load
-
-    if not matrix.flags.c_contiguous:
-        raise ValueError("not stored row by row: LAPACK would change a copy")
-    for one in matrix:
-        # LAPACK counts by columns: what it is told of, and changes in place, is the transpose.
-        if dpotrf(one.T, lower=0, overwrite_a=1)[1]:
-            raise np.linalg.LinAlgError("Matrix is not positive definite")

@@ -45,6 +45,7 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
 from tests.compiled.oracle.association import compute_log_odds
+from tests.compiled.oracle.palm import camera_slope
 
 _TILTING = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 """Slots (5, 5) that tilt the discs past them."""
@@ -62,7 +63,7 @@ def linearise_images(points: DigitPoints, view: DigitView, spread: Spread) -> Di
     middle = image[:, :1] - value[:, None]
     error = 2.0 * weights.covariance[1] * (np.swapaxes(bend, 1, 2) @ bend)
     error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
-    by_place = view.camera.slope(image[:, 0].reshape(CHAINS, DISCS, 3))
+    by_place = camera_slope(view.camera, image[:, 0].reshape(CHAINS, DISCS, 3))
     by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(CHAINS, 3 * DISCS, -1)
     own = half - points.along @ np.swapaxes(by_constants, 1, 2)
     slope = np.zeros((CHAINS, 3 * DISCS, DIGIT_SIZE))

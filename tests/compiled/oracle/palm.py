@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from scipy.linalg import solve_triangular
 
 from carpus.core import so3
+from carpus.core.camera import Camera
 from carpus.core.tracking.kernel import ModeMixture, switching
 from carpus.core.tracking.motion import PalmMotion
 from carpus.core.tracking.palm_state import (
@@ -32,6 +35,36 @@ _OF_DISC = 3 * DISCS[:, None, None] + np.arange(3)[:, None]  # (6, 3, 1): each d
 _BY_SHAPE, _BY_SKIN = (first + 3 * DISCS[:, None, None] + np.arange(3) for first in (SHAPE.start, SOFT.start))
 
 
+def right_jacobian(turn_rad: FloatArray) -> FloatArray:
+    """Jr (3, 3) of one turn (3,), with Exp(t + d) = Exp(t) Exp(Jr d) to first order."""
+    x, y, z = turn_rad.tolist()
+    angle2 = x * x + y * y + z * z
+    if angle2 < 1e-6:
+        b, c = 0.5 - angle2 / 24.0, 1.0 / 6.0 - angle2 / 120.0
+    else:
+        angle = math.sqrt(angle2)
+        b, c = (1.0 - math.cos(angle)) / angle2, (angle - math.sin(angle)) / (angle2 * angle)
+    d = 1.0 - c * angle2
+    return np.array(
+        [
+            [d + c * x * x, c * x * y + b * z, c * x * z - b * y],
+            [c * x * y - b * z, d + c * y * y, c * y * z + b * x],
+            [c * x * z + b * y, c * y * z - b * x, d + c * z * z],
+        ]
+    )
+
+
+def camera_slope(camera: Camera, image: FloatArray) -> FloatArray:
+    """Derivative (..., 3, 3) of pixel u, v and depth z by the place in camera axes, at u, v, z (..., 3)."""
+    z = image[..., 2]
+    out = np.zeros((*image.shape, 3))
+    out[..., 0, 0], out[..., 1, 1] = camera.fx_px / z, camera.fy_px / z
+    out[..., 0, 2] = (camera.cx_px - image[..., 0]) / z
+    out[..., 1, 2] = (camera.cy_px - image[..., 1]) / z
+    out[..., 2, 2] = 1.0
+    return out
+
+
 def switch_modes(motion: PalmMotion, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds) -> FloatArray:
     """Probability (K, K) to go from row to column mode."""
     tissue, turning_rad_s = motion.tissue, float(np.linalg.norm(rate_rad_s))
@@ -56,7 +89,7 @@ def move_palm(
 ) -> tuple[FloatArray, ...]:
     """F (12, 12) and Q (K, 12, 12) of what moves, shares kept (K, n), Q of the tissue (K, r, r), the turn (3, 3)."""
     noise, tissue, scales2 = motion.noise, motion.tissue, (motion.scale_of**2)[:, None, None]
-    turned, on_the_way = so3.exp(rate_rad_s * dt_s), so3.right_jacobian(rate_rad_s * dt_s)
+    turned, on_the_way = so3.exp(rate_rad_s * dt_s), right_jacobian(rate_rad_s * dt_s)
     moving = np.eye(MOVING.stop)
     moving[POSITION, VELOCITY] = dt_s * np.eye(3)
     moving[TURN, TURN], moving[TURN, RATE] = turned.T, dt_s * on_the_way
@@ -100,7 +133,7 @@ def see_palm(estimate: PalmEstimate, mixture: ModeMixture, view: View, weights: 
     error = 2.0 * weights.covariance[1] * (bend.T @ bend) + weights.covariance[0] * np.outer(middle, middle)
     slope = np.zeros((value.size, SIZE))
     slope[:, POSE] = solve_triangular(root, half, lower=True, trans="T", check_finite=False).T
-    by_place = view.camera.slope(image[0]) @ (view.rotation_w0_cam @ estimate.rotation_w2_w0)
+    by_place = camera_slope(view.camera, image[0]) @ (view.rotation_w0_cam @ estimate.rotation_w2_w0)
     slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = by_place
     slope[2::3, SHAPE] -= view.hidden
     value[2::3] -= view.hidden @ estimate.value[SHAPE]
