@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.ui.controls.card import Fill, Line
 from carpus.ui.controls.layouts import empty, in_column, in_grid, in_line
-from carpus.ui.controls.text import MEDIUM, REGULAR, Sign, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, PlainText, Sign
 from carpus.ui.theme import Theme
 from carpus.ui.words.table import Cell, TableColumn, cell_words
 
@@ -124,7 +124,7 @@ class Table(QWidget):
         """Put a cell into the grid; the width that its words ask for."""
         size = self._share * self._size * column.scale
         side = Qt.AlignmentFlag.AlignRight if column.ends else Qt.AlignmentFlag.AlignLeft
-        shown = Text(self._theme, cell.text, size, cell.weight, cell.token, wrap=column.wraps)
+        shown = PlainText(self._theme, cell.text, size, cell.weight, cell.token, wrap=column.wraps)
         shown.setAlignment(Qt.AlignmentFlag.AlignVCenter | side)
         letters = max((len(line) for line in cell.text.split("\n")), default=0)
         width: float = max(shown.fontMetrics().horizontalAdvance(line) for line in cell.text.split("\n"))
@@ -134,7 +134,7 @@ class Table(QWidget):
             width *= min(1.0, MAX_LETTERS / max(letters, 1))
         whole: QWidget = shown
         if cell.below:
-            below = Text(self._theme, cell.below, 0.85 * size, REGULAR, "text2", wrap=column.wraps)
+            below = PlainText(self._theme, cell.below, 0.85 * size, REGULAR, "text2", wrap=column.wraps)
             width = max(width, below.fontMetrics().horizontalAdvance(cell.below) if not column.wraps else 0)
             whole = QWidget()
             in_column(shown, below, gap=0, margins=(0, 0, 0, 0), within=whole)

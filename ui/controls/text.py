@@ -17,6 +17,7 @@ __all__ = [
     "MEDIUM",
     "REGULAR",
     "SEMIBOLD",
+    "PlainText",
     "Sign",
     "StateText",
     "Text",
@@ -26,8 +27,9 @@ __all__ = [
 ]
 
 
-class Text(QLabel):
-    """A label with size, weight and colour by token; plain text only, so nothing typed is ever markup."""
+class PlainText(QLabel):
+    """A label with size, weight and colour by token; plain text only, so nothing typed is ever markup. As it overrides
+    nothing of Qt, pages and tables can have hundreds."""
 
     def __init__(
         self,
@@ -46,6 +48,27 @@ class Text(QLabel):
         if wrap:
             self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         theme.follow(self, self._take_theme)
+
+    def _take_theme(self) -> None:
+        self.setFont(self._theme.font(self._size_px, self._weight))
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.WindowText, self._theme.color(self._token))
+        self.setPalette(palette)
+        self._leave_room()
+
+    def _leave_room(self) -> None:
+        """The display cut's Ä, Ö, Ü and È rise above the line that the font asks for, and would be cut at the label's
+        edge."""
+        top_px = 0
+        if self.font().family() == DISPLAY_FAMILY and not self.text().isascii():
+            metrics = QFontMetricsF(self.font())
+            top_px = max(0, math.ceil(-metrics.tightBoundingRect(self.text()).top() - metrics.ascent()))
+        if top_px != self.contentsMargins().top():
+            self.setContentsMargins(0, top_px, 0, 0)
+
+
+class Text(PlainText):
+    """A label on a screen, whose words may change; what there is no room for is left out, and a tooltip says it."""
 
     def setText(self, text: str) -> None:
         super().setText(text)
@@ -104,23 +127,6 @@ class Text(QLabel):
 
     def _line_px(self) -> int:
         return self.fontMetrics().boundingRect(QRect(0, 0, 1000, 1000), 0, "x").height()
-
-    def _take_theme(self) -> None:
-        self.setFont(self._theme.font(self._size_px, self._weight))
-        palette = self.palette()
-        palette.setColor(QPalette.ColorRole.WindowText, self._theme.color(self._token))
-        self.setPalette(palette)
-        self._leave_room()
-
-    def _leave_room(self) -> None:
-        """The display cut's Ä, Ö, Ü and È rise above the line that the font asks for, and would be cut at the label's
-        edge."""
-        top_px = 0
-        if self.font().family() == DISPLAY_FAMILY and not self.text().isascii():
-            metrics = QFontMetricsF(self.font())
-            top_px = max(0, math.ceil(-metrics.tightBoundingRect(self.text()).top() - metrics.ascent()))
-        if top_px != self.contentsMargins().top():
-            self.setContentsMargins(0, top_px, 0, 0)
 
 
 class ElidedText(Text):

@@ -14,7 +14,7 @@ from carpus.ui import terms
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.layouts import STRETCH, Part, in_column, in_line
 from carpus.ui.controls.table import Table
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, PlainText, Sign
 from carpus.ui.fonts import font
 from carpus.ui.language import borrowed, speaking
 from carpus.ui.plot.session import SessionPlot, paint_session
@@ -61,14 +61,14 @@ def points(*sizes: float) -> tuple[int, ...]:
     return tuple(PAPER.px(size) for size in sizes)
 
 
-def paragraph(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> Text:
+def paragraph(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> PlainText:
     """A paragraph."""
-    return Text(PAPER, words, size, weight, token, wrap=True)
+    return PlainText(PAPER, words, size, weight, token, wrap=True)
 
 
-def label(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> Text:
+def label(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> PlainText:
     """Words in one line."""
-    return Text(PAPER, words, size, weight, token)
+    return PlainText(PAPER, words, size, weight, token)
 
 
 def column(*parts: Part | float, gap: float = 0.0, within: QWidget | None = None) -> QVBoxLayout:
@@ -90,14 +90,14 @@ def rule() -> Line:
     return Line(PAPER)
 
 
-def line_or_column(first: Text, *rest: QWidget | float, is_apart: bool = True) -> QLayout:
+def line_or_column(first: PlainText, *rest: QWidget | float, is_apart: bool = True) -> QLayout:
     """All in one line, the rest at its end or right behind, or where that is too long below the first."""
     widths = [one.sizeHint().width() if isinstance(one, QWidget) else PAPER.px(one) for one in (first, *rest, 12.0)]
     if sum(widths) <= PAPER.px(BODY_PT):
         behind: tuple[Part | float, ...] = (STRETCH, *rest) if is_apart else (12.0, *rest, STRETCH)
         return line((first, 0, Qt.AlignmentFlag.AlignBottom), *behind)
     for one in (first, *rest):
-        if isinstance(one, Text) and one.sizeHint().width() > PAPER.px(BODY_PT):
+        if isinstance(one, PlainText) and one.sizeHint().width() > PAPER.px(BODY_PT):
             one.setWordWrap(True)
     return column(first, line(*rest, *([] if len(rest) == 1 else [STRETCH])))
 
@@ -181,7 +181,7 @@ def break_lines(words: str, size: float, width: float) -> list[str]:
     return found
 
 
-def legal_line() -> Text:
+def legal_line() -> PlainText:
     """What is said of the program on every page."""
     return paragraph(terms.LEGAL_SENTENCE, 8.0, SEMIBOLD)
 

@@ -19,7 +19,7 @@ from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, PlainText, Sign
 from carpus.ui.plot.range_bars import BAR_PX, FOOT_PX, paint_range_bars, range_bars
 from carpus.ui.plot.session import SessionPlot
 from carpus.ui.report.hand_part import finger_curves, finger_part, wrist_line
@@ -182,9 +182,9 @@ def comment_lines(comment: str) -> list[str]:
     return break_lines(comment, COMMENT_PT, BODY_PT) if comment.strip() else []
 
 
-def comment_text(lines: Sequence[str]) -> Text:
+def comment_text(lines: Sequence[str]) -> PlainText:
     """Lines that are broken already, as they are."""
-    return Text(PAPER, "\n".join(lines), COMMENT_PT)
+    return PlainText(PAPER, "\n".join(lines), COMMENT_PT)
 
 
 def _facts(report: SessionReport) -> list[Part]:

@@ -145,7 +145,7 @@ class ResultTables(ScrollArea):
         self.range = Table(theme)
         self.hand = Table(theme, gap=10, pitch=1)
         self.further_title = Text(theme, "", 14, SEMIBOLD)
-        self.further = Table(theme, gap=16, pitch=2)
+        self.further = Table(theme, gap=20, pitch=3)
         self.ways_said = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.ways = Table(theme)
         self.ways_note = Text(theme, "", 12, REGULAR, "text2", wrap=True)
