@@ -44,9 +44,13 @@ class BuildCompiled(build_ext):
 
 
 class BuildWithRevision(build_py):
-    """An editable install asks git itself."""
+    """Leaves nothing of an earlier build but extensions that are still true; an editable install asks git itself."""
 
     def run(self):
+        if not self.editable_mode:
+            for path in Path(self.build_lib).rglob("*"):
+                if path.is_file() and not (path.suffix in (".so", ".pyd") and path.name.partition(".")[0] in MODULES):
+                    path.unlink()
         super().run()
         if self.editable_mode:
             return
