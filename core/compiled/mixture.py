@@ -11,14 +11,17 @@ from typing import Any
 
 import cython
 import numpy as np
-from cython.cimports.carpus.core.compiled.small_matrices import add_product, add_square, inverse_root, zero_times
+from cython.cimports.carpus.core.compiled.small_matrices import (
+    add_product,
+    add_square,
+    inverse_root,
+    zero_times,
+)
 from cython.cimports.libc.math import INFINITY, exp, isfinite, log, sqrt
 from numpy.typing import NDArray
 
 LEAST_PROBABILITY = cython.declare(cython.double, 1e-6)
 """No mode ever falls to zero."""
-LIKELY = cython.declare(cython.double, 0.0)
-"""Modes less probable are left as predicted."""
 
 Array = NDArray[np.float64]
 
@@ -345,19 +348,16 @@ class Measured:
 def reweigh(
     before: cython.const[cython.double][::1], log_likelihood: cython.const[cython.double][::1], out: cython.double[::1]
 ) -> cython.void:
-    """Probabilities (K,) after the measurement. Modes without a likelihood keep theirs, and the rest is the others'."""
+    """Probabilities (K,) after the measurement; none ever falls to zero."""
     k: cython.Py_ssize_t
     modes: cython.Py_ssize_t = before.shape[0]
     most: cython.double = -INFINITY
     total: cython.double = 0.0
     again: cython.double = 0.0
-    left: cython.double = 1.0
     for k in range(modes):
         out[k] = log(before[k]) + log_likelihood[k]
         if not out[k] <= most:  # NaN goes on
             most = out[k]
-        if log_likelihood[k] == -INFINITY:
-            left -= before[k]
     for k in range(modes):
         out[k] = exp(out[k] - most)
         total += out[k]
@@ -365,9 +365,9 @@ def reweigh(
         out[k] /= total
         if out[k] < LEAST_PROBABILITY:
             out[k] = LEAST_PROBABILITY
-        again += out[k] if log_likelihood[k] != -INFINITY else 0.0
+        again += out[k]
     for k in range(modes):
-        out[k] = before[k] if log_likelihood[k] == -INFINITY else left * out[k] / again
+        out[k] /= again
 
 
 def corrected(
@@ -378,15 +378,14 @@ def corrected(
     shared: Array | None,
     partial: Array | None,
 ) -> tuple[Array, Array, Array, Array, NDArray[np.int64], Array]:
-    """Kalman correction of every chain and likely mode by ``measured`` (C, m), NaN where there is nothing.
+    """Kalman correction of every chain and mode by ``measured`` (C, m), NaN where there is nothing.
 
     ``variance`` (C, m) of the measurements' own errors, ``shared`` (C, m, m) covariance common to several of them,
     ``partial`` (n,) share of a correction that each number of the mean takes (a Schmidt filter; Brink 2017: the
-    covariance then loses s_i + s_j - s_i s_j of what it would). Modes less probable than ``LIKELY`` are left as
-    predicted (a variable structure; Li and Bar-Shalom 1996).
+    covariance then loses s_i + s_j - s_i s_j of what it would).
 
-    The corrected mixture, NIS (C,) over the likely modes with its degrees of freedom (C,), residuals (C, m) in their
-    own standard deviations. Raises ``numpy.linalg.LinAlgError`` where a scatter is not positive definite.
+    The corrected mixture, NIS (C,) over all modes with its degrees of freedom (C,), residuals (C, m) in their own
+    standard deviations. Raises ``numpy.linalg.LinAlgError`` where a scatter is not positive definite.
     """
     arrays = sized(mixture)
     out = arrays[0].copy(), arrays[1].copy(), np.empty_like(arrays[2])
@@ -413,13 +412,11 @@ def corrected(
     for c in range(chains):
         dof[c] = one.take(c)
         for k in range(modes):
-            log_likelihood[k], square[k], surprise[k] = -INFINITY, 0.0, 0.0
-            if not before[c, k] < LIKELY:
-                if not one.whiten(mean[c, k], covariance[c, k]):
-                    raise np.linalg.LinAlgError("Matrix is not positive definite")
-                log_likelihood[k], square[k] = one.log_likelihood(), one.nis()
-                one.surprise(surprise[k])
-                one.correct(share, to[c, k], spread[c, k])
+            if not one.whiten(mean[c, k], covariance[c, k]):
+                raise np.linalg.LinAlgError("Matrix is not positive definite")
+            log_likelihood[k], square[k] = one.log_likelihood(), one.nis()
+            one.surprise(surprise[k])
+            one.correct(share, to[c, k], spread[c, k])
         reweigh(before[c], log_likelihood, after[c])
         for k in range(modes):
             nis[c] += after[c, k] * square[k]
