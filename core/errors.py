@@ -83,7 +83,7 @@ class PictureDamaged(CarpusFault):
     happened = phrase("A frame of the recording is damaged: {subject} ({detail}).")
     safe = _RECORDING_UNCHANGED
     do = _COPY_AGAIN
-    support = phrase("“carpus track --leave-out-damaged” continues without it.")
+    support: ClassVar[str] = phrase("“carpus track --leave-out-damaged” continues without it.")
 
 
 class FirstPictureDamaged(PictureDamaged):

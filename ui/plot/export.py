@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSize
 from PySide6.QtGui import QColor, QImage, QPainter
@@ -14,8 +15,10 @@ from carpus.ui.saved_table import save_private, table_bytes
 from carpus.ui.theme import LIGHT
 
 if TYPE_CHECKING:
-    from carpus.ui.plot.zoom_chart import ZoomChart
+    from carpus.ui.plot.chart import Chart
 
+Table: TypeAlias = tuple[Sequence[str], Iterable[Sequence[str]]]
+"""Head and rows."""
 WIDTH_MM, DPI = 170.0, 300.0
 """The width of a page's text, at the resolution of print."""
 SVG_UNITS_PER_POINT = 10.0
@@ -23,12 +26,12 @@ MARGIN_PT = 8.0
 POINTS_PER_MM = 72.0 / 25.4
 
 
-def _size_pt(plot: ZoomChart) -> tuple[float, float]:
+def _size_pt(plot: Chart) -> tuple[float, float]:
     width_pt = WIDTH_MM * POINTS_PER_MM
     return width_pt, width_pt * min(max(plot.height() / max(plot.width(), 1), 0.4), 1.4)
 
 
-def _paint(painter: QPainter, plot: ZoomChart, point: float) -> None:
+def _paint(painter: QPainter, plot: Chart, point: float) -> None:
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     width_pt, height_pt = _size_pt(plot)
     margin = MARGIN_PT * point
@@ -36,7 +39,7 @@ def _paint(painter: QPainter, plot: ZoomChart, point: float) -> None:
     plot.paint_on(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
 
 
-def picture(plot: ZoomChart) -> QImage:
+def picture(plot: Chart) -> QImage:
     """170 mm wide at 300 dots to the inch."""
     point = DPI / 72.0
     width_pt, height_pt = _size_pt(plot)
@@ -50,7 +53,7 @@ def picture(plot: ZoomChart) -> QImage:
     return image
 
 
-def drawing(plot: ZoomChart) -> bytes:
+def drawing(plot: Chart) -> bytes:
     """The same as lines and letters."""
     point = SVG_UNITS_PER_POINT
     width_pt, height_pt = _size_pt(plot)
@@ -69,13 +72,13 @@ def drawing(plot: ZoomChart) -> bytes:
     return bytes(store.data())
 
 
-def save(plot: ZoomChart, path: Path) -> None:
-    """Write the plot as the name ends. Raises :class:`OutputNotWritable`."""
+def save(plot: Chart, table: Callable[[], Table], path: Path) -> None:
+    """Write the plot, or its values as a table, as the name ends. Raises :class:`OutputNotWritable`."""
     kind = path.suffix.lower()
     if kind == ".svg":
         content = drawing(plot)
     elif kind == ".csv":
-        content = table_bytes(*plot.table())
+        content = table_bytes(*table())
     else:
         store = QByteArray()
         buffer = QBuffer(store)

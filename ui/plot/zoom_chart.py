@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -62,7 +61,7 @@ class ZoomChart(Chart):
     def show_range(self) -> None:
         """Another part of the axis is shown."""
 
-    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+    def table(self) -> export.Table:
         """Head and rows of what is shown."""
         raise NotImplementedError
 
@@ -203,7 +202,7 @@ class PlotMenu(QObject):
     def save(self, path: Path) -> None:
         """Write a picture, drawing or table, as the name ends; a fault is told."""
         try:
-            export.save(self._card, path)
+            export.save(self._card, self._card.table, path)
         except CarpusFault as fault:
             self.told.emit(fault)
         else:
