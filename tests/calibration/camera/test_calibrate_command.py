@@ -161,7 +161,7 @@ def test_a_recording_without_a_board_is_told(tmp_path: Path, capsys: pytest.Capt
     assert main(["calibrate-camera", str(path)]) == 1
     said = capsys.readouterr().err.splitlines()
     assert len(said) == 1
-    assert "printed board is not to be seen" in said[0]
+    assert "calibration board is not visible" in said[0]
 
 
 def test_the_newest_of_the_right_camera_is_used(tmp_path: Path) -> None:
