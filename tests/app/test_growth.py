@@ -148,6 +148,9 @@ REACHED_OTHERWISE = {
 }
 
 
+IMPORTS = r"from (?:cython\.cimports\.)?carpus\.([\w.]+) import (\([^)]*\)|[^\n]*)"
+
+
 def test_nothing_lies_about_that_is_not_registered_or_imported() -> None:
     """A new file without its line would be heard of by nobody."""
     files = {
@@ -157,7 +160,7 @@ def test_nothing_lies_about_that_is_not_registered_or_imported() -> None:
     }
     reached: set[str] = set()
     for source in [*files.values(), (ROOT / "carpus" / "__init__.py").read_text(encoding="utf-8")]:
-        for module, names in re.findall(r"from (?:cython\.cimports\.)?carpus\.([\w.]+) import (\([^)]*\)|[^\n]*)", source):
+        for module, names in re.findall(IMPORTS, source):
             reached |= {module, *(f"{module}.{name}" for name in re.findall(r"\w+", names))}
         reached |= set(re.findall(r"import carpus\.([\w.]+)", source))
     reached |= {f"core.formats.{form.module}" for form in FORMATS.values()}
