@@ -100,9 +100,9 @@ def fill_log_odds(
             value[j, i] = whole if whole >= flat else flat  # unknown where that by the pixel is
 
 
-def take_likeliest(odds: Array) -> NDArray[np.int64] | None:
+def find_likeliest(odds: Array) -> NDArray[np.int64] | None:
     """
-    Take the likeliest blob of every marker; where these are all others, none better can be had.
+    Find the likeliest blob of every marker; where these are all others, none better can be had.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.association import compute_log_odds, take_likeliest
+from carpus.core.compiled.association import compute_log_odds, find_likeliest
 from carpus.core.types import FloatArray
 
 IMPOSSIBLE = -1e9
@@ -109,7 +109,7 @@ def resolve(odds: FloatArray) -> NDArray[np.int64]:
 
     Leaving a blob to clutter costs nothing, so only positive odds are taken.
     """
-    likeliest = take_likeliest(odds)
+    likeliest = find_likeliest(odds)
     if likeliest is not None:
         return likeliest
     from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
