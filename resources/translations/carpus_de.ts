@@ -4972,42 +4972,6 @@
         <translation>Ich habe es gelesen</translation>
     </message>
     <message>
-        <source>Exercise</source>
-        <translation>Übung</translation>
-    </message>
-    <message>
-        <source>times</source>
-        <translation>mal</translation>
-    </message>
-    <message>
-        <source>seconds</source>
-        <translation>Sekunden</translation>
-    </message>
-    <message>
-        <source>Times or seconds</source>
-        <translation>Mal oder Sekunden</translation>
-    </message>
-    <message>
-        <source>How often or how long</source>
-        <translation>Wie oft oder wie lange</translation>
-    </message>
-    <message>
-        <source>no rest</source>
-        <translation>keine Pause</translation>
-    </message>
-    <message>
-        <source>Rest after it</source>
-        <translation>Pause danach</translation>
-    </message>
-    <message>
-        <source>Earlier</source>
-        <translation>Früher</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation>Entfernen</translation>
-    </message>
-    <message>
         <source>words that lose their capital inside a sentence: *</source>
         <translation>Wörter, die im Satz klein werden: Rechte Linke Beide Rechts Links Radial Ulnar Nie Noch Kalibriert Geprüft Gerade Beugen Heben Schieben Drehen Schließen Spreizen Öffnen Nehmen Bewegen Strecken Kommen Berühren Runter Hoch Zum Zur Nach</translation>
     </message>
@@ -9144,6 +9108,45 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Close</source>
         <translation>Schließen</translation>
+    </message>
+</context>
+<context>
+    <name>PartRow</name>
+    <message>
+        <source>times</source>
+        <translation>mal</translation>
+    </message>
+    <message>
+        <source>seconds</source>
+        <translation>Sekunden</translation>
+    </message>
+    <message>
+        <source>no rest</source>
+        <translation>keine Pause</translation>
+    </message>
+    <message>
+        <source>Earlier</source>
+        <translation>Früher</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Exercise</source>
+        <translation>Übung</translation>
+    </message>
+    <message>
+        <source>How often or how long</source>
+        <translation>Wie oft oder wie lange</translation>
+    </message>
+    <message>
+        <source>Times or seconds</source>
+        <translation>Mal oder Sekunden</translation>
+    </message>
+    <message>
+        <source>Rest after it</source>
+        <translation>Pause danach</translation>
     </message>
 </context>
 <context>

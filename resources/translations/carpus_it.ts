@@ -4972,42 +4972,6 @@
         <translation>L’ho letto</translation>
     </message>
     <message>
-        <source>Exercise</source>
-        <translation>Esercizio</translation>
-    </message>
-    <message>
-        <source>times</source>
-        <translation>volte</translation>
-    </message>
-    <message>
-        <source>seconds</source>
-        <translation>secondi</translation>
-    </message>
-    <message>
-        <source>Times or seconds</source>
-        <translation>Volte o secondi</translation>
-    </message>
-    <message>
-        <source>How often or how long</source>
-        <translation>Quante volte o per quanto tempo</translation>
-    </message>
-    <message>
-        <source>Rest after it</source>
-        <translation>Pausa dopo</translation>
-    </message>
-    <message>
-        <source>no rest</source>
-        <translation>nessuna</translation>
-    </message>
-    <message>
-        <source>Earlier</source>
-        <translation>Prima</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation>Togli</translation>
-    </message>
-    <message>
         <source>words that lose their capital inside a sentence: *</source>
         <translation>parole che perdono la maiuscola dentro una frase: *</translation>
     </message>
@@ -9144,6 +9108,45 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Close</source>
         <translation>Chiudi</translation>
+    </message>
+</context>
+<context>
+    <name>PartRow</name>
+    <message>
+        <source>times</source>
+        <translation>volte</translation>
+    </message>
+    <message>
+        <source>seconds</source>
+        <translation>secondi</translation>
+    </message>
+    <message>
+        <source>no rest</source>
+        <translation>nessuna</translation>
+    </message>
+    <message>
+        <source>Earlier</source>
+        <translation>Prima</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Togli</translation>
+    </message>
+    <message>
+        <source>Exercise</source>
+        <translation>Esercizio</translation>
+    </message>
+    <message>
+        <source>How often or how long</source>
+        <translation>Quante volte o per quanto tempo</translation>
+    </message>
+    <message>
+        <source>Times or seconds</source>
+        <translation>Volte o secondi</translation>
+    </message>
+    <message>
+        <source>Rest after it</source>
+        <translation>Pausa dopo</translation>
     </message>
 </context>
 <context>

@@ -184,7 +184,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     assert told.asked[1:] == ["Leave without saving?"] * 2
     assert not flow.asks_before_closing(), "nothing is left to be lost"
     assert not told.faults
-    assert [entry.did for entry in read_log(library.store)] == ["entered_by_hand"] * 2
+    assert [entry.did for entry in read_log(library.store) if entry.did != "added"] == ["entered_by_hand"] * 2
 
 
 def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:

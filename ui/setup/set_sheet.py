@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import zip_longest
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
 
 from carpus.core.hand.exercises import exercise_named, exercises_of
@@ -29,23 +29,29 @@ from carpus.ui.controls.layouts import STRETCH, in_column, in_grid, in_line, scr
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import Text, caption
 from carpus.ui.theme import Theme
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import say
 
 USUAL_SECONDS = 60
 
 
-class PartRow:
+class PartRow(QObject):
     """One exercise of the set: which, how often or how long, rest after it, earlier, away."""
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, parent: QObject) -> None:
+        super().__init__(parent)
         self.exercise, self.unit = Combo(), Combo()
-        self.unit.offer([(False, tr("times")), (True, tr("seconds"))])
+        self.unit.offer([(False, self.tr("times")), (True, self.tr("seconds"))])
         self.count = number_field(theme, MOST_SECONDS, least=1)
-        self.rest = number_field(theme, MOST_REST_S, " s", tr("no rest"))
-        self.earlier = Button(theme, tr("Earlier"), "plain", height_px=36)
-        self.remove = Button(theme, tr("Remove"), "plain", height_px=36)
+        self.rest = number_field(theme, MOST_REST_S, " s", self.tr("no rest"))
+        self.earlier = Button(theme, self.tr("Earlier"), "plain", height_px=36)
+        self.remove = Button(theme, self.tr("Remove"), "plain", height_px=36)
         self.widgets = (self.exercise, self.count, self.unit, self.rest, self.earlier, self.remove)
-        names = tr("Exercise"), tr("How often or how long"), tr("Times or seconds"), tr("Rest after it")
+        names = (
+            self.tr("Exercise"),
+            self.tr("How often or how long"),
+            self.tr("Times or seconds"),
+            self.tr("Rest after it"),
+        )
         for widget, name in zip(self.widgets, names, strict=False):
             widget.setAccessibleName(name)
         self.exercise.currentIndexChanged.connect(lambda _: self._keep_possible())
@@ -94,7 +100,7 @@ class SetSheet(Sheet):
         self._now: ExerciseSet | None = None
         self._discs = ""
         self._sure = False
-        self.rows = [PartRow(theme) for _ in range(MOST_PARTS)]
+        self.rows = [PartRow(theme, self) for _ in range(MOST_PARTS)]
         self.which = Combo()
         self.which.setAccessibleName(self.tr("Set"))
         self.name = QLineEdit(maxLength=MOST_NAME, placeholderText=self.tr("No names of patients"))
