@@ -40,6 +40,8 @@ journey: setup-test             ## those of whole ways
 
 thorough: setup-test            ## long repetitions of what the tests show with few (part of `make torture`)
 	$(SUITE) -m thorough
+	$(MAKE) compiled checked=1
+	CARPUS_BOUNDS_CHECKED=1 $(PY) -m pytest -q tests/compiled
 
 coverage: setup-test            ## how much of the code the tests reach, half as long again as the tests alone
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --cov --cov-report=term:skip-covered $(ARGUMENTS)
