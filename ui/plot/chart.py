@@ -623,8 +623,9 @@ class Chart(pg.GraphicsView):
         if self.on_paper:
             return
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        # A chart that is no card itself lies on one.
+        painter.fillRect(area, self._theme.color("canvas" if self.is_card else "surface"))
         if self.is_card:
-            painter.fillRect(area, self._theme.color("canvas"))
             paint_card(painter, self._theme, QRectF(self.rect()))
         self.paint_ground(painter)
 

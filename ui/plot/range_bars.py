@@ -61,7 +61,7 @@ def paint_range_bars(
 ) -> None:
     """Paint them in a box, from the reference values to the names of both ends."""
     px = style.unit
-    area = box.adjusted(104 * px, 0.0, -8 * px, -FOOT_PX * px)
+    area = box.adjusted(104 * px, 0.0, -16 * px, -FOOT_PX * px)  # half of “120°” is right of the last line
     end_deg = _end_deg(exercise, bars)
 
     def x(value_deg: float) -> float:
