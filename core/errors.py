@@ -195,7 +195,7 @@ class ExtraMissing(CarpusFault):
     do = _ASK_INSTALL
 
 
-class NotCompiled(CarpusFault):
+class CompiledPartMissing(CarpusFault):
     """Modules of ``core/compiled`` that are there as source alone; ``subject`` names them."""
 
     code = "C-002"

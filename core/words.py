@@ -91,7 +91,7 @@ def words_of(fault: CarpusFault, *, marker_names: bool = False, brief: bool = Fa
         subject = f"{spoken}, {subject}" if marker_names and subject else spoken
     detail = say(fault.detail)
     templates = [say(text) for text in (fault.happened, fault.safe, fault.do)]
-    support = _support_of(fault, say)
+    support = _support_text(fault, say)
     if brief:
         templates = [_FACT_IN_BRACKETS.sub("", text) for text in templates]
         subject = end_of_path(subject)
@@ -103,11 +103,11 @@ def words_of(fault: CarpusFault, *, marker_names: bool = False, brief: bool = Fa
 def one_sentence(fault: CarpusFault) -> str:
     """One line for the command line: what happened, to which file, whether data are safe, what to do, and the code."""
     words = words_of(fault, marker_names=True)
-    parts = (words.happened, words.safe, words.do, _support_of(fault, str), f"({words.code})")
+    parts = (words.happened, words.safe, words.do, _support_text(fault, str), f"({words.code})")
     return " ".join(part for part in parts if part)
 
 
-def _support_of(fault: CarpusFault, say: Say) -> str:
+def _support_text(fault: CarpusFault, say: Say) -> str:
     """What who installs and repairs can do besides."""
     if isinstance(fault, errors.ExtraMissing) and fault.subject:
         return say(how_to_install(fault.subject))

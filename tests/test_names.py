@@ -67,6 +67,8 @@ PREPOSITIONS = words_in(
     of at in on by for to from with as against beside between over under within
     """
 )
+PHRASAL_VERBS = {"zoom_in"}
+"""What Qt and every chart call a verb."""
 LEAST = {"least", "most", "fewest"}
 
 
@@ -85,7 +87,7 @@ def is_plain_function(name: str) -> bool:
         return True
     if words[0] in FUNCTION_WORDS | THIRD_PERSON | ODD_VERBS:
         return False
-    return len(words) == 1 or words[-1] not in PREPOSITIONS
+    return len(words) == 1 or bare in PHRASAL_VERBS or words[-1] not in PREPOSITIONS
 
 
 def is_plain_class(name: str) -> bool:

@@ -37,12 +37,12 @@ class Field:
     """The signal of a change, where it is not that of its kind."""
 
 
-def must_be_chosen(words: str) -> Rule:
+def choice_rule(words: str) -> Rule:
     """One of several, of which none is chosen by itself."""
     return lambda value: words if value is None else ""
 
 
-def at_most(count: int, words: str) -> Rule:
+def length_rule(count: int, words: str) -> Rule:
     """Nothing that is typed is ever cut; ``words`` name the ``{count}`` of letters that are too many."""
     return lambda text: words.format(count=len(text) - count) if len(text) > count else ""
 

@@ -31,9 +31,9 @@ from carpus.core.errors import (
     CameraMissing,
     CameraPermission,
     CarpusFault,
+    CompiledPartMissing,
     DriverMissing,
     ExtraMissing,
-    NotCompiled,
     OtherCamera,
 )
 from carpus.core.installing import Finding, how_to_install, is_packed
@@ -69,7 +69,7 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
     """All findings, each as soon as it is known; the camera is opened for ``measure_s`` seconds at the end."""
     yield python_finding(sys.version_info[:3])
     yield packages_finding()
-    yield compiled_finding()
+    yield check_compiled_parts()
     yield window_finding()
     yield fonts_finding()
     yield data_folder_finding(data_folder)
@@ -127,11 +127,11 @@ def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
     return Finding(phrase("Packages"), "good", ", ".join(known))
 
 
-def compiled_finding() -> Finding:
+def check_compiled_parts() -> Finding:
     """Whether the steps that must be compiled are: without them nothing is tracked."""
     try:
         import_module("carpus.core.compiled")
-    except NotCompiled as fault:
+    except CompiledPartMissing as fault:
         missing = phrase("missing: {name}", name=fault.subject)
         return Finding(phrase("Compiled parts"), "bad", missing, phrase("Install Carpus anew."))
     return Finding(phrase("Compiled parts"), "good", phrase("all there"))

@@ -10,14 +10,14 @@ import os
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
-from carpus.core.errors import NotCompiled
+from carpus.core.errors import CompiledPartMissing
 
 
-def not_compiled(folder: Path) -> list[str]:
+def find_uncompiled(folder: Path) -> list[str]:
     """Names of the modules in ``folder`` that have a source but no extension."""
     names = {path.name.partition(".")[0] for ending in EXTENSION_SUFFIXES for path in folder.glob(f"*{ending}")}
     return sorted({path.stem for path in folder.glob("*.py")} - names - {"__init__"})
 
 
-if not os.environ.get("CARPUS_UNCOMPILED") and (_missing := not_compiled(Path(__file__).parent)):
-    raise NotCompiled(", ".join(_missing))
+if not os.environ.get("CARPUS_UNCOMPILED") and (_missing := find_uncompiled(Path(__file__).parent)):
+    raise CompiledPartMissing(", ".join(_missing))

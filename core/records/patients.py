@@ -164,12 +164,12 @@ Written = Mapping[str, Any]
 """What a person writes down of a value, each a column by its name, with the type that it is read as."""
 
 
-def _written(kind: Any) -> Written:
+def _column_types(kind: Any) -> Written:
     types = get_type_hints(kind)
     return {one.name: types[one.name] for one in fields(kind) if not one.kw_only}
 
 
-_PATIENT, _HOME_PLAN = _written(Patient), _written(HomePlan)
+_PATIENT, _HOME_PLAN = _column_types(Patient), _column_types(HomePlan)
 
 
 def _as_stored(value: object, written: Written) -> dict[str, Any]:

@@ -7118,45 +7118,6 @@
     </message>
 </context>
 <context>
-    <name>ByHandChart</name>
-    <message>
-        <source>{name} over the days</source>
-        <translation>{name} über die Tage</translation>
-    </message>
-    <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Noch nichts von Hand gemessen.</translation>
-    </message>
-    <message>
-        <source>by hand, active</source>
-        <translation>von Hand, aktiv</translation>
-    </message>
-    <message>
-        <source>by hand</source>
-        <translation>von Hand</translation>
-    </message>
-    <message>
-        <source>by hand, passive</source>
-        <translation>von Hand, passiv</translation>
-    </message>
-    <message>
-        <source>Carpus, mean</source>
-        <translation>Carpus, Mittel</translation>
-    </message>
-    <message>
-        <source>passive {value}</source>
-        <translation>passiv {value}</translation>
-    </message>
-    <message>
-        <source>Carpus {value}</source>
-        <translation>Carpus {value}</translation>
-    </message>
-    <message>
-        <source>active {value}</source>
-        <translation>aktiv {value}</translation>
-    </message>
-</context>
-<context>
     <name>ByHandFlow</name>
     <message>
         <source>Leave without saving?</source>
@@ -8307,6 +8268,45 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Save…</source>
         <translation>Speichern…</translation>
+    </message>
+</context>
+<context>
+    <name>HandValueChart</name>
+    <message>
+        <source>{name} over the days</source>
+        <translation>{name} über die Tage</translation>
+    </message>
+    <message>
+        <source>Nothing measured by hand yet.</source>
+        <translation>Noch nichts von Hand gemessen.</translation>
+    </message>
+    <message>
+        <source>by hand, active</source>
+        <translation>von Hand, aktiv</translation>
+    </message>
+    <message>
+        <source>by hand</source>
+        <translation>von Hand</translation>
+    </message>
+    <message>
+        <source>by hand, passive</source>
+        <translation>von Hand, passiv</translation>
+    </message>
+    <message>
+        <source>Carpus, mean</source>
+        <translation>Carpus, Mittel</translation>
+    </message>
+    <message>
+        <source>passive {value}</source>
+        <translation>passiv {value}</translation>
+    </message>
+    <message>
+        <source>Carpus {value}</source>
+        <translation>Carpus {value}</translation>
+    </message>
+    <message>
+        <source>active {value}</source>
+        <translation>aktiv {value}</translation>
     </message>
 </context>
 <context>

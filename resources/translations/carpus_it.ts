@@ -7118,45 +7118,6 @@
     </message>
 </context>
 <context>
-    <name>ByHandChart</name>
-    <message>
-        <source>{name} over the days</source>
-        <translation>{name} nei giorni</translation>
-    </message>
-    <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Ancora nulla misurato a mano.</translation>
-    </message>
-    <message>
-        <source>by hand, active</source>
-        <translation>a mano, attivo</translation>
-    </message>
-    <message>
-        <source>by hand</source>
-        <translation>a mano</translation>
-    </message>
-    <message>
-        <source>by hand, passive</source>
-        <translation>a mano, passivo</translation>
-    </message>
-    <message>
-        <source>Carpus, mean</source>
-        <translation>Carpus, media</translation>
-    </message>
-    <message>
-        <source>passive {value}</source>
-        <translation>passivo {value}</translation>
-    </message>
-    <message>
-        <source>Carpus {value}</source>
-        <translation>Carpus {value}</translation>
-    </message>
-    <message>
-        <source>active {value}</source>
-        <translation>attivo {value}</translation>
-    </message>
-</context>
-<context>
     <name>ByHandFlow</name>
     <message>
         <source>Leave without saving?</source>
@@ -8307,6 +8268,45 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Save…</source>
         <translation>Salva…</translation>
+    </message>
+</context>
+<context>
+    <name>HandValueChart</name>
+    <message>
+        <source>{name} over the days</source>
+        <translation>{name} nei giorni</translation>
+    </message>
+    <message>
+        <source>Nothing measured by hand yet.</source>
+        <translation>Ancora nulla misurato a mano.</translation>
+    </message>
+    <message>
+        <source>by hand, active</source>
+        <translation>a mano, attivo</translation>
+    </message>
+    <message>
+        <source>by hand</source>
+        <translation>a mano</translation>
+    </message>
+    <message>
+        <source>by hand, passive</source>
+        <translation>a mano, passivo</translation>
+    </message>
+    <message>
+        <source>Carpus, mean</source>
+        <translation>Carpus, media</translation>
+    </message>
+    <message>
+        <source>passive {value}</source>
+        <translation>passivo {value}</translation>
+    </message>
+    <message>
+        <source>Carpus {value}</source>
+        <translation>Carpus {value}</translation>
+    </message>
+    <message>
+        <source>active {value}</source>
+        <translation>attivo {value}</translation>
     </message>
 </context>
 <context>

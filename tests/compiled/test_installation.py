@@ -12,29 +12,29 @@ import pytest
 
 from carpus.core import compiled
 from carpus.core.capture import doctor
-from carpus.core.compiled import mixture, not_compiled
-from carpus.core.errors import NotCompiled
+from carpus.core.compiled import find_uncompiled, mixture
+from carpus.core.errors import CompiledPartMissing
 
 
 def test_modules_run_compiled() -> None:
     assert mixture.__file__.endswith(tuple(EXTENSION_SUFFIXES))
-    assert not_compiled(Path(compiled.__file__).parent) == []
+    assert find_uncompiled(Path(compiled.__file__).parent) == []
 
 
 def test_a_source_without_its_extension_is_named(tmp_path: Path) -> None:
     for name in ("__init__.py", "one.py", f"one{EXTENSION_SUFFIXES[0]}", "other.py"):
         (tmp_path / name).touch()
-    assert not_compiled(tmp_path) == ["other"]
+    assert find_uncompiled(tmp_path) == ["other"]
 
 
 def test_doctor_tells_what_is_not_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert doctor.compiled_finding().state == "good"
+    assert doctor.check_compiled_parts().state == "good"
 
     def broken(name: str) -> None:
-        raise NotCompiled("mixture")
+        raise CompiledPartMissing("mixture")
 
     monkeypatch.setattr(doctor, "import_module", broken)
-    finding = doctor.compiled_finding()
+    finding = doctor.check_compiled_parts()
     assert (finding.state, "mixture" in finding.found) == ("bad", True)
     assert finding.remedy
 

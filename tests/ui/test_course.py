@@ -58,28 +58,28 @@ def test_a_click_on_a_point_opens_its_session_and_one_beside_it_nothing(qtbot: Q
 def test_a_point_under_the_mouse_says_date_value_set_up_and_remarks(chart: ProgressChart) -> None:
     for number in range(7):
         move(chart.face, QPointF(place(chart, number).toPoint()))
-        assert chart.pointed == number
+        assert chart.current_session == number
         assert chart.face.cursor().shape() == Qt.CursorShape.PointingHandCursor
     key = chart.panels()[0][1]
-    newest = " · ".join(chart.said_of(6, key))
+    newest = " · ".join(chart.describe_point(6, key))
     for word in ("20 Nov 2026", "Whole arc", "±", "repetitions", "Camera 66 cm away", "stopped for pain"):
         assert word in newest, word
-    far = " · ".join(chart.said_of(3, key))
+    far = " · ".join(chart.describe_point(3, key))
     assert "Camera 84 cm away" in far
     assert "further away" in far
     move(chart.face, QPointF(5.0, 300.0))
-    assert chart.pointed == -1
+    assert chart.current_session == -1
 
 
 def test_arrows_point_at_one_session_after_the_other_and_enter_opens_it(qtbot: QtBot, chart: ProgressChart) -> None:
     chart.step(1)
-    assert chart.pointed == 0
+    assert chart.current_session == 0
     for _ in range(9):
         chart.step(1)
-    assert chart.pointed == 6
+    assert chart.current_session == 6
     chart.step(-1)
     with qtbot.waitSignal(chart.opened) as opened:
-        chart.open_pointed()
+        chart.open_current()
     assert opened.args == ["session-6"]
 
 
@@ -91,17 +91,17 @@ def test_time_is_to_scale_and_can_be_looked_into(qtbot: QtBot, chart: ProgressCh
     chart.step(1)
     for _ in range(3):
         chart.zoom_in()
-    start, end = chart.shown()
+    start, end = chart.x_range()
     whole = chart.extent()
     assert end - start == pytest.approx((whole[1] - whole[0]) / 1.25**3)
     assert place(chart, 6).x() > chart.panels()[0][0].box.right()
     drag(qtbot, chart.face, QPointF(chart.panels()[0][0].box.center().toPoint()), -2000)
-    assert chart.shown()[1] == pytest.approx(whole[1])
+    assert chart.x_range()[1] == pytest.approx(whole[1])
     chart.show_all()
-    assert chart.shown() == whole
+    assert chart.x_range() == whole
     for _ in range(60):
         chart.zoom_in()
-    assert timedelta(seconds=chart.shown()[1] - chart.shown()[0]) >= timedelta(hours=23)
+    assert timedelta(seconds=chart.x_range()[1] - chart.x_range()[0]) >= timedelta(hours=23)
 
 
 def test_the_table_has_a_row_for_each_point_that_is_shown(chart: ProgressChart) -> None:

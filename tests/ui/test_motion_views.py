@@ -49,7 +49,7 @@ def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(qtbot: QtBot, 
         chart.show_plot(plot)
         scales = set()
         for item in chart._planes:
-            panel = item.plot.own
+            panel = item.plot.local_panel
             for way in plot.ways:
                 x, y = item._places(panel, way.place_mm)
                 room = panel.box.adjusted(-1, -1, 1, 1)
@@ -92,7 +92,7 @@ def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(qtbot: QtBot,
         plot = finger_ways(motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)), 0)
         chart.show_plot(plot)
         item = chart._planes[0]
-        x = [float(np.nanmean(item._places(item.plot.own, way.place_mm)[0])) for way in plot.ways]
+        x = [float(np.nanmean(item._places(item.plot.local_panel, way.place_mm)[0])) for way in plot.ways]
         assert (x[0] < x[4]) is thumb_left
 
 

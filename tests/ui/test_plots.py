@@ -31,7 +31,7 @@ from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.chart import ChartText
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.series import Curve, Drawing, Series, longest_step_s, thinned
+from carpus.ui.plot.series import Curve, Drawing, Series, decimate, longest_step_s
 from carpus.ui.plot.session import SessionChart, SessionPlot
 from carpus.ui.plot.style import RIGHT_MIDDLE, screen_style, write
 from carpus.ui.theme import Theme
@@ -91,10 +91,10 @@ def test_zoomed_in_a_drag_moves_along_and_all_panels_go_together(qtbot: QtBot, v
     view.set_time(28.0)
     box = view.panels()[0][0].box
     drag(qtbot, view.face, center(view), -round(box.width() / 5))
-    assert view.shown_part == pytest.approx((22.0, 32.0), abs=0.1)
+    assert view.zoom_range == pytest.approx((22.0, 32.0), abs=0.1)
     drag(qtbot, view.face, center(view), 10 * round(box.width()))
-    assert view.shown_part == pytest.approx((0.0, 10.0), abs=1e-6), "no further than the beginning"
-    assert [tuple(own.viewRange()[0]) for own in view.plots] == [pytest.approx(view.shown_part)] * 3
+    assert view.zoom_range == pytest.approx((0.0, 10.0), abs=1e-6), "no further than the beginning"
+    assert [tuple(own.viewRange()[0]) for own in view.plots] == [pytest.approx(view.zoom_range)] * 3
 
 
 def test_the_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: SessionChart) -> None:
@@ -103,46 +103,46 @@ def test_the_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot:
     moved: list[float] = []
     view.cursor_moved.connect(moved.append)
     drag(qtbot, view.face, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
-    assert moved[-1] == pytest.approx(view.time_at(float(panel.x(8.0)) + 60), abs=0.2)
-    assert view.shown_part is None
+    assert moved[-1] == pytest.approx(view.to_time(float(panel.x(8.0)) + 60), abs=0.2)
+    assert view.zoom_range is None
     view.show_window((5.0, 15.0))
     moved.clear()
     panel = view.panels()[0][0]
     drag(qtbot, view.face, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
     assert moved
-    assert view.shown_part == (5.0, 15.0)
+    assert view.zoom_range == (5.0, 15.0)
 
 
 def test_the_wheel_alone_is_the_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
     assert not wheel(view.face, center(view), 120), "the page that it lies on scrolls"
-    assert view.shown_part is None
+    assert view.zoom_range is None
     assert wheel(view.face, center(view), 120, Qt.KeyboardModifier.ControlModifier)
-    assert view.shown_part is not None
+    assert view.zoom_range is not None
     view.show_window((20.0, 30.0))
     wheel(view.face, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
-    assert view.shown_part == pytest.approx((21.0, 31.0))
+    assert view.zoom_range == pytest.approx((21.0, 31.0))
 
 
 def test_keys_zoom_about_the_cursor_and_show_all(view: SessionChart) -> None:
     view.set_time(10.0)
     view.zoom_in()
-    start_s, end_s = view.shown()
+    start_s, end_s = view.x_range()
     whole = view.extent()
     assert end_s - start_s == pytest.approx(whole[1] / 1.25)
     assert (10.0 - start_s) / (end_s - start_s) == pytest.approx(10.0 / whole[1])
     for _ in range(40):
         view.zoom_in()
-    assert np.ptp(view.shown()) == pytest.approx(2.0)
+    assert np.ptp(view.x_range()) == pytest.approx(2.0)
     view.show_all()
-    assert view.shown_part is None
+    assert view.zoom_range is None
 
 
 def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None:
     panel, column = view.panels()[0]
     plot = view._plot
     at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))
-    time_s, *values = view.said_at(at)
-    shown = plot.values(column, view.time_at(at.x()))[0]
+    time_s, *values = view.describe_values(at)
+    shown = plot.values(column, view.to_time(at.x()))[0]
     assert time_s.startswith("00:1")
     assert values == [f"{shown.name} {with_spread(shown.value_deg, shown.sd_deg)}"]
     assert "±" in values[0]
@@ -153,7 +153,7 @@ def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None
 
 
 def test_the_menu_speaks_our_words_and_has_no_other(view: SessionChart) -> None:
-    words = [action.text().split("\t")[0] for action in view.menu.made().actions() if action.text()]
+    words = [action.text().split("\t")[0] for action in view.menu.build_menu().actions() if action.text()]
     assert words == [
         "Show all", "Zoom in", "Zoom out", "Copy picture", "Save picture (PNG)…", "Save drawing (SVG)…",
         "Save values (CSV)…",
@@ -354,19 +354,19 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
     value[5_000:5_040] = math.nan
     value[12_345] = 9_999.0
     whole = Series(np.arange(20_000) / 30.0, value, np.abs(value) * 0.01, np.zeros(20_000, bool))
-    thin = thinned(whole, 400)
+    thin = decimate(whole, 400)
     assert len(thin.time_s) <= 3 * 400
     assert np.nanmax(thin.value) == 9_999.0
     assert np.nanmin(thin.value) == np.nanmin(value)
     assert np.isnan(thin.value).any()
     assert thin.sd is not None
     assert np.all(np.diff(thin.time_s) > 0)
-    assert thinned(thin, 4_000) is thin
+    assert decimate(thin, 4_000) is thin
     for seconds in (130.0, 400.0):  # frames that lack are the only gap
         time_s = np.arange(0.0, seconds, 1 / 30)
         time_s = time_s[(time_s < 50.0) | (time_s > 62.6)]
         value = 40.0 * np.sin(time_s)
-        (gap,) = thinned(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
+        (gap,) = decimate(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
         assert gap == pytest.approx((50.0, 62.6), abs=1.0)
 
 

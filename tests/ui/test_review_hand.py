@@ -164,12 +164,12 @@ def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repeti
     assert whole == (0.0, plot_of(screen).end_s)
     box = curves.panels()[0][0].box
     at = QPointF(round(box.left() + 0.25 * box.width()), round(box.center().y()))
-    time_s = curves.time_at(at.x())
+    time_s = curves.to_time(at.x())
     for _ in range(4):
         wheel(curves.face, at, 120, Qt.KeyboardModifier.ControlModifier)
     start_s, end_s = plot_of(screen).shown_s
     assert end_s - start_s == pytest.approx((whole[1] - whole[0]) / 1.25**4)
-    assert curves.time_at(at.x()) == pytest.approx(time_s)
+    assert curves.to_time(at.x()) == pytest.approx(time_s)
     screen.playing.seek(whole[1] - 0.5)  # what is shown follows the cursor
     assert plot_of(screen).shown_s[1] == pytest.approx(whole[1])
     for _ in range(30):

@@ -243,7 +243,7 @@ class HandForm(QWidget):
 
     def doubts(self) -> list[str]:
         """What should be looked at again: ``Flexion, passive: 180°? …``."""
-        return [f"{f.accessibleName()}: {f.doubt}" for row in self.rows.values() for _, f in row.fields if f.doubt]
+        return [f"{f.accessibleName()}: {f.warning}" for row in self.rows.values() for _, f in row.fields if f.warning]
 
     def differing(self, values: Sequence[HandValue], side: Side, day: date) -> list[HandValue]:
         """What is written otherwise than it is stored, to be entered; nothing of what is the same."""
@@ -278,7 +278,7 @@ class ValueField(NumberField):
         return pattern.format(least=numbers.figures(of.least, 6), most=value_words(of, of.most))
 
     @property
-    def doubt(self) -> str:
+    def warning(self) -> str:
         """``180°? Usual is up to 100°``."""
         of, value = self._measure, self.value()
         if self.problem or not math.isfinite(value) or not is_unusual(of, value):

@@ -22,7 +22,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices, Combo, leave_wheel
 from carpus.ui.controls.layouts import STRETCH, Fitted, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
-from carpus.ui.plot.by_hand import ByHandChart
+from carpus.ui.plot.by_hand import HandValueChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.words.by_hand import changes, measure_name
 
@@ -69,7 +69,7 @@ class ByHandScreen(Fitted):
         self.save_button = Button(
             theme, self.tr("Save values"), "primary", icon="check", hint="Ctrl+Enter", height_px=44
         )
-        self.chart = ByHandChart(theme)
+        self.chart = HandValueChart(theme)
         self._changes = Card(theme, 20)
         self._lay_out()
         self.day.dateChanged.connect(lambda _: self._turn())

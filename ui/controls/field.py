@@ -174,17 +174,17 @@ class NumberField(QLineEdit):
         return ""
 
     @property
-    def doubt(self) -> str:
+    def warning(self) -> str:
         """Why it should be looked at again; empty where nothing is unusual."""
         return ""
 
     def _take_theme(self) -> None:
         self.setFixedWidth(self._theme.px(self._width_px))
-        token = "bad" if self.problem else "warn" if self.doubt else ""
+        token = "bad" if self.problem else "warn" if self.warning else ""
         edge = getattr(self._theme.tokens, token) if token else ""
         self.setStyleSheet(f"QLineEdit {{ border: 2px solid {edge}; }}" if edge else "")
-        self.setToolTip(self.problem or self.doubt)
-        self.setAccessibleDescription(self.problem or self.doubt)
+        self.setToolTip(self.problem or self.warning)
+        self.setAccessibleDescription(self.problem or self.warning)
 
 
 class DegreesField(NumberField):

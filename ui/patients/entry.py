@@ -22,7 +22,7 @@ from carpus.ui.controls.layouts import STRETCH, ScrollArea, fill, host_of, in_co
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.fault_words import fault_words
-from carpus.ui.forms import Field, Form, at_most, must_be_chosen
+from carpus.ui.forms import Field, Form, choice_rule, length_rule
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:  # it reads and writes files
@@ -76,27 +76,27 @@ class PatientForm(Sheet):
         return [
             Field(
                 "pseudonym", self.tr("&Name in Carpus"), QLineEdit(),
-                at_most(MOST_CHARACTERS, self.tr("Name: {count} letters too many")), (another,),
+                length_rule(MOST_CHARACTERS, self.tr("Name: {count} letters too many")), (another,),
             ),
             Field(
                 "name", self.tr("&Real name, if wanted (stays in this list, never in a session or report)"),
-                QLineEdit(), at_most(MOST_CHARACTERS, self.tr("Real name: {count} letters too many")),
+                QLineEdit(), length_rule(MOST_CHARACTERS, self.tr("Real name: {count} letters too many")),
             ),
             Field(
                 "side", self.tr("Affected hand"),
                 Choices(theme, [(side, terms.side_name(side)) for side in ("right", "left", "both")]),
-                must_be_chosen(self.tr("Which hand is affected?")),
+                choice_rule(self.tr("Which hand is affected?")),
             ),
             Field(
                 "dominance", self.tr("Writes with"),
                 Choices(
                     theme, [("right", self.tr("Right")), ("left", self.tr("Left")), ("unknown", self.tr("Not known"))]
                 ),
-                must_be_chosen(self.tr("Which hand writes?")), follows=True,
+                choice_rule(self.tr("Which hand writes?")), follows=True,
             ),
             Field(
                 "diagnosis", self.tr("&Diagnosis or operation (stays in this list, in no session)"), QLineEdit(),
-                at_most(MOST_CHARACTERS, self.tr("Diagnosis: {count} letters too many")), (self.listed,),
+                length_rule(MOST_CHARACTERS, self.tr("Diagnosis: {count} letters too many")), (self.listed,),
             ),
             Field(
                 "onset_day", self.tr("&Since"), DayField(placeholderText=self.tr("day month year")),

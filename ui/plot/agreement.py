@@ -194,7 +194,7 @@ class AgreementChart(Chart):
     def _add_limit(self, plot: Plot) -> None:
         """What was set before, hatched about no difference."""
         limit, box = self._plot.limit_deg, plot.panel.box
-        plot.put(Hatching(plot, [(-math.inf, math.inf, -limit, limit)], "accent", 90), BAND)
+        plot.add_to_layer(Hatching(plot, [(-math.inf, math.inf, -limit, limit)], "accent", 90), BAND)
         words = self.text(_hatched(), self.look.label, "accent", (1.0, 0.0))
         words.setPos(box.right() - 6 * self.look.unit, float(plot.panel.y(-limit)) + 2 * self.look.unit)
 

@@ -71,7 +71,7 @@ def scale_of(measure: HandMeasure, values: Sequence[float]) -> Scale:
     return Scale(low, high, ticks, tuple((tick, value_words(measure, tick)) for tick in ticks), strong_ends=False)
 
 
-class ByHandChart(Chart):
+class HandValueChart(Chart):
     """Title, axis, squares, dots and what they mean; nothing before it is shown a measure."""
 
     usual_px, least_px = (400, 250), (260, 250)
@@ -95,7 +95,7 @@ class ByHandChart(Chart):
         """``values`` as entered, each way for itself; ``ours`` what Carpus measured of the same, by session."""
         self.measure, self._values, self._ours = measure, values, ours
         self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
-        self.forget()
+        self.refresh()
 
     def build(self) -> None:
         measure = self.measure
@@ -143,7 +143,7 @@ class ByHandChart(Chart):
                 )
                 said = pattern.format(value=value_words(measure, some[-1].value))
                 beside.append((some[-1].value, said, "text"))
-        self.add_beside(plot, beside)
+        self.add_end_labels(plot, beside)
         days = sorted({one.day for one in values} | {one.date() for one in when})
         self.add_axis(plot, "bottom", date_labels([(day_s(day), numbers.day_month(day)) for day in days]), 6)
         self.add_key(key, box)

@@ -73,24 +73,24 @@ class Plot(pg.ViewBox):
         self.setRange(xRange=x, yRange=y, padding=0.0)
 
     @property
-    def own(self) -> Panel:
+    def local_panel(self) -> Panel:
         """The panel in its own pixels, as it is ranged now."""
         panel = self.panel
         start, end = (panel.start_s, panel.end_s) if self.chart.on_paper else self.viewRange()[0]
         return Panel(QRectF(0.0, 0.0, panel.box.width(), panel.box.height()), panel.scale, start, end)
 
-    def across(self, at: ArrayLike) -> FloatArray:
+    def to_item_x(self, at: ArrayLike) -> FloatArray:
         """Where times are for an item in the panel. On paper that is in its unit, cut at the panel's ends: a line of
         pyqtgraph that is stretched with a scale has no width there, and a drawing forgets what is cut."""
         at = np.asarray(at, dtype=np.float64)
-        return np.clip(self.own.x(at), 0.0, self.panel.box.width()) if self.chart.on_paper else at
+        return np.clip(self.local_panel.x(at), 0.0, self.panel.box.width()) if self.chart.on_paper else at
 
-    def up(self, value: ArrayLike) -> FloatArray:
+    def to_item_y(self, value: ArrayLike) -> FloatArray:
         """The same of values."""
         value = np.asarray(value, dtype=np.float64)
-        return self.own.y(value) if self.chart.on_paper else value
+        return self.local_panel.y(value) if self.chart.on_paper else value
 
-    def put(self, item: Any, layer: int) -> Any:
+    def add_to_layer(self, item: Any, layer: int) -> Any:
         """Add an item of pyqtgraph."""
         item.setZValue(layer)
         item.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
@@ -108,25 +108,25 @@ class Plot(pg.ViewBox):
         return pen
 
     def add_grid(self) -> None:
-        self.put(Grid(self), GRID)
+        self.add_to_layer(Grid(self), GRID)
 
     def add_bars(self, stretches: Sequence[tuple[float, float]], token: str) -> None:
         """Stretches of the time in a colour, with a seam; of several colours pyqtgraph's own are pictures, which paper
         shows in another size."""
         if stretches:
             start, end = np.array(stretches).T
-            low, high = self.up((self.panel.scale.low, self.panel.scale.high)).tolist()
+            low, high = self.to_item_y((self.panel.scale.low, self.panel.scale.high)).tolist()
             brush, pen = pg.mkBrush(self.look.color(token)), self.pen("surface", 2.0)
-            x0, x1 = self.across(start), self.across(end)
-            self.put(pg.BarGraphItem(x0=x0, x1=x1, y0=low, y1=high, brush=brush, pen=pen), GROUND)
+            x0, x1 = self.to_item_x(start), self.to_item_x(end)
+            self.add_to_layer(pg.BarGraphItem(x0=x0, x1=x1, y0=low, y1=high, brush=brush, pen=pen), GROUND)
 
     def add_band(self, low: float, high: float, token: str, hatched: str = "") -> None:
         """Values from ``low`` to ``high`` filled, and hatched in a second token where there is one."""
         brush = pg.mkBrush(self.look.color(token))
-        ends = self.up((low, high)).tolist()
-        self.put(pg.LinearRegionItem(ends, "horizontal", brush, QPen(Qt.PenStyle.NoPen), movable=False), BAND)
+        ends = self.to_item_y((low, high)).tolist()
+        self.add_to_layer(pg.LinearRegionItem(ends, "horizontal", brush, QPen(Qt.PenStyle.NoPen), movable=False), BAND)
         if hatched:
-            self.put(Hatching(self, [(-math.inf, math.inf, low, high)], hatched, 90), BAND)
+            self.add_to_layer(Hatching(self, [(-math.inf, math.inf, low, high)], hatched, 90), BAND)
 
     def add_level(
         self, value: float, token: str, dash: Sequence[float] = (8.0, 6.0), words: str = "", *, below: bool = False
@@ -134,7 +134,9 @@ class Plot(pg.ViewBox):
         """A line at a value, with words at its left end; none where it is unknown."""
         if not math.isfinite(value):
             return None
-        line = self.put(pg.InfiniteLine(float(self.up(value)), angle=0, pen=self.pen(token, 1.5, dash)), LINES)
+        line = self.add_to_layer(
+            pg.InfiniteLine(float(self.to_item_y(value)), angle=0, pen=self.pen(token, 1.5, dash)), LINES
+        )
         if words:
             self.add_words(value, words, token, below=below)
         return line
@@ -152,7 +154,7 @@ class Plot(pg.ViewBox):
 
     def scene_x(self, at: float) -> float:
         """Where a time is in the chart, as the panel is ranged now."""
-        return float(self.panel.box.left() + self.own.x(at))
+        return float(self.panel.box.left() + self.local_panel.x(at))
 
     def add_line(
         self, x: Sequence[float], y: Sequence[float], token: str, width: float = 0.0, dash: Sequence[float] = (),
@@ -160,14 +162,14 @@ class Plot(pg.ViewBox):
     ) -> None:  # fmt: skip
         """A line through points, as wide as curves are unless told."""
         pen = self.pen(token, width or self.look.line_width / self.look.unit, dash)
-        self.put(pg.PlotCurveItem(self.across(x), self.up(y), pen=pen, connect=connect), layer)
+        self.add_to_layer(pg.PlotCurveItem(self.to_item_x(x), self.to_item_y(y), pen=pen, connect=connect), layer)
 
     def add_curves(self, *, kept: bool = True) -> Curves:
         """Still without any; ``kept`` as a picture where a cursor goes over them more often than they change."""
-        return self.put(Curves(self, kept=kept), CURVES)  # type: ignore[no-any-return]
+        return self.add_to_layer(Curves(self, kept=kept), CURVES)  # type: ignore[no-any-return]
 
     def add_cursor(self, at: float, token: str = "text", width: float = 1.5) -> Any:
-        return self.put(pg.InfiniteLine(at, angle=90, pen=self.pen(token, width)), FRONT)
+        return self.add_to_layer(pg.InfiniteLine(at, angle=90, pen=self.pen(token, width)), FRONT)
 
     # --- mouse --------------------------------------------------------------------------------------------
     def unlock(self, hands: Any) -> None:
@@ -203,7 +205,7 @@ class Plot(pg.ViewBox):
             self.hands.click(event)
 
 
-class InPixels(pg.GraphicsObject):
+class PixelItem(pg.GraphicsObject):
     """Something among the items of a panel that is drawn in its pixels."""
 
     def __init__(self, plot: Plot, *, kept: bool = True) -> None:
@@ -224,16 +226,16 @@ class InPixels(pg.GraphicsObject):
         painter.setTransform(inverse, True)
         at = painter.transform()  # what rounding leaves of a scale makes Qt four times slower
         painter.setTransform(QTransform(round(at.m11(), 9), 0.0, 0.0, round(at.m22(), 9), at.dx(), at.dy()))
-        self.paint_in(painter, self.plot.look, self.plot.own)
+        self.paint_pixels(painter, self.plot.look, self.plot.local_panel)
 
-    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         raise NotImplementedError
 
 
-class Grid(InPixels):
+class Grid(PixelItem):
     """A line at each value of the scale, the one at zero stronger."""
 
-    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         for value in panel.scale.ticks:
             y = float(panel.y(value))
             y = round(y) + 0.5 if style.unit == 1.0 else y
@@ -241,7 +243,7 @@ class Grid(InPixels):
             painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
 
 
-class Curves(InPixels):
+class Curves(PixelItem):
     """All curves of a panel with their bands and gaps; how they are drawn is in :class:`Drawing`, which also says why
     pyqtgraph's own curves, fills and dashes are not."""
 
@@ -257,13 +259,13 @@ class Curves(InPixels):
         self.drawing = drawing
         self.update()
 
-    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         if self.drawing is not None:
             drawing, number = self.drawing(panel)
             drawing.paint(painter, style, number)
 
 
-class Hatching(InPixels):
+class Hatching(PixelItem):
     """Diagonal lines over stretches (start, end, low, high) of a panel. pyqtgraph has none: a brush with a pattern is
     stretched with the scale, and is a picture of dots on paper."""
 
@@ -281,7 +283,7 @@ class Hatching(InPixels):
         self.stretches = stretches
         self.update()
 
-    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         for start, end, low, high in self.stretches:
             left, right = (float(panel.x(at)) for at in np.clip((start, end), panel.start_s, panel.end_s))
             top, bottom = float(panel.y(high)), float(panel.y(low))
@@ -397,7 +399,7 @@ class Axis(pg.AxisItem):
         return QPainterPath()
 
     def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
-        style, own = self.plot.look, self.plot.own
+        style, own = self.plot.look, self.plot.local_panel
         start, end = own.start_s, own.end_s
         panel = Panel(self.plot.panel.box, own.scale, start, end)
         unit = style.unit
@@ -422,7 +424,7 @@ class Axis(pg.AxisItem):
             if self.orientation == "left":
                 height, right = metrics.height(), panel.box.left() - gap
                 at = QRectF(right - 300 * unit, middle - height / 2, 300 * unit, height)
-                write(painter, at, label.text, fitted(face, label.text, self._room), color, RIGHT_MIDDLE)
+                write(painter, at, label.text, fit_font(face, label.text, self._room), color, RIGHT_MIDDLE)
             else:
                 below = self.orientation == "bottom"
                 base = panel.box.bottom() + gap + metrics.ascent() if below else panel.box.top() - gap
@@ -432,15 +434,15 @@ class Axis(pg.AxisItem):
 def date_labels(labels: Sequence[tuple[float, str]]) -> Callable[[float, float], list[Label]]:
     """Of the days that are shown the last one, the first one, then those between, the last ones first."""
 
-    def shown(start: float, end: float) -> list[Label]:
+    def select_labels(start: float, end: float) -> list[Label]:
         some = [label for label in labels if start <= label[0] <= end]
         ends = [some[-1], *some[:1][: len(some) - 1]] if some else []
         return [*(Label(*one, "text", strong=True) for one in ends), *(Label(*one, strong=True) for one in some[::-1])]
 
-    return shown
+    return select_labels
 
 
-def fitted(face: QFont, text: str, room_px: float) -> QFont:
+def fit_font(face: QFont, text: str, room_px: float) -> QFont:
     """The font, or one as small as half of it, with which a text has room."""
     width = QFontMetricsF(face).horizontalAdvance(text)
     if width <= room_px or width <= 0.0:
@@ -485,7 +487,7 @@ class Chart(pg.GraphicsView):
         self.setViewportUpdateMode(self.ViewportUpdateMode.BoundingRectViewportUpdate)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        theme.changed.connect(self.forget)
+        theme.changed.connect(self.refresh)
 
     # --- for a subclass -----------------------------------------------------------------------------------
     def build(self) -> None:
@@ -544,7 +546,7 @@ class Chart(pg.GraphicsView):
         symbols.setZValue(FRONT)
         return self.add(symbols)
 
-    def add_beside(self, plot: Plot, labels: Sequence[tuple[float, str, str]]) -> None:
+    def add_end_labels(self, plot: Plot, labels: Sequence[tuple[float, str, str]]) -> None:
         """Words (value, text, token) at the right ends of their lines, pushed apart where they would touch, and kept
         above what stands under the panel; pyqtgraph's axis lets them touch."""
         panel, unit, face = plot.panel, self.look.unit, self.look.end_label
@@ -584,7 +586,7 @@ class Chart(pg.GraphicsView):
                 self.add_symbols(sign.lower(), 9.0, pen, fill, [QPointF(box.left() + left + 5 * unit, middle)])
                 self.text(words, face, "text2", (0.0, 0.5)).setPos(box.left() + left + 17 * unit, middle)
 
-    def forget(self) -> None:
+    def refresh(self) -> None:
         """What is shown has changed: build it anew, once it is seen."""
         if self.isVisible():
             self.look = screen_style(self._theme)
@@ -612,12 +614,12 @@ class Chart(pg.GraphicsView):
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
-        self.forget()
+        self.refresh()
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         super().resizeEvent(event)
         if event is not None:
-            self.forget()
+            self.refresh()
 
     def drawBackground(self, painter: QPainter, area: QRectF) -> None:
         if self.on_paper:
@@ -630,7 +632,7 @@ class Chart(pg.GraphicsView):
         self.paint_ground(painter)
 
     # --- on paper -----------------------------------------------------------------------------------------
-    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
+    def render_on_paper(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
         """The same as lines and letters, in any unit: it is built for that, and then again for the screen."""
         self.look, self.area, self.on_paper = style, QRectF(0.0, 0.0, box.width(), box.height()), True
         self.setSceneRect(self.area)
@@ -641,7 +643,7 @@ class Chart(pg.GraphicsView):
             self.on_paper = False
             self.look = screen_style(self._theme)
             self.resizeEvent(None)
-            self.forget()
+            self.refresh()
 
 
 def span(words: str, look: PlotStyle, token: str, size_px: float, weight: int) -> str:
@@ -650,7 +652,7 @@ def span(words: str, look: PlotStyle, token: str, size_px: float, weight: int) -
     return f'<span style="color:{color};font-size:{round(size_px)}px;font-weight:{int(weight)}">{escape(words)}</span>'
 
 
-class UnderMouse(pg.TextItem):
+class HoverLabel(pg.TextItem):
     """Lines of words in a small frame beside a point, within the chart: what is under the mouse."""
 
     def __init__(self, chart: Chart) -> None:
@@ -663,7 +665,7 @@ class UnderMouse(pg.TextItem):
         self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
         chart.add(self)
 
-    def show_at(self, at: QPointF | None, lines: Sequence[str]) -> None:
+    def show_lines(self, at: QPointF | None, lines: Sequence[str]) -> None:
         """Nothing without a point."""
         self.setVisible(at is not None)
         if at is None:

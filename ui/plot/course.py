@@ -24,7 +24,7 @@ from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.by_hand import add_by_hand, day_s
-from carpus.ui.plot.chart import LINES, Plot, UnderMouse, date_labels, scale_labels
+from carpus.ui.plot.chart import LINES, HoverLabel, Plot, date_labels, scale_labels
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.plot.zoom_chart import ZoomChart
 from carpus.ui.terms import end_words
@@ -151,7 +151,7 @@ def name_of(progress: Progress, key: MeasureKey) -> str:
     return tr("Whole arc") if movement == "arc" else terms.movement_long_name(movement)
 
 
-def furnish(plot: Plot, progress: Progress, key: MeasureKey) -> None:
+def add_background(plot: Plot, progress: Progress, key: MeasureKey) -> None:
     """Add what lies behind the points of a panel: usual, error band, grid, the other hand, goals, and their words."""
     of, movement = key
     angle = wrist_column(of)
@@ -188,7 +188,7 @@ def furnish(plot: Plot, progress: Progress, key: MeasureKey) -> None:
         plot.add_line(x, y, "accent", 2.0, (5.0, 3.0), "pairs", LINES)
         shown = numbers.degrees(goals[-1]) if angle < 0 else end_words(goals[-1], movement)
         labels.append((goals[-1], tr("Goal {angle}").format(angle=shown), "accent"))
-    plot.chart.add_beside(plot, labels)
+    plot.chart.add_end_labels(plot, labels)
 
 
 def goals_deg(progress: Progress, key: MeasureKey) -> list[float]:
@@ -205,7 +205,7 @@ def goals_deg(progress: Progress, key: MeasureKey) -> list[float]:
     return out if out and math.isfinite(out[-1]) else []
 
 
-def token_of(key: MeasureKey) -> str:
+def point_token(key: MeasureKey) -> str:
     """The colour of a panel's points."""
     of, movement = key
     angle = wrist_column(of)
@@ -214,14 +214,14 @@ def token_of(key: MeasureKey) -> str:
     return "text" if movement == "arc" else CURVE_TOKENS[angle]
 
 
-def spread_of(row: Measure) -> float:
+def half_error_bar(row: Measure) -> float:
     """Half the error bar of a point: between repetitions, of a single one of the measurement."""
     return row.sd if math.isfinite(row.sd) else row.measurement_sd
 
 
-def top_of(row: Measure) -> float:
+def error_bar_top(row: Measure) -> float:
     """The upper end of its error bar."""
-    sd = spread_of(row)
+    sd = half_error_bar(row)
     return row.mean + (sd if math.isfinite(sd) else 0.0)
 
 
@@ -259,43 +259,44 @@ class ProgressChart(ZoomChart):
         self._moving: list[Any] = []
         """What goes along with the part of the time that is shown."""
         self._ring: Any = None
-        self._said: UnderMouse | None = None
-        self._pointed: tuple[int, MeasureKey] | None = None
+        self._said: HoverLabel | None = None
+        self._current: tuple[int, MeasureKey] | None = None
         """Number of the session and panel of the point under the mouse, or chosen by key."""
         self.setAccessibleName(self.tr("Range over the sessions"))
 
     def show_progress(self, progress: Progress) -> None:
         self._progress = progress
         self._window = None
-        self._pointed = None
-        self.forget()
+        self._current = None
+        self.refresh()
 
     @property
-    def pointed(self) -> int:
-        """Number of the session that is pointed at, -1 for none."""
-        return -1 if self._pointed is None else self._pointed[0]
+    def current_session(self) -> int:
+        """Number of the session whose point is under the mouse, or chosen by key; -1 for none."""
+        return -1 if self._current is None else self._current[0]
 
     def step(self, by: int) -> None:
         found = [at for at in self.points() if at[1] == next(iter(panels_of(self._progress)), None)]
         if not found:
             return
         numbers_of = [number for number, _, _ in found]
-        now = numbers_of.index(self.pointed) if self.pointed in numbers_of else -1 if by > 0 else len(numbers_of)
+        current = self.current_session
+        now = numbers_of.index(current) if current in numbers_of else -1 if by > 0 else len(numbers_of)
         number, key, _ = found[min(max(now + by, 0), len(found) - 1)]
-        self._point_at((number, key))
+        self._set_current_point((number, key))
 
-    def open_pointed(self) -> None:
-        if self._pointed is not None:
-            self.opened.emit(self._progress.points[self._pointed[0]].figures.session_id)
+    def open_current(self) -> None:
+        if self._current is not None:
+            self.opened.emit(self._progress.points[self._current[0]].figures.session_id)
 
     # --- window -------------------------------------------------------------------------------------------
     def extent(self) -> tuple[float, float] | None:
         return extent_s(self._progress) if panels_of(self._progress) else None
 
-    def about(self) -> float:
-        if self._pointed is not None:
-            return self._progress.points[self._pointed[0]].figures.when.timestamp()
-        return super().about()
+    def zoom_center(self) -> float:
+        if self._current is not None:
+            return self._progress.points[self._current[0]].figures.when.timestamp()
+        return super().zoom_center()
 
     def show_range(self) -> None:
         for item in self._moving:
@@ -317,7 +318,7 @@ class ProgressChart(ZoomChart):
     def places(self, plot: Plot, key: MeasureKey) -> list[tuple[int, QPointF, Measure]]:
         """Number of the session, where its point is, and its figures, of those that measured it and are shown."""
         out = []
-        start, end = self.shown()
+        start, end = self.x_range()
         for number, point in enumerate(self._progress.points):
             row, at_s = row_of(self._progress, number, key), point.figures.when.timestamp()
             if row is not None and start <= at_s <= end:
@@ -332,7 +333,7 @@ class ProgressChart(ZoomChart):
             for number, at, _ in self.places(plot, key)
         ]
 
-    def point_at(self, at: QPointF) -> tuple[int, MeasureKey] | None:
+    def find_point(self, at: QPointF) -> tuple[int, MeasureKey] | None:
         near = [(math.hypot(p.x() - at.x(), p.y() - at.y()), number, key) for number, key, p in self.points()]
         away, number, key = min(near, default=(math.inf, 0, ("", "arc")))
         return (number, key) if away <= NEAR_PX else None
@@ -345,7 +346,7 @@ class ProgressChart(ZoomChart):
         face = font(look.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
         for panel, key in placed:
             plot = self.add_plot(panel)
-            furnish(plot, progress, key)
+            add_background(plot, progress, key)
             self.add_axis(plot, "left", scale_labels(panel), 12)
             title = self.text(name_of(progress, key), face, "text", (0.0, 1.0))
             title.setPos(panel.box.left(), panel.box.top() - 5 * look.unit)
@@ -355,7 +356,7 @@ class ProgressChart(ZoomChart):
                 if point.fair and (row := row_of(progress, number, key)) is not None
             ]
             if len(joined) > 1:
-                plot.add_line([at for at, _ in joined], [value for _, value in joined], token_of(key))
+                plot.add_line([at for at, _ in joined], [value for _, value in joined], point_token(key))
         if not placed:
             return
         when = [point.figures.when for point in progress.points]
@@ -368,7 +369,7 @@ class ProgressChart(ZoomChart):
         self.add_key(entries(progress), area)
         if not self.on_paper:
             self._ring = self.add_symbols("o", 18.0, pg.mkPen(look.color("accent"), width=2.0))
-            self._said = UnderMouse(self)
+            self._said = HoverLabel(self)
         self.show_range()
 
     def _add_points(self, plot: Plot, key: MeasureKey) -> None:
@@ -376,10 +377,10 @@ class ProgressChart(ZoomChart):
         compare carry their figures, where these do not cover what is beside them."""
         progress, look, unit, panel = self._progress, self.look, self.look.unit, plot.panel
         found = self.places(plot, key)
-        for is_fair, token in ((True, token_of(key)), (False, "text2")):
+        for is_fair, token in ((True, point_token(key)), (False, "text2")):
             some = [one for one in found if progress.points[one[0]].fair == is_fair]
             pen = plot.pen(token, 1.4 if is_fair else 2.0)
-            bars = [(at, sd) for _, at, row in some if math.isfinite(sd := spread_of(row))]
+            bars = [(at, sd) for _, at, row in some if math.isfinite(sd := half_error_bar(row))]
             if bars:
                 y = np.array([at.y() for at, _ in bars])
                 deg = float(panel.y(0.0) - panel.y(1.0))
@@ -390,7 +391,9 @@ class ProgressChart(ZoomChart):
             ring = pg.mkPen(None) if is_fair else pen
             self.add_symbols("o", 2 * DOT_RADIUS, ring, token if is_fair else "surface", places)
             least = [at for _, at, row in some if row.angle < 0 and row.at_least]
-            tops = [QPointF(at.x(), float(panel.y(top_of(row))) - 8 * unit) for _, at, row in some if at in least]
+            tops = [
+                QPointF(at.x(), float(panel.y(error_bar_top(row))) - 8 * unit) for _, at, row in some if at in least
+            ]
             self.add_symbols("t1", 8.0, pen, token if is_fair else "surface", tops)
         fair = [(at.x(), row) for number, at, row in found if progress.points[number].fair]
         em = look.end_label.pixelSize()
@@ -422,7 +425,7 @@ class ProgressChart(ZoomChart):
         self.text(text, face).setPos(left, baseline - metrics.ascent())
 
     # --- a point ------------------------------------------------------------------------------------------
-    def said_of(self, number: int, key: MeasureKey) -> list[str]:
+    def describe_point(self, number: int, key: MeasureKey) -> list[str]:
         point = self._progress.points[number]
         figures, row = point.figures, row_of(self._progress, number, key)
         assert row is not None
@@ -448,24 +451,26 @@ class ProgressChart(ZoomChart):
         lines.append(self.tr("Click opens the session"))
         return [line if len(line) <= LONGEST_LINE else f"{line[: LONGEST_LINE - 1].rstrip()}…" for line in lines]
 
-    def _point_at(self, found: tuple[int, MeasureKey] | None) -> None:
-        if found != self._pointed:
-            self._pointed = found
+    def _set_current_point(self, found: tuple[int, MeasureKey] | None) -> None:
+        if found != self._current:
+            self._current = found
             self._point_out()
 
     def _point_out(self) -> None:
         """A ring about the point that is pointed at, in each panel, and what it says."""
         if self._ring is None or self._said is None:
             return
-        rings = [at for number, _, at in self.points() if number == self.pointed]
+        rings = [at for number, _, at in self.points() if number == self.current_session]
         self._ring.setData(x=[at.x() for at in rings], y=[at.y() for at in rings])
-        at = next((at for number, key, at in self.points() if (number, key) == self._pointed), None)
-        self._said.show_at(at, self.said_of(*self._pointed) if at is not None and self._pointed is not None else ())
+        at = next((at for number, key, at in self.points() if (number, key) == self._current), None)
+        self._said.show_lines(
+            at, self.describe_point(*self._current) if at is not None and self._current is not None else ()
+        )
 
     # --- mouse --------------------------------------------------------------------------------------------
     def hover(self, at: QPointF | None) -> None:
-        found = None if at is None else self.point_at(at)
-        self._point_at(found)
+        found = None if at is None else self.find_point(at)
+        self._set_current_point(found)
         inside = at is not None and any(plot.panel.box.contains(at) for plot in self.plots)
         pans = Qt.CursorShape.OpenHandCursor if inside and self._window is not None else Qt.CursorShape.ArrowCursor
         self.face.setCursor(pans if found is None else Qt.CursorShape.PointingHandCursor)
@@ -474,16 +479,16 @@ class ProgressChart(ZoomChart):
         if event.double():
             self.show_all()
             return
-        found = self.point_at(event.scenePos())
-        self._point_at(found)
+        found = self.find_point(event.scenePos())
+        self._set_current_point(found)
         if found is not None:
-            self.open_pointed()
+            self.open_current()
 
     # --- for other programs -------------------------------------------------------------------------------
     def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
         """One row for each session and panel that is shown."""
         head = ["session", "when", "what", "mean_deg", "sd_deg", "repetitions", "compared"]
-        start, end = self.shown()
+        start, end = self.x_range()
         rows = []
         for key in panels_of(self._progress):
             for number, point in enumerate(self._progress.points):
@@ -502,5 +507,5 @@ def paint_chart(painter: QPainter, style: PlotStyle, box: QRectF, progress: Prog
     """The chart on paper, with its words, in a box."""
     chart = ProgressChart(Theme("light"))
     chart.show_progress(progress)
-    chart.paint_on(painter, style, box)
+    chart.render_on_paper(painter, style, box)
     chart.deleteLater()

@@ -36,7 +36,7 @@ def _paint(painter: QPainter, plot: Chart, point: float) -> None:
     width_pt, height_pt = _size_pt(plot)
     margin = MARGIN_PT * point
     box = QRectF(0.0, 0.0, width_pt * point, height_pt * point)
-    plot.paint_on(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
+    plot.render_on_paper(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
 
 
 def picture(plot: Chart) -> QImage:

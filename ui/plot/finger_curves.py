@@ -56,7 +56,7 @@ class FingerCurves(Chart):
 
     def set_figure(self, figure: Figure, target_deg: float) -> None:
         self._figure, self._target_deg = figure, target_deg
-        self.forget()
+        self.refresh()
 
     def set_waiting(self, waiting: bool) -> None:
         """Whether no pictures come: then no figure is shown as if it were now."""
@@ -66,7 +66,7 @@ class FingerCurves(Chart):
     def show_speeds(self, on: bool) -> None:
         if on != self._speeds:
             self._speeds = on
-            self.forget()
+            self.refresh()
 
     def refresh_values(self) -> None:
         """Take the figures below the curves anew; called at most ten times a second."""
@@ -163,7 +163,7 @@ class FingerCurves(Chart):
             return
         block = self._history.block(speeds=self._speeds)
         placed = [
-            (curves.plot.own, [Curve(block.series(_NUMBER_OF[one]), one.token) for one in figures])
+            (curves.plot.local_panel, [Curve(block.series(_NUMBER_OF[one]), one.token) for one in figures])
             for curves, figures in self._curves
         ]
         drawing = Drawing(self.look, placed)

@@ -14,7 +14,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.chart import LINES, Chart, Hatching, Label, Layer, fitted, scale_labels
+from carpus.ui.plot.chart import LINES, Chart, Hatching, Label, Layer, fit_font, scale_labels
 from carpus.ui.plot.history import SHOWN_S, History
 from carpus.ui.plot.series import Curve
 from carpus.ui.plot.session import add_limits, add_targets
@@ -50,20 +50,20 @@ class LiveCurves(Chart):
         """Which angle is trained, its targets, and what should stay within limits."""
         self._exercise = exercise
         self._targets_deg = (target_positive_deg, target_negative_deg)
-        self.forget()
+        self.refresh()
 
     def show_speeds(self, on: bool) -> None:
         """Linear and angular speed instead of the angles."""
         if on != self._speeds:
             self._speeds = on
             self.refresh_values()
-            self.forget()
+            self.refresh()
 
     def show_single(self, on: bool) -> None:
         """Only the trained angle, where large text leaves no room for three."""
         if on != self._single:
             self._single = on
-            self.forget()
+            self.refresh()
 
     @property
     def shows_speeds(self) -> bool:
@@ -142,7 +142,7 @@ class LiveCurves(Chart):
             if not self._speeds and place == 0:
                 add_targets(own, *self._targets_deg)
             self.add_axis(own, "left", scale_labels(panel), 12)
-            hatching = own.put(Hatching(own, ()), LINES)
+            hatching = own.add_to_layer(Hatching(own, ()), LINES)
             self._curves.append((own.add_curves(kept=False), hatching, column))
         ago = [Label(-float(ago), str(ago)) for ago in (2, 4, 6, 8)]
         ends = [Label(0.0, self.tr("now")), Label(0.55 - SHOWN_S, self.tr("10 s ago"))]
@@ -188,7 +188,7 @@ class LiveCurves(Chart):
         theme, scale = self._theme, self._theme.text_scale
         left = panel.box.right() + 14 * scale
         middle = panel.box.center().y()
-        face = fitted(font(14 * scale, REGULAR), name, self.width() - left - 4)
+        face = fit_font(font(14 * scale, REGULAR), name, self.width() - left - 4)
         write(painter, QPointF(left, middle - 5 * scale), name, face, theme.color("text2"))
         at, face = QPointF(left, middle + 18 * scale), font(20 * scale, SEMIBOLD)
         write(painter, at, value, face, theme.color("text"))

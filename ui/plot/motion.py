@@ -75,7 +75,7 @@ class MotionPlot(SessionPlot):
         labels = ((top, f"+{_plain(top)}{_gap(unit)}"), (0.0, "0"), (-top, f"{MINUS}{_plain(top)}{_gap(unit)}"))
         return Scale(-1.4 * top, 1.4 * top, (top, 0.0, -top), labels)
 
-    def furnish(self, plot: Plot, place: int, key: int) -> None:
+    def add_background(self, plot: Plot, place: int, key: int) -> None:
         plot.add_grid()
         add_name(plot, self.panel_name(key))
 

@@ -54,7 +54,7 @@ class Series:
         """The same with times counted from ``start_s``."""
         return replace(self, time_s=self.time_s - start_s, start_s=start_s)
 
-    def at(self, rows: slice | np.ndarray) -> Series:
+    def select_rows(self, rows: slice | np.ndarray) -> Series:
         """Some of the samples."""
         sd = None if self.sd is None else self.sd[rows]
         return replace(self, time_s=self.time_s[rows], value=self.value[rows], sd=sd, predicted=self.predicted[rows])
@@ -85,7 +85,7 @@ class Curve:
     """Of the usual width of a line."""
 
 
-def runs(flag: np.ndarray) -> list[tuple[int, int]]:
+def find_runs(flag: np.ndarray) -> list[tuple[int, int]]:
     """First and one-past-last index of each stretch of True."""
     wide = np.zeros(len(flag) + 2, dtype=np.bool_)
     wide[1:-1] = flag
@@ -161,7 +161,7 @@ class Drawing:
             if curve.series.sd is None:
                 continue
             painter.setBrush(style.color(curve.token, BAND_ALPHA))
-            for first, past in runs(self._joined[own]):
+            for first, past in find_runs(self._joined[own]):
                 for start in range(own.start + first, own.start + past, longest):
                     part = slice(start, min(start + longest, own.start + past) + 1)
                     x, around = self._x[part], np.concatenate((self._upper[part], self._lower[part][::-1]))
@@ -185,7 +185,7 @@ class Drawing:
             if on_pixels:
                 dashes = np.concatenate((self._ends[own][solid], dashes))
             else:
-                for first, past in runs(solid):
+                for first, past in find_runs(solid):
                     ends = self._ends[own.start + first : own.start + past]
                     painter.drawPolyline(
                         arrayToQPolygonF(np.append(ends[0, 0], ends[:, 2]), np.append(ends[0, 1], ends[:, 3]))
@@ -240,7 +240,7 @@ def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, curve: Curv
         above, below = series.value > panel.scale.high, series.value < panel.scale.low
     above, below = above & ~series.predicted, below & ~series.predicted
     for beyond, up in ((above, True), (below, False)):
-        for start, stop in runs(beyond):
+        for start, stop in find_runs(beyond):
             part = series.value[start:stop]
             extreme = start + int(np.argmax(part) if up else np.argmin(part))
             x = float(np.clip(panel.x(series.time_s[extreme]), panel.box.left() + 8, panel.box.right() - 8))
@@ -273,7 +273,7 @@ LONGEST_STRETCHES = 3.0
 """Samples that were kept lie up to two stretches apart, a little more where pictures are missing."""
 
 
-def thinned(series: Series, columns: int) -> Series:
+def decimate(series: Series, columns: int) -> Series:
     """At most two samples of each of ``columns`` equal stretches: its smallest and its largest value.
 
     A stretch without a value keeps one sample of it, so that gaps stay, also those of missing pictures; the widest
@@ -310,16 +310,16 @@ def thinned(series: Series, columns: int) -> Series:
         widest = spread.reshape(rows, size).max(axis=1)[index // size]
         sd = np.where(np.isfinite(widest), widest, np.nan)
     longest_s = max(series.longest_step_s, LONGEST_STRETCHES * stretch_s)
-    return replace(series.at(index), sd=sd, longest_step_s=longest_s)
+    return replace(series.select_rows(index), sd=sd, longest_step_s=longest_s)
 
 
-def within(series: Series, start_s: float, end_s: float) -> Series:
+def slice_time(series: Series, start_s: float, end_s: float) -> Series:
     """The samples of a stretch of time, with one beyond each end so that the line goes to the edge."""
     first = max(int(np.searchsorted(series.time_s, start_s)) - 1, 0)
     last = int(np.searchsorted(series.time_s, end_s, side="right")) + 1
     if first == 0 and last >= len(series.time_s):
         return series
-    return series.at(slice(first, last))
+    return series.select_rows(slice(first, last))
 
 
 def _with_gaps(series: Series) -> Series:

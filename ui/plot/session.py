@@ -31,14 +31,14 @@ from carpus.ui.plot.chart import (
     ChartText,
     Curves,
     Hatching,
+    HoverLabel,
     Label,
     Plot,
-    UnderMouse,
-    fitted,
+    fit_font,
     scale_labels,
     span,
 )
-from carpus.ui.plot.series import Curve, Series, longest_step_s, thinned, within
+from carpus.ui.plot.series import Curve, Series, decimate, longest_step_s, slice_time
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.plot.zoom_chart import ZoomChart
 from carpus.ui.theme import CURVE_TOKENS, Theme
@@ -185,7 +185,7 @@ class SessionPlot:
             top += height + between
         return out
 
-    def furnish(self, plot: Plot, place: int, key: int) -> None:
+    def add_background(self, plot: Plot, place: int, key: int) -> None:
         """Add what lies behind the curves of the panel at a place from the top."""
         add_limits(plot, self.exercise, key, is_first=place == 0)
         plot.add_grid()
@@ -197,7 +197,7 @@ class SessionPlot:
         return [self._curve(self.series(key), CURVE_TOKENS[key], points)]
 
     def _curve(self, series: Series, token: str, points: int) -> Curve:
-        return Curve(thinned(within(series, *self.shown_s), max(FEWEST_POINTS, points)), token)
+        return Curve(decimate(slice_time(series, *self.shown_s), max(FEWEST_POINTS, points)), token)
 
     def columns(self, key: int) -> list[tuple[str, Series]]:
         """Name and whole series of every curve of a panel, for reading off and for tables."""
@@ -252,7 +252,7 @@ class HandPlot(SessionPlot):
             top += unit * weight + between
         return out
 
-    def furnish(self, plot: Plot, place: int, key: int) -> None:
+    def add_background(self, plot: Plot, place: int, key: int) -> None:
         plot.add_grid()
         words = group_words()[key] if self.finger else finger_name(str(FINGERS[key]))
         add_name(plot, words, above=bool(self.finger) and key == 0)
@@ -262,10 +262,10 @@ class HandPlot(SessionPlot):
         out = []
         for figure in self.figures(key):
             series = self.joint_series(figure)
-            series = None if series is None else within(series, *self.shown_s)
+            series = None if series is None else slice_time(series, *self.shown_s)
             if series is None or (not self.finger and bool(series.predicted[np.isfinite(series.value)].all())):
                 continue
-            out.append(Curve(thinned(series, max(FEWEST_POINTS, points)), figure.token))
+            out.append(Curve(decimate(series, max(FEWEST_POINTS, points)), figure.token))
         return out
 
     def columns(self, key: int) -> list[tuple[str, Series]]:
@@ -401,17 +401,17 @@ class SessionChart(ZoomChart):
     def show_plot(self, plot: SessionPlot) -> None:
         """Draw another session, or the same with other repetitions, where it was looked at."""
         self._plot = replace(plot, window_s=self._window)
-        self.forget()
+        self.refresh()
 
     def clear(self) -> None:
         self._plot = self._window = None
-        self.forget()
+        self.refresh()
 
     def show_single(self, on: bool) -> None:
         """Only the trained angle, where large text leaves no room for three."""
         if on != self._single:
             self._single = on
-            self.forget()
+            self.refresh()
 
     def set_time(self, time_s: float) -> None:
         """Put the cursor; what is shown goes on with it."""
@@ -427,7 +427,7 @@ class SessionChart(ZoomChart):
     def extent(self) -> tuple[float, float] | None:
         return None if self._plot is None else (0.0, self._plot.end_s)
 
-    def about(self) -> float:
+    def zoom_center(self) -> float:
         return self._time_s
 
     def show_range(self) -> None:
@@ -463,7 +463,7 @@ class SessionChart(ZoomChart):
         for place, (panel, key) in enumerate(self.panels()):
             own = self.add_plot(panel)
             self._add_repetitions(own, plot)
-            plot.furnish(own, place, key)
+            plot.add_background(own, place, key)
             self.add_axis(own, "left", scale_labels(panel), 12)
             self._curves.append((own.add_curves(), key))
         self.add_axis(self.plots[0], "top", lambda *_: self._numbers(), NUMBERS_ABOVE)
@@ -487,7 +487,7 @@ class SessionChart(ZoomChart):
             own.add_bars([(one.start_s, one.end_s) for one in some], token)
         left_out = [(one.start_s, one.end_s, low, high) for one in shown if not one.counts]
         if left_out:
-            own.put(Hatching(own, left_out), GROUND + 1)
+            own.add_to_layer(Hatching(own, left_out), GROUND + 1)
 
     def _numbers(self) -> list[Label]:
         """The numbers of the repetitions; where they would touch, some are left out, never the current one."""
@@ -513,7 +513,7 @@ class SessionChart(ZoomChart):
             item = self.text("", font(14 * scale, MEDIUM), "text2", (0.0, 0.5))
             item.setPos(own.panel.box.right() + 12 * scale, own.panel.box.center().y())
             self._readings.append(item)
-        self._said = UnderMouse(self)
+        self._said = HoverLabel(self)
         self.hover(None)
 
     def paint_ground(self, painter: QPainter) -> None:
@@ -557,7 +557,7 @@ class SessionChart(ZoomChart):
         scale = self._theme.text_scale
         if values and not plot.has_readings and not isinstance(plot, HandPlot):
             (value,) = values
-            face = fitted(font(14 * scale, REGULAR), value.name, (RIGHT_PX - 16) * scale)
+            face = fit_font(font(14 * scale, REGULAR), value.name, (RIGHT_PX - 16) * scale)
             named = span(value.name, self.look, "text2", face.pixelSize(), REGULAR)
             if not math.isfinite(value.value_deg):
                 return named
@@ -591,17 +591,17 @@ class SessionChart(ZoomChart):
         for line in self._under_mouse:
             line.setVisible(shown is not None)
             if shown is not None:
-                line.setValue(self.time_at(shown.x()))
-        self._said.show_at(shown, self.said_at(shown) if shown is not None else ())
-        over_edge = at is not None and self._edge_at(at) != ""
+                line.setValue(self.to_time(shown.x()))
+        self._said.show_lines(shown, self.describe_values(shown) if shown is not None else ())
+        over_edge = at is not None and self._find_edge(at) != ""
         pans = inside and self._window is not None
         shape = Qt.CursorShape.SizeHorCursor if over_edge else Qt.CursorShape.OpenHandCursor
         self.face.setCursor(shape if over_edge or pans else Qt.CursorShape.ArrowCursor)
 
-    def said_at(self, at: QPointF) -> list[str]:
+    def describe_values(self, at: QPointF) -> list[str]:
         plot = self._plot
         assert plot is not None
-        time_s = self.time_at(at.x())
+        time_s = self.to_time(at.x())
         lines = [numbers.clock_tenths(time_s)]
         for panel, key in self.panels():
             if panel.box.contains(at):
@@ -613,7 +613,7 @@ class SessionChart(ZoomChart):
         return lines
 
     # --- mouse --------------------------------------------------------------------------------------------
-    def _edge_at(self, point: QPointF) -> str:
+    def _find_edge(self, point: QPointF) -> str:
         """``start`` or ``end`` of the current repetition under the mouse, empty for none."""
         plot = self._plot
         if plot is None or not 0 <= plot.current < len(plot.repetitions):
@@ -629,7 +629,7 @@ class SessionChart(ZoomChart):
         nearest = min(away, key=lambda edge: away[edge])
         return nearest if away[nearest] <= GRIP_PX else ""
 
-    def time_at(self, x: float) -> float:
+    def to_time(self, x: float) -> float:
         panel = self.panels()[0][0]
         share = (x - panel.box.left()) / max(panel.box.width(), 1.0)
         return panel.start_s + min(max(share, 0.0), 1.0) * (panel.end_s - panel.start_s)
@@ -640,8 +640,8 @@ class SessionChart(ZoomChart):
             return
         if event.double():
             self.show_window(self._plot.repetitions_s if self._plot.window_s is None else None)
-        elif not self._edge_at(event.scenePos()):
-            self.cursor_moved.emit(self.time_at(event.scenePos().x()))
+        elif not self._find_edge(event.scenePos()):
+            self.cursor_moved.emit(self.to_time(event.scenePos().x()))
 
     def drag(self, event: Any) -> bool:
         """An edge, the cursor, or with nothing to move along the cursor too; anything else moves along the time."""
@@ -651,9 +651,9 @@ class SessionChart(ZoomChart):
             at = event.buttonDownScenePos()
             panel = self.panels()[0][0]
             at_cursor = abs(float(panel.x(self._time_s)) - at.x()) <= GRIP_PX
-            self._held = self._edge_at(at) or ("cursor" if at_cursor or self._window is None else "")
+            self._held = self._find_edge(at) or ("cursor" if at_cursor or self._window is None else "")
             self.hover(None)
-        held, time_s = self._held, self.time_at(event.scenePos().x())
+        held, time_s = self._held, self.to_time(event.scenePos().x())
         if held == "cursor":
             self.cursor_moved.emit(time_s)
         elif held:
@@ -682,5 +682,5 @@ def paint_session(painter: QPainter, look: PlotStyle, plot: SessionPlot, box: QR
     """The chart on paper, with its words, in a box."""
     chart = SessionChart(Theme("light"))
     chart.show_plot(plot)
-    chart.paint_on(painter, look, box)
+    chart.render_on_paper(painter, look, box)
     chart.deleteLater()

@@ -22,9 +22,9 @@ from carpus.ui.figures import FINGERS
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot.axes import Panel, Scale, crisp
-from carpus.ui.plot.chart import CURVES, FRONT, GRID, LINES, Chart, InPixels, Layer, Plot
+from carpus.ui.plot.chart import CURVES, FRONT, GRID, LINES, Chart, Layer, PixelItem, Plot
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.series import runs
+from carpus.ui.plot.series import find_runs
 from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, dashed, paint_dot, write
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
@@ -152,7 +152,7 @@ def side_by_side(style: PlotStyle, box: QRectF, gap: float) -> list[Panel]:
     return [Panel(place, Scale(-1.0, 1.0, (), ()), -1.0, 1.0) for place in places]
 
 
-class PlaneItem(InPixels):
+class PlaneItem(PixelItem):
     """Ways in one plane up to ``until_s``, NaN for the whole way without an end, with the hand's axes as three lines:
     their letters and the names of the ways find room that pyqtgraph does not look for."""
 
@@ -166,7 +166,7 @@ class PlaneItem(InPixels):
         self.ways, self.until_s = ways, until_s
         self.update()
 
-    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         if self.ways is None:
             return
         if self.ways.axes is not None and self.ways.is_whole:
@@ -208,9 +208,9 @@ class PlaneItem(InPixels):
         painter.setBrush(Qt.BrushStyle.NoBrush)
         known = np.isfinite(x) & np.isfinite(y)
         row = self._row()
-        for first, last in runs(known):
+        for first, last in find_runs(known):
             for seen in (True, False):
-                for start, stop in runs(way.seen[first:last] == seen):
+                for start, stop in find_runs(way.seen[first:last] == seen):
                     begin, end = max(first + start - 1, first), first + stop
                     pen = QPen(style.color(way.token), style.line_width if row >= 0 else 0.5 * style.line_width)
                     if row >= 0:
@@ -222,7 +222,7 @@ class PlaneItem(InPixels):
         if row >= 0:
             recent = int(np.searchsorted(self.ways.time_s, self.ways.time_s[row] - self.ways.recent_s))
             painter.setPen(QPen(style.color(way.token), 2.0 * style.line_width))
-            for first, last in runs(known[recent : row + 1]):
+            for first, last in find_runs(known[recent : row + 1]):
                 painter.drawPolyline(
                     arrayToQPolygonF(x[recent + first : recent + last], y[recent + first : recent + last])
                 )
@@ -290,7 +290,7 @@ class PlaneItem(InPixels):
                 write(painter, box, AXIS_LETTERS[axis], face, color, middle)
 
 
-class BallItem(InPixels):
+class BallItem(PixelItem):
     """Where the point that the wrist turns about must stay, a ring, and where it is, a cross."""
 
     def __init__(self, plot: Plot, plane: int, words: str) -> None:
@@ -302,10 +302,10 @@ class BallItem(InPixels):
         self._now = home_mm, now_mm, per_mm
         self.update()
 
-    def paint_in(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         if self._now is None or not np.isfinite(self._now[0] + self._now[1]).all():
             return
-        home, now = (panel.box.center() + _in_plane(self._plane, place) * self._now[2] for place in self._now[:2])
+        home, now = (panel.box.center() + _project_place(self._plane, place) * self._now[2] for place in self._now[:2])
         radius = STILL_RADIUS_MM * self._now[2]
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(dashed(style.color("border"), style.unit, (4, 3)))
@@ -320,7 +320,7 @@ class BallItem(InPixels):
             write(painter, at, self._words, style.label, style.color("text2"))
 
 
-def _in_plane(plane: int, place: FloatArray) -> QPointF:
+def _project_place(plane: int, place: FloatArray) -> QPointF:
     """Of something in W0, as it goes on in the picture."""
     return QPointF(ACROSS_SIGN[plane] * float(place[ACROSS[plane]]), -float(place[UP[plane]]))
 
@@ -344,8 +344,8 @@ class PlanesChart(Chart):
             plot.setBorder(plot.pen("line", self.look.grid_width / self.look.unit))
             for angle in (0, 90):
                 line = pg.InfiniteLine(0.0, angle, plot.pen("line", self.look.grid_width / self.look.unit))
-                plot.put(line, GRID)
-            out.append(plot.put(PlaneItem(plot, plane), CURVES))
+                plot.add_to_layer(line, GRID)
+            out.append(plot.add_to_layer(PlaneItem(plot, plane), CURVES))
         return out
 
 
@@ -363,7 +363,7 @@ class WaysChart(PlanesChart):
 
     def show_plot(self, plot: WayPlot, title: str = "") -> None:
         self._plot, self._title = plot, title
-        self.forget()
+        self.refresh()
 
     def set_time(self, time_s: float) -> None:
         self._time_s = time_s
@@ -425,7 +425,7 @@ class PathView(PlanesChart):
 
     def set_exercise(self, side: Side, pure_wrist: bool) -> None:
         self._side, self._pure = side, pure_wrist
-        self.forget()
+        self.refresh()
 
     # --- places -------------------------------------------------------------------------------------------
     def _head(self) -> QRectF:
@@ -466,7 +466,7 @@ class PathView(PlanesChart):
             self.text(title, look.end_label).setPos(box.left(), box.bottom() + 4)
             self.text(letters, look.end_label, "text2", (1.0, 0.0)).setPos(box.right(), box.bottom() + 4)
             if self._pure:
-                ball = item.plot.put(BallItem(item.plot, plane, self.tr("15 mm") if plane == 0 else ""), FRONT)
+                ball = item.plot.add_to_layer(BallItem(item.plot, plane, self.tr("15 mm") if plane == 0 else ""), FRONT)
                 self._balls.append(ball)
         words = self.tr("{span} × {span} mm, fixed").format(span=written(self._span_mm()))
         if self._pure:
@@ -511,5 +511,5 @@ def paint_ways(painter: QPainter, look: PlotStyle, plot: WayPlot, box: QRectF) -
     """The chart on paper, with its words, in a box."""
     chart = WaysChart(Theme("light"))
     chart.show_plot(plot)
-    chart.paint_on(painter, look, box)
+    chart.render_on_paper(painter, look, box)
     chart.deleteLater()

@@ -44,9 +44,9 @@ class ZoomChart(Chart):
         """Ends of the shared axis; None while there is nothing."""
         raise NotImplementedError
 
-    def about(self) -> float:
+    def zoom_center(self) -> float:
         """What zooming by key goes about: else the middle."""
-        return sum(self.shown()) / 2
+        return sum(self.x_range()) / 2
 
     def drag(self, event: Any) -> bool:
         """A drag that is more than moving along; whether it was taken."""
@@ -67,10 +67,10 @@ class ZoomChart(Chart):
 
     # --- window -------------------------------------------------------------------------------------------
     @property
-    def shown_part(self) -> tuple[float, float] | None:
+    def zoom_range(self) -> tuple[float, float] | None:
         return self._window
 
-    def shown(self) -> tuple[float, float]:
+    def x_range(self) -> tuple[float, float]:
         """Left and right end of what is shown."""
         return self._window or self.extent() or (0.0, 1.0)
 
@@ -84,29 +84,29 @@ class ZoomChart(Chart):
         self._window = window
         self._showing = True
         if self.plots:
-            self.plots[0].setXRange(*self.shown(), padding=0.0)
+            self.plots[0].setXRange(*self.x_range(), padding=0.0)
         self._showing = False
         self.show_range()
 
     def zoom(self, factor: float, about: float) -> None:
         """Show that many times as much, with ``about`` staying where it is."""
-        start, end = self.shown()
+        start, end = self.x_range()
         span = (end - start) * factor
         begin = about - (about - start) / (end - start) * span
         self.show_window((begin, begin + span))
 
     def zoom_in(self) -> None:
-        self.zoom(1.0 / ZOOM_STEP, self._about_shown())
+        self.zoom(1.0 / ZOOM_STEP, self._visible_zoom_center())
 
     def zoom_out(self) -> None:
-        self.zoom(ZOOM_STEP, self._about_shown())
+        self.zoom(ZOOM_STEP, self._visible_zoom_center())
 
     def show_all(self) -> None:
         self.show_window(None)
 
-    def _about_shown(self) -> float:
-        start, end = self.shown()
-        return min(max(self.about(), start), end)
+    def _visible_zoom_center(self) -> float:
+        start, end = self.x_range()
+        return min(max(self.zoom_center(), start), end)
 
     def add_plot(self, panel: Panel) -> Plot:
         """All plots go along together."""
@@ -118,11 +118,11 @@ class ZoomChart(Chart):
         if first is not None:
             plot.setXLink(first)
         else:
-            plot.sigXRangeChanged.connect(lambda _, ends: self._take_range(*ends))
+            plot.sigXRangeChanged.connect(lambda _, ends: self._apply_range(*ends))
         return plot
 
-    def _take_range(self, start: float, end: float) -> None:
-        now, extent = self.shown(), self.extent()
+    def _apply_range(self, start: float, end: float) -> None:
+        now, extent = self.x_range(), self.extent()
         if extent is None or self._showing:
             return
         tolerance = 1e-6 * (extent[1] - extent[0])
@@ -163,7 +163,7 @@ class PlotMenu(QObject):
         self.start_folder = ""
         """Where saving begins."""
 
-    def made(self) -> QMenu:
+    def build_menu(self) -> QMenu:
         card, menu = self._card, QMenu(self._card)
         for words, action in (
             (self.tr("Show all") + "\t0", card.show_all),
@@ -172,8 +172,8 @@ class PlotMenu(QObject):
             ("", None),
             (self.tr("Copy picture"), self.copy_picture),
             (self.tr("Save picture (PNG)…"), self.save_picture),
-            (self.tr("Save drawing (SVG)…"), lambda: self._ask("svg", "SVG (*.svg)")),
-            (self.tr("Save values (CSV)…"), lambda: self._ask("csv", "CSV (*.csv)")),
+            (self.tr("Save drawing (SVG)…"), lambda: self._save_with_dialog("svg", "SVG (*.svg)")),
+            (self.tr("Save values (CSV)…"), lambda: self._save_with_dialog("csv", "CSV (*.csv)")),
         ):
             if action is None:
                 menu.addSeparator()
@@ -183,7 +183,7 @@ class PlotMenu(QObject):
 
     def open(self, at: QPoint) -> None:
         if self._card.extent() is not None:
-            menu = self.made()
+            menu = self.build_menu()
             menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
             menu.popup(at)
 
@@ -191,9 +191,9 @@ class PlotMenu(QObject):
         QGuiApplication.clipboard().setImage(export.picture(self._card))
 
     def save_picture(self) -> None:
-        self._ask("png", "PNG (*.png)")
+        self._save_with_dialog("png", "PNG (*.png)")
 
-    def _ask(self, kind: str, filter_words: str) -> None:
+    def _save_with_dialog(self, kind: str, filter_words: str) -> None:
         start = str(Path(self.start_folder) / f"{self._file_name}.{kind}")
         path, _ = QFileDialog.getSaveFileName(self._card, self.tr("Save"), start, filter_words)
         if path:

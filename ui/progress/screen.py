@@ -94,7 +94,7 @@ class ProgressScreen(Fitted):
         actions = {
             "plot_in": self.chart.zoom_in, "plot_out": self.chart.zoom_out, "plot_all": self.chart.show_all,
             "point_back": lambda: self.chart.step(-1), "point_on": lambda: self.chart.step(1),
-            "point_open": self.chart.open_pointed, "report": self.report_button.click,
+            "point_open": self.chart.open_current, "report": self.report_button.click,
             "export": self.table_button.click,
         }  # fmt: skip
         bind_screen(self, actions)

@@ -115,5 +115,5 @@ def _plot_part(plot: AgreementPlot) -> PaintedPart:
 
 def _paint_plot(plot: AgreementPlot, painter: QPainter, box: QRectF) -> None:
     chart = AgreementChart(Theme("light"), plot)
-    chart.paint_on(painter, STYLE, box)
+    chart.render_on_paper(painter, STYLE, box)
     chart.deleteLater()

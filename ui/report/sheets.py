@@ -17,7 +17,7 @@ from carpus.ui.controls.field import Choices, Combo, number_field
 from carpus.ui.controls.layouts import fill
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
-from carpus.ui.forms import Field, Form, at_most
+from carpus.ui.forms import Field, Form, length_rule
 from carpus.ui.language import LANGUAGES, spoken
 from carpus.ui.report.home_page import DRAWN, MOST_NOTE, MOST_TASKS, HomeReport, HomeTask
 from carpus.ui.report.letter_page import MOST_ADDRESS_LINES, address_lines
@@ -93,11 +93,11 @@ class HomeSheet(Sheet):
                 ),
                 Field(
                     "at", self.tr("T&ime"), QLineEdit(),
-                    at_most(MOST_OF_TIME, self.tr("Time: {count} letters too many")), follows=True, share=1,
+                    length_rule(MOST_OF_TIME, self.tr("Time: {count} letters too many")), follows=True, share=1,
                 ),
                 Field(
                     "note", self.tr("A &line for the patient, no names"), QLineEdit(),
-                    at_most(MOST_NOTE, self.tr("Line: {count} letters too many")),
+                    length_rule(MOST_NOTE, self.tr("Line: {count} letters too many")),
                 ),
                 Field("language", self.tr("Language of the patient"), Choices(theme, list(LANGUAGES.items()))),
             ],

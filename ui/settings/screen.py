@@ -59,7 +59,7 @@ class SettingsScreen(QWidget):
         self._pages: dict[PartName, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(PartName)}
         self._folded: list[Card] = []
         self._lay_out(table)
-        self.chosen.changed.connect(self._take)
+        self.chosen.changed.connect(self._apply_choices)
         self.folder_button.clicked.connect(self.ask_folder)
 
     def _table(self, theme: Theme) -> list[tuple[PartName, str, str, list[Field]]]:
@@ -272,7 +272,7 @@ class SettingsScreen(QWidget):
             self.preferences = preferences
             self.changed.emit(preferences)
 
-    def _take(self) -> None:
+    def _apply_choices(self) -> None:
         self._change(replace(self.preferences, **self.chosen.values()))
         self._fold()
 

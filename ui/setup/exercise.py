@@ -25,7 +25,7 @@ from carpus.ui.controls.field import Choices, DegreesField, number_field
 from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.figures import figure_of
-from carpus.ui.forms import Field, Form, must_be_chosen
+from carpus.ui.forms import Field, Form, choice_rule
 from carpus.ui.setup.option import Options
 from carpus.ui.setup.set_words import set_words
 from carpus.ui.theme import MARGIN_PX, Theme
@@ -80,7 +80,7 @@ class ExerciseScreen(QWidget):
             Field(
                 "side", self.tr("Hand that is measured"),
                 Choices(theme, [(side, terms.side_name(side)) for side in ("right", "left")]),
-                must_be_chosen(self.tr("Which hand is measured?")),
+                choice_rule(self.tr("Which hand is measured?")),
             ),
             Field(
                 "repetitions", self.tr("Repetitions"), number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
