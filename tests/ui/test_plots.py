@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -27,13 +27,13 @@ from carpus.core.types import ByteImage, FloatArray
 from carpus.ui.figures import FIGURES, Figure
 from carpus.ui.joint_figures import figures_of
 from carpus.ui.numbers import with_spread
-from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.axes import Panel, Scale, time_labels
 from carpus.ui.plot.chart import ChartText
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.plot.series import Curve, Drawing, Series, decimate, longest_step_s
 from carpus.ui.plot.session import SessionChart, SessionPlot
-from carpus.ui.plot.style import RIGHT_MIDDLE, screen_style, write
+from carpus.ui.plot.style import RIGHT_MIDDLE, paper_style, screen_style, write
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, figures_once, session
@@ -406,3 +406,23 @@ def test_a_target_short_of_thumb_up_keeps_its_sign_and_its_words_off_the_curve(v
     }
     assert places["Target −40°"].bottom() <= float(panel.y(-40.0))
     assert places["Target 70°"].top() >= float(panel.y(-70.0))
+
+
+def test_time_axis_label_at_the_end_lies_within_the_paper(view: SessionChart, monkeypatch: pytest.MonkeyPatch) -> None:
+    ends_px: dict[str, float] = {}
+
+    def note(painter: QPainter, at: QPointF | QRectF, words: str, face: QFont, *_: object) -> None:
+        if isinstance(at, QPointF):
+            ends_px[words] = at.x() + QFontMetricsF(face).horizontalAdvance(words)
+
+    plot = view._plot
+    assert plot is not None
+    time_s = plot.curves.time_s
+    view.show_plot(replace(plot, curves=replace(plot.curves, time_s=time_s * (60.0 / time_s[-1]))))
+    monkeypatch.setattr("carpus.ui.plot.chart.write", note)
+    image = QImage(2000, 900, QImage.Format.Format_RGB32)
+    painter = QPainter(image)
+    view.render_on_paper(painter, paper_style(4), QRectF(0.0, 0.0, 2000.0, 900.0))
+    painter.end()
+    assert time_labels(0.0, 60.0)[-1][1] in ends_px
+    assert max(ends_px.values()) <= 2000.0

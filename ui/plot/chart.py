@@ -413,7 +413,9 @@ class Axis(pg.AxisItem):
                 low, high, apart = middle - least / 2, middle + least / 2, 0.0
             else:
                 middle = float(panel.x(label.value))
-                low, high = middle - width / 2, middle + width / 2
+                area = self.plot.chart.area  # what is beyond it is not painted, or only half
+                low = max(min(middle - width / 2, area.right() - width), area.left())
+                high = low + width
                 apart = metrics.height() if self.orientation == "bottom" else 4 * unit
                 if not panel.box.left() - 0.5 <= middle <= panel.box.right() + 0.5:
                     continue

@@ -67,7 +67,8 @@ def add_name(plot: Plot, words: str, *, above: bool = False) -> None:
     look, box = plot.look, plot.panel.box
     scale = look.end_label.pixelSize() / 12.0
     item = plot.chart.text(words, look.end_label, "text", (0.0, 0.5))
-    item.setPos(box.left() - 102 * scale, box.top() + 6 * scale if above else box.center().y())
+    left = plot.chart.area.left() if plot.chart.on_paper else box.left() - 102 * scale
+    item.setPos(left, box.top() + 6 * scale if above else box.center().y())
 
 
 def add_limits(plot: Plot, exercise: Exercise, key: int, *, is_first: bool) -> None:
