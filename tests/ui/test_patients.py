@@ -291,6 +291,14 @@ def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given
     form.close_sheet()
 
 
+def test_patient_who_writes_with_both_hands_when_changed_stays_so(form: PatientForm, given: Given) -> None:
+    form.begin(Patient("Fir 12", "left", "both"), frozenset())
+    assert form.save.isEnabled()
+    form.fields["note"].setPlainText("plate out")
+    form.save.click()
+    assert [(one.dominance, one.note) for one in given] == [("both", "plate out")]
+
+
 def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Given) -> None:
     form.begin(None, frozenset())
     qtbot.keyClick(form.fields["pseudonym"], Qt.Key.Key_Return)

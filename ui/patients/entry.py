@@ -92,7 +92,8 @@ class PatientForm(Sheet):
                 Choices(
                     theme, [("right", self.tr("Right")), ("left", self.tr("Left")), ("unknown", self.tr("Not known"))]
                 ),
-                choice_rule(self.tr("Which hand writes?")), follows=True,
+                lambda hand: self.tr("Which hand writes?") if hand is None and self.patient.dominance != "both" else "",
+                follows=True,
             ),
             Field(
                 "diagnosis", self.tr("&Diagnosis or operation (stays in this list, in no session)"), QLineEdit(),
@@ -227,7 +228,8 @@ class PatientForm(Sheet):
             self.fields["pseudonym"].setFocus(Qt.FocusReason.OtherFocusReason)
             return
         try:
-            patient = replace(self.patient, **values | {"onset": values["onset"] or ""})
+            values |= {"onset": values["onset"] or "", "dominance": values["dominance"] or self.patient.dominance}
+            patient = replace(self.patient, **values)
             patient.as_kept()
         except NameUnsuited as fault:  # told here: what was typed stays
             self._say(fault)
