@@ -60,6 +60,16 @@ BOX = QRectF(0.0, 0.0, 800.0, 500.0)
 ONCE = "counts once, by its newest result"
 
 
+@pytest.mark.parametrize("of_hand", [False, True])
+def test_method_where_no_angle_is_known_says_nothing_of_its_sd(of_hand: bool) -> None:
+    made = hand_session(lost=[(0.0, 99.0)]) if of_hand else session(lost=[(0.0, 99.0)])
+    figures = figures_once(made)
+    assert math.isnan(figures.quality.angle_sd_deg)
+    assert "known to about" not in method(figures, 6, compared=False)
+    sure = replace(figures, quality=replace(figures.quality, angle_sd_deg=1.0))
+    assert "known to about ±" in method(sure, 6, compared=False)
+
+
 def said(widget: QWidget) -> str:
     """All words of a widget."""
     return " ".join(text.text() for kind in (Text, StateText) for text in widget.findChildren(kind))

@@ -151,7 +151,9 @@ def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Se
         if figures.joint_ranges and figures.angle_order == "isb"
         else "",
         camera_words(figures),
-        _sd_words(figures).format(sd=numbers.spread(quality.angle_sd_deg)),
+        _sd_words(figures).format(sd=numbers.spread(quality.angle_sd_deg))
+        if math.isfinite(quality.angle_sd_deg)
+        else "",
         limit_words(figures.study) if compared else "",
         counted_once_words(figures.earlier_results),
         tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
