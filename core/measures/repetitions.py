@@ -184,7 +184,9 @@ def what_was_not_counted(angle: Signal, found: FoundRepetitions) -> Uncounted | 
         return "small_range"
     if any(one.cut == "cut_by_gap" for one in found.cut):
         return "cut_by_gap"
-    return "too_quick" if len(found.strokes) > 2 else "no_return"
+    # One slow stroke is enough to know that haste was not the reason.
+    longest_s = max((one.end_s - one.start_s for one in found.strokes), default=0.0)
+    return "too_quick" if len(found.strokes) > 2 and longest_s < LEAST_DURATION_S else "no_return"
 
 
 def _parts(angle: Signal) -> list[slice]:

@@ -230,6 +230,8 @@ def test_why_there_is_none_is_said() -> None:
     assert why(np.linspace(0.0, 50.0, 90)) == "no_return"
     assert why(40.0 * np.sin(2.0 * math.pi * 3.0 * np.arange(180) / 30.0)) == "too_quick"
     assert why(both_sides(30.0, 0.5)) is None
+    one = 40.0 * np.sin(2.0 * math.pi * np.arange(73) / 75.0)  # not quite to its end
+    assert why(np.concatenate((np.zeros(240), one))) == "no_return", "the recording ended in it: it was not quick"
     seen = np.concatenate([np.linspace(0.0, 50.0, 30), np.linspace(50.0, 0.0, 30)] * 4)
     seen[25:] = np.where((np.arange(25, len(seen)) + 5) % 60 < 38, np.nan, seen[25:])  # its top for more than a second
     assert why(seen) == "cut_by_gap", "each takes two seconds: none was quick"
