@@ -23,6 +23,7 @@ from carpus.core.provenance import revision
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import PAPERS, Paper, ReportForm
 from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
+from carpus.ui.report.page import break_lines
 from carpus.ui.report.pages import pages_of as pages_of_report
 from carpus.ui.report.progress_page import made_of
 from carpus.ui.terms import LEGAL_SENTENCE
@@ -296,3 +297,12 @@ def test_the_preview_shows_the_lines_and_places_of_the_pdf(qapp: QApplication, t
     rough = [cv2.blur(picture[:high], (9, 9)).astype(float) for picture in (printed, shown)]
     assert np.abs(rough[0] - rough[1]).max() < 90.0, "a line that was broken elsewhere would be black beside white"
     assert np.corrcoef(rough[0].ravel(), rough[1].ravel())[0, 1] > 0.98
+
+
+@pytest.mark.usefixtures("qapp")
+def test_comment_with_pictures_and_empty_lines_breaks_between_words() -> None:
+    words = ("😀 🎉 " * 6 + "flexion of the wrist goes well today ") * 3
+    lines = break_lines(words, 9.0, 200.0)
+    assert len(lines) > 4
+    assert " ".join(lines).split() == words.split()
+    assert break_lines("a\n\nb", 9.0, 200.0) == ["a", "", "b"]

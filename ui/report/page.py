@@ -168,6 +168,7 @@ def break_lines(words: str, size: float, width: float) -> list[str]:
     """A text in lines no wider than that; a word that is wider is broken too."""
     found = []
     for part in words.splitlines():
+        letters = part.encode("utf-16-le")  # as Qt counts them: a picture among letters is two
         lines = QTextLayout(part, PAPER.font(size, REGULAR))
         option = lines.textOption()
         option.setWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
@@ -175,9 +176,9 @@ def break_lines(words: str, size: float, width: float) -> list[str]:
         lines.beginLayout()
         while (one := lines.createLine()).isValid():
             one.setLineWidth(PAPER.px(width))
-            found.append(part[one.textStart() : one.textStart() + one.textLength()].rstrip())
+            start, end = 2 * one.textStart(), 2 * (one.textStart() + one.textLength())
+            found.append(letters[start:end].decode("utf-16-le").rstrip())
         lines.endLayout()
-        found += [] if part else [""]
     return found
 
 
