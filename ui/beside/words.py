@@ -144,7 +144,7 @@ def difference_table(both: SideBySide) -> TableWords:
     first, second = name_of(both.first, both.second), name_of(both.second, both.first)
     heads = (
         tr("Movement"), pattern.format(name=first), pattern.format(name=second), tr("Difference"), tr("Error"),
-        tr("In words"),
+        Cell(tr("In words"), MEDIUM, "text2", sign="none"),  # as far in as the words below it
     )  # fmt: skip
     rows = [_line_of_both(one, both) for one in both.ranges]
     rows += [_line_of_one(row, both, is_first=is_first) for row, is_first in both.alone if row.count]
