@@ -54,6 +54,25 @@ def settings(theme: Theme, show: Show[SettingsScreen]) -> Settings:
     return one
 
 
+def test_settings_that_are_not_offered_stay_when_another_is_chosen(settings: Settings) -> None:
+    by_hand = {"text_scale": 1.2, "language": "fr", "therapist": "Initials of many"}
+    screen, told = settings(**by_hand)
+    screen.chosen["research"].click()
+    assert told == [Preferences(research=True, **by_hand)]
+    screen.keep_language("fr", "not now")
+    screen.chosen["text_scale"].buttons()[2].click()
+    assert told[-1] == Preferences(research=True, **by_hand | {"text_scale": 1.5})
+
+
+def test_language_that_was_refused_when_chosen_again_is_told_again(settings: Settings) -> None:
+    screen, told = settings(language="de")
+    italian = screen.chosen["language"].buttons()[2]
+    italian.click()
+    screen.keep_language("de", "a session is recorded")
+    italian.click()
+    assert [one.language for one in told] == ["it", "it"]
+
+
 def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication) -> None:
     assert {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts())
     assert QFontInfo(font(14)).family().startswith("Carpus Inter")

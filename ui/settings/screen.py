@@ -46,6 +46,7 @@ class SettingsScreen(QWidget):
         table = self._table(theme)
         self.chosen = Form(theme, [field for *_, fields in table for field in fields])
         self.chosen.fill(preferences)
+        self._shown = self.chosen.values()
         self.chosen["therapist"].setMaximumWidth(theme.px(220))
         self.language_note = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.language_note.hide()
@@ -226,6 +227,7 @@ class SettingsScreen(QWidget):
         """The language cannot be changed now: the old one stays chosen, and why is said."""
         self.preferences = replace(self.preferences, language=code)
         self.chosen["language"].choose(code)
+        self._shown = self.chosen.values()
         self.language_note.say(why)
 
     def add_cards(self, part: PartName, *cards: Card) -> None:
@@ -273,7 +275,11 @@ class SettingsScreen(QWidget):
             self.changed.emit(preferences)
 
     def _apply_choices(self) -> None:
-        self._change(replace(self.preferences, **self.chosen.values()))
+        """Take what a person chose; the rest stays, also where the settings have what is not offered here."""
+        before, self._shown = self._shown, self.chosen.values()
+        self._change(
+            replace(self.preferences, **{name: new for name, new in self._shown.items() if new != before[name]})
+        )
         self._fold()
 
     def ask_folder(self) -> None:
