@@ -72,8 +72,10 @@ def _take_compiled() -> None:
             ask = "make compiled checked=1" if os.environ.get(_CHECKED) else "make compiled"
             raise pytest.UsageError(f"{source.name} has changed since it was compiled; run: {ask}")
     if os.environ.get(_CHECKED):
+        os.environ["CARPUS_UNCOMPILED"] = "1"  # else the package would load its own
         from carpus.core import compiled
 
+        del os.environ["CARPUS_UNCOMPILED"]
         compiled.__path__.insert(0, str(place))
 
 

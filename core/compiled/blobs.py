@@ -441,6 +441,9 @@ class BlobWindows:
         if reach.shape[0] != pixels or direction.shape[0] != pixels or wedge.shape[0] != self.rim_to - self.rim_from:
             raise ValueError("a stencil's arrays are not of the sizes that belong together")
         ways = wedge.shape[1]
+        for p in range(pixels):
+            if direction[p] >= ways:
+                raise ValueError("a stencil's directions are not of the sizes that belong together")
         offset: cython.const[cython.int][:, ::1] = self.offset
         core, rim_from, rim_to = self.core, self.rim_from, self.rim_to
         CORE, RIM, BLOB = ways, ways + 1, ways + 2

@@ -147,7 +147,8 @@ def transitioned(mixture: Any, step: Any, nominal: Array) -> tuple[Array, Array]
     chains, modes, n = before.shape[0], before.shape[1], before.shape[2]
     m: cython.Py_ssize_t = moving.shape[0]
     first: cython.Py_ssize_t = n - relaxing.shape[1]
-    if step.driven.shape != (modes, m, m) or step.kept.shape != (modes, n) or relaxing.shape[0] != modes or m > n:
+    sizes = [x.shape for x in (step.moving, step.driven, step.kept, step.relaxing)]
+    if sizes != [(m, m), (modes, m, m), (modes, n), (modes, n - first, n - first)] or m > n or first < 0:
         raise ValueError("a step is not of the mixture's size")
     out = np.empty((chains, modes, n, n))
     spread: cython.double[:, :, :, ::1] = out

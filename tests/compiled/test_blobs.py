@@ -249,6 +249,9 @@ def test_pictures_and_tables_that_do_not_fit_are_refused() -> None:
         lambda: BlobWindows(scene.blobs, replace(scene.stencil, reach=scene.stencil.reach[1:])).locate_centres(
             scene.color
         ),
+        lambda: BlobWindows(
+            scene.blobs, replace(scene.stencil, direction=np.full_like(scene.stencil.direction, 255))
+        ).locate_centres(scene.color),
         lambda: seen.read_depths(np.pad(scene.raw, ((0, 0), (0, 16))), UNIT_M, D435),
         lambda: seen.read_depths(scene.raw.astype(np.int32), UNIT_M, D435),
         lambda: BlobWindows(scene.blobs, replace(scene.stencil, near=slice(0, 9999))).read_depths(scene.raw, 1.0, D435),

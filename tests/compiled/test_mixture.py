@@ -177,8 +177,16 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
     with pytest.raises(ValueError, match="row"):
         mixed(mixture, np.ones((2, 2)))
     step = step_of(np.random.default_rng(2), 3, 5)
-    with pytest.raises(ValueError, match="size"):
-        transitioned(mixture, replace(step, kept=step.kept[:2]), np.ones(5))
+    wide = np.ones((3, 9, 9))
+    for wrong_step in (
+        replace(step, kept=step.kept[:2]),
+        replace(step, moving=step.moving[:, :0]),
+        replace(step, moving=np.ones((len(step.moving), 99))),
+        replace(step, relaxing=step.relaxing[..., :-1]),
+        replace(step, relaxing=wide),
+    ):
+        with pytest.raises(ValueError, match="size"):
+            transitioned(mixture, wrong_step, np.ones(5))
 
 
 @pytest.mark.parametrize("wrong", ["covariance", "about", "measured", "variance", "shared", "partial"])
