@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -96,7 +97,8 @@ class ClockCurves:
     @property
     def weight(self) -> FloatArray:
         """What counts in a match: how far each signal moves in both."""
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # what is known nowhere has no spread
             spread = np.nanstd(self.mine, axis=0) * np.nanstd(self.other, axis=0)
         return np.where(np.isfinite(spread), spread, 0.0)
 

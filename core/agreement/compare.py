@@ -116,6 +116,8 @@ def compare(
     """
     if not len(session):
         raise ReferenceUnsuited(reference.path, phrase("the session holds no picture"))
+    if not (len(reference.time_s) or reference.readings):
+        raise _nothing_in_common(reference)
     motion = best_motion(session) if smoothed else session.motion
     time_s = session.timestamp_s - session.timestamp_s[0]
     use = np.asarray(session.status) == TrackStatus.TRACKED
@@ -201,13 +203,15 @@ def _shift(
     return shift
 
 
+def _nothing_in_common(reference: Reference) -> ReferenceUnsuited:
+    why = phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{LEAST_OVERLAP_S:g}")
+    return ReferenceUnsuited(reference.path, why)
+
+
 def _check_match(reference: Reference, curves: ClockCurves, shift: Shift) -> None:
     """Cleared of drift, which over minutes blurs what is the same movement."""
     if math.isnan(shift.match):
-        raise ReferenceUnsuited(
-            reference.path,
-            phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{LEAST_OVERLAP_S:g}"),
-        )
+        raise _nothing_in_common(reference)
     match = abs(shift.match)
     if math.isfinite(shift.drift_found):
         cleared = Shift(shift.lag_without_drift_s, math.nan, drift=shift.drift + shift.drift_found)
@@ -331,7 +335,7 @@ def _curves_of_angles(
         if reference.angles_rad:
             why = phrase("no angle of the session is in it; it has {there}", there=there)
         raise ReferenceUnsuited(reference.path, why)
-    names = [name for name in names if np.nanstd(own[name]) > 0.0]
+    names = [name for name in names if np.fmax.reduce(own[name]) > np.fmin.reduce(own[name])]
     theirs_s = _since_start(reference, session)
     mine = np.column_stack([own[name] for name in names]) if names else np.empty((len(time_s), 0))
     other = np.column_stack([reference.angles_rad[name] for name in names]) if names else np.empty((len(theirs_s), 0))

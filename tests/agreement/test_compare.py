@@ -204,6 +204,14 @@ def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
     assert found.pairs[0].figures_deg.bias == pytest.approx(-2.0)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_reference_that_holds_nothing_is_refused_in_one_sentence(session: Session) -> None:
+    unknown = {"flexion": np.full(900, np.nan)}
+    for times_s, angles in ((np.empty(0), {"flexion": np.empty(0)}), (np.arange(900) / 30.0, unknown)):
+        with pytest.raises(ReferenceUnsuited, match="in common"):
+            compare(session, Reference(Path("x.mot"), "angles", times_s, angles))
+
+
 def test_another_movement_is_not_compared(session: Session) -> None:
     rng = np.random.default_rng(2)
     noise = {"flexion": np.cumsum(rng.normal(size=3000)) * 0.01}
