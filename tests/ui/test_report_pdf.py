@@ -23,7 +23,7 @@ from carpus.core.provenance import revision
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import PAPERS, Paper, ReportForm
 from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
-from carpus.ui.report.page import break_lines
+from carpus.ui.report.page import BODY_PT, PAPER, break_lines, facts, fit_parts, page_head
 from carpus.ui.report.pages import pages_of as pages_of_report
 from carpus.ui.report.progress_page import made_of
 from carpus.ui.terms import LEGAL_SENTENCE
@@ -170,6 +170,12 @@ def test_a_session_without_any_tracked_frame_still_gives_an_honest_page(tmp_path
     words = words_of(path)
     assert "No range could be measured." in words
     assert "0.0 % of" in words
+    assert "known to about" not in words, "nothing is known"
+
+
+def test_a_name_longer_than_the_page_leaves_the_page_its_size(qapp: QApplication) -> None:
+    for parts in (page_head("Report", "", 64 * "W", "Wrist flexion"), facts([("Date", "today"), ("Note", 200 * "W")])):
+        assert fit_parts(parts, PAPER.px(BODY_PT), PAPER.px(800.0))[1] == 1.0
 
 
 def test_the_progress_report_gives_the_answer_and_names_what_was_left_out(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
@@ -50,6 +51,15 @@ class _Paper(Theme):
         take()
 
 
+_LONG_WORD = re.compile(r"\S{28,}")
+"""Longer than any of a language: a name that somebody typed, and that would make all of the page small."""
+
+
+def _break_anywhere(word: re.Match[str]) -> str:
+    """A word that may go on in the next line after every letter."""
+    return "\u200b".join(word[0])
+
+
 Body = Callable[[str], QLayout]
 """What is on a page, in whose head the words say which of how many it is."""
 PAPER = _Paper()
@@ -63,7 +73,7 @@ def points(*sizes: float) -> tuple[int, ...]:
 
 def paragraph(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> PlainText:
     """A paragraph."""
-    return PlainText(PAPER, words, size, weight, token, wrap=True)
+    return PlainText(PAPER, _LONG_WORD.sub(_break_anywhere, words), size, weight, token, wrap=True)
 
 
 def label(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> PlainText:
@@ -98,6 +108,7 @@ def line_or_column(first: PlainText, *rest: QWidget | float, is_apart: bool = Tr
         return line((first, 0, Qt.AlignmentFlag.AlignBottom), *behind)
     for one in (first, *rest):
         if isinstance(one, PlainText) and one.sizeHint().width() > PAPER.px(BODY_PT):
+            one.setText(_LONG_WORD.sub(_break_anywhere, one.text()))
             one.setWordWrap(True)
     return column(first, line(*rest, *([] if len(rest) == 1 else [STRETCH])))
 
