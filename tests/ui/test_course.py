@@ -7,13 +7,15 @@ from dataclasses import replace
 from datetime import timedelta
 
 import pytest
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QImage, QPainter
 from pytestqt.qtbot import QtBot
 
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.progress import progress
 from carpus.ui.plot import course
 from carpus.ui.plot.course import ProgressChart
+from carpus.ui.plot.style import paper_style
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeSessions
 from tests.ui.test_plots import drag, move
@@ -132,3 +134,25 @@ def test_figures_of_two_sessions_never_stand_on_each_other(
     assert panels
     assert len(set(said_at)) == said
     assert len(said_at) % (said * panels) == 0
+
+
+@pytest.mark.usefixtures("qapp")
+def test_course_on_paper_has_a_square_for_each_value_by_hand(
+    store: FakeSessions, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    alike = [figures for figures in store.history("linden") if figures.side == "right"]
+    days = sorted(figures.when.date() for figures in alike)
+    by_hand = tuple(HandValue("FLEXION", "active", "right", day, (45.0,)) for day in (days[0], days[-1]))
+    squares: list[int] = []
+    add_symbols = ProgressChart.add_symbols
+
+    def count(chart: ProgressChart, symbol: str = "o", *given: object, **named: object) -> object:
+        item = add_symbols(chart, symbol, *given, **named)
+        squares.append(len(item.points()) if symbol == "s" else 0)
+        return item
+
+    monkeypatch.setattr(ProgressChart, "add_symbols", count)
+    picture = QImage(800, 500, QImage.Format.Format_RGB32)
+    with QPainter(picture) as painter:
+        course.paint_chart(painter, paper_style(1.0), QRectF(picture.rect()), replace(progress(alike), by_hand=by_hand))
+    assert sum(squares) == len(by_hand) + 1  # and one that says what they mean

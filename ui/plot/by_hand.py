@@ -39,7 +39,7 @@ def add_by_hand(
     ``joined``: a thin line between them, where nothing else is in the panel; ``sessions``: when ours were. What is
     beyond the axis of time is an arrow at its end.
     """
-    panel, chart, (start, end) = plot.panel, plot.chart, plot.viewRange()[0]
+    panel, chart, start, end = plot.panel, plot.chart, plot.local_panel.start_s, plot.local_panel.end_s
     times = [day_s(one.day, sessions) for one in values]
     places = [
         QPointF(float(plot.scene_x(at)), float(panel.y(one.value))) for at, one in zip(times, values, strict=True)
