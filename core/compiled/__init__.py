@@ -33,6 +33,6 @@ if not os.environ.get("CARPUS_UNCOMPILED"):
         raise CompiledPartMissing(", ".join(_missing))
     for _name in find_sources(Path(__file__).parent):
         try:
-            import_module(f"{__name__}.{_name}")
+            import_module(f"{__package__}.{_name}")
         except ImportError as _cause:  # cut short, or of another computer
             raise CompiledPartMissing((_cause.name or _name).rpartition(".")[2]) from _cause
