@@ -97,13 +97,24 @@ def pytest_xdist_auto_num_workers() -> int:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection() -> Iterator[None]:
-    """What is loaded and collected by now stays: the collector need not look through it again and again."""
+    """What is loaded and collected by now stays: the collector need not look through it again and again.
+
+    From here on garbage is collected between tests, in their thread, as the window does in its own: Qt's objects must
+    not be destroyed in another one.
+    """
     gc.disable()
     try:
         return (yield)
     finally:
         gc.freeze()
-        gc.enable()
+
+
+_TESTS = itertools.count(1)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown() -> None:
+    gc.collect(1 if next(_TESTS) % 20 else 2)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -17,6 +17,7 @@ from carpus.app.desktop.screens import load_core, load_screens
 from carpus.app.desktop.welcoming import Tour, Welcome
 from carpus.core.records.library import Library
 from carpus.ui.background import Background
+from carpus.ui.collector import Collector
 from carpus.ui.last_places import LastPlaces, place_of, put_in_place
 from carpus.ui.records.backing_up import BackingUp
 from carpus.ui.records.erasing import Erasing
@@ -30,12 +31,12 @@ SETTLED_MS = 200
 """After the first picture, which need not wait for it."""
 
 
-def settle() -> None:
-    """All that was built by now stays: the collector, which a start leaves aside, need not look through it again while
-    frames come."""
-    gc.enable()
+def settle(application: QApplication) -> None:
+    """Begin to collect garbage; all that was built by now stays, and is not looked through again while frames come."""
     gc.collect()
     gc.freeze()
+    if application.findChild(Collector) is None:  # another language opens the window again
+        Collector(application)
 
 
 @dataclass(eq=False)
@@ -84,7 +85,7 @@ class Desktop:
         if is_reopened:
             self.journey.way.show("settings")
         QTimer.singleShot(SETTLED_MS, self._load)
-        self.journey.way.made.connect(lambda: QTimer.singleShot(SETTLED_MS, settle))
+        self.journey.way.made.connect(lambda: QTimer.singleShot(SETTLED_MS, lambda: settle(self.application)))
 
     def _load(self) -> None:
         """While the window waits for the person: what the other screens are made of, as far as it may be in a thread of
@@ -104,7 +105,7 @@ class Desktop:
         if next(loaded, ""):
             QTimer.singleShot(0, lambda: self._load_on(loaded))
         else:
-            settle()
+            settle(self.application)
 
     def reopen(self) -> None:
         """The language was changed: this window closes, and who opened it opens another one."""

@@ -1,0 +1,28 @@
+"""Cyclic garbage is collected in the window's thread alone: Qt's objects must not be destroyed in another one."""
+
+from __future__ import annotations
+
+import gc
+
+from PySide6.QtCore import QObject, QTimer
+
+COLLECT_MS = 100
+
+
+def collect_due_garbage() -> None:
+    """Collect the oldest generation that is due, as Python does by itself where its collector is enabled."""
+    for generation in (2, 1, 0):
+        if gc.get_count()[generation] > gc.get_threshold()[generation]:
+            gc.collect(generation)
+            return
+
+
+class Collector(QObject):
+    """Takes the place of Python's collector, which runs in whichever thread has just made an object."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        gc.disable()
+        self._timer = QTimer(self, interval=COLLECT_MS)
+        self._timer.timeout.connect(collect_due_garbage)
+        self._timer.start()
