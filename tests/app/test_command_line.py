@@ -112,7 +112,7 @@ def test_tracking_says_what_of_the_camera_is_assumed(recording: Path, tmp_path: 
     write_oni(path, in_millimetres(islice(source.frames(), 3)), source.info.camera, fps=30, color="jpeg")
     for sidecar in tmp_path.glob("*.yaml"):
         sidecar.unlink()
-    assert "depth lies on colour" in tracked(command, path, tmp_path / "s.h5", clicks=none)[1]
+    assert "depth and colour are aligned" in tracked(command, path, tmp_path / "s.h5", clicks=none)[1]
 
 
 def test_clicks_from_something_endless(recording: Path, tmp_path: Path, command: Command) -> None:

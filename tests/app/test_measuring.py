@@ -147,7 +147,7 @@ def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
     assert event.kind == NOT_LOOKED_BACK
     assert "SIGKILL" in event.text
     (line,) = caplog.records
-    assert "could not look back" in line.getMessage()
+    assert "Smoothing of this session failed" in line.getMessage()
     assert "killed.h5" in line.getMessage()
     assert line.exc_info is None
 

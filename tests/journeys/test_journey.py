@@ -271,7 +271,7 @@ def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_sto
         full.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
         journey.live.screen.recording.toggle()
         wait(qtbot, card.isVisible)
-    assert "20 MB free" in card.what.text()
+    assert "20 MB free" in card.details.full_text()
     assert journey.live.screen.recording.state == "off"
     assert list(folder.rglob("*.h5*")) == []
     click(qtbot, card.answers[-1])
@@ -344,7 +344,7 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     goes_on(Qt.Key.Key_Return)
     feed.notice(CameraLost("Xtion", "unplugged"))
     wait(qtbot, lambda: card().isVisible())
-    assert "sends no more pictures" in card().what.text()
+    assert "has stopped sending images" in card().what.text()
     assert "stored" in card().safe_detail.text()
     feed.notice(CameraReturned("Xtion", "3 s"))
     wait(qtbot, lambda: not card().isVisible())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QPainter, QPalette, QPen
+from PySide6.QtGui import QPainter, QPalette, QPen, QShowEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.ui.controls.layouts import Fitted, in_column
@@ -61,14 +61,18 @@ class Fill(QWidget):
 
     def __init__(self, theme: Theme, token: str) -> None:
         super().__init__()
+        self._theme, self._token = theme, token
         self.setAutoFillBackground(True)
+        theme.follow(self, self._apply_theme)
 
-        def apply_theme() -> None:
-            palette = self.palette()
-            palette.setColor(QPalette.ColorRole.Window, theme.color(token))
-            self.setPalette(palette)
+    def _apply_theme(self) -> None:
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.Window, self._theme.color(self._token))
+        self.setPalette(palette)
 
-        theme.follow(self, apply_theme)
+    def showEvent(self, event: QShowEvent) -> None:
+        self._apply_theme()  # the style sheet gives one that was hidden while the colours changed its old ones back
+        super().showEvent(event)
 
 
 class Line(Fill):
