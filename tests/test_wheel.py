@@ -21,6 +21,7 @@ from tests.rendered import FLEXION, Rendered
 from tests.session.test_golden import unpacked
 
 ROOT = Path(__file__).parents[1]
+pytestmark = pytest.mark.xdist_group("wheel")  # all build in the checkout's own folder
 PARTS = ("app", "core", "ui", "resources")
 FACE = {"carpus/__init__.py", "carpus/__main__.py", "carpus/py.typed"}
 REVISION = "carpus/resources/revision.txt"

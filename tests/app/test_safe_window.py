@@ -6,6 +6,7 @@ import gc
 import shutil
 import sys
 import threading
+import weakref
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
@@ -14,7 +15,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QAbstractItemView, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -28,6 +29,7 @@ from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.restoring import put_in_place
 from carpus.core.records.values import BackupSettings, Patient
+from carpus.ui.collector import Collector
 from carpus.ui.messages.messages import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
@@ -397,12 +399,15 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
     assert lists.log_sheet.title.text() == f"Log: {table.rowCount()} lines"
 
 
-def test_a_start_leaves_the_collector_aside_until_the_first_picture_is_there(opened: Open, qtbot: QtBot) -> None:
+def test_garbage_is_collected_in_the_windows_thread_once_the_first_picture_is_there(opened: Open, qtbot: QtBot) -> None:
     frozen = gc.get_freeze_count()
-    gc.disable()
-    try:
-        opened()
-        qtbot.waitUntil(gc.isenabled, timeout=60_000)
-        assert gc.get_freeze_count() > frozen + 1000
-    finally:
-        gc.enable()
+    desktop = opened()
+    qtbot.waitUntil(lambda: desktop.application.findChild(Collector) is not None, timeout=60_000)
+    assert gc.get_freeze_count() > frozen + 1000
+    assert not gc.isenabled(), "it would run in any thread"
+    item = QObject()
+    item.itself = item  # type: ignore[attr-defined]
+    gone = weakref.ref(item)
+    del item
+    others: list[list[int]] = []
+    qtbot.waitUntil(lambda: others.extend([] for _ in range(2000)) is None and gone() is None)
