@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import re
 import shutil
@@ -21,11 +22,19 @@ from tests.rendered import FLEXION, Rendered
 from tests.session.test_golden import unpacked
 
 ROOT = Path(__file__).parents[1]
-pytestmark = pytest.mark.xdist_group("wheel")  # all build in the checkout's own folder
 PARTS = ("app", "core", "ui", "resources")
 FACE = {"carpus/__init__.py", "carpus/__main__.py", "carpus/py.typed"}
 REVISION = "carpus/resources/revision.txt"
 COMPILED = ROOT / "core" / "compiled"
+
+
+def build_in_checkout(code: str) -> None:
+    """Build in the checkout's own folder, one process at a time: a build clears what another one has laid there."""
+    (ROOT / "build").mkdir(exist_ok=True)
+    with (ROOT / "build" / "wheel.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-2000:]
 
 
 @pytest.fixture(scope="module")
@@ -33,11 +42,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Built as pip builds it."""
     folder = tmp_path_factory.mktemp("wheel")
     made = f"from setuptools.build_meta import build_wheel; print(build_wheel({str(folder)!r}))"
-    for _ in range(2):  # files of the checkout may come and go while other tests run
-        done = subprocess.run([sys.executable, "-c", made], cwd=ROOT, check=False, capture_output=True, text=True)
-        if done.returncode == 0:
-            break
-    assert done.returncode == 0, done.stderr[-2000:]
+    build_in_checkout(made)
     (path,) = folder.glob("*.whl")
     return path
 
@@ -79,7 +84,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The source archive."""
     folder = tmp_path_factory.mktemp("source")
     made = f"from setuptools.build_meta import build_sdist; print(build_sdist({str(folder)!r}))"
-    subprocess.run([sys.executable, "-c", made], cwd=ROOT, check=True, capture_output=True)
+    build_in_checkout(made)
     (path,) = folder.glob("*.tar.gz")
     return path
 
