@@ -24,21 +24,27 @@ from importlib import import_module
 from pathlib import Path
 from typing import NoReturn
 
-from carpus.app.command_line import CommandParser, flushed, on_stop, open_closed, say
+from carpus.app.command_line import (
+    CommandParser,
+    flush_stream,
+    handle_stop_signals,
+    print_message,
+    reopen_closed_streams,
+)
 from carpus.app.commands import COMMANDS
-from carpus.core.durable import FULL
+from carpus.core.durable import DISK_FULL_ERRNOS
 from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.purpose import PURPOSE
 from carpus.core.version import __version__
 
-EXIT_DONE, EXIT_COULD_NOT = 0, 1
+EXIT_DONE, EXIT_FAILED = 0, 1
 
 if _INTERRUPTED is signal.default_int_handler:
     with suppress(ValueError):
         signal.signal(signal.SIGINT, _INTERRUPTED)
 
 
-def parser(asked: Sequence[str]) -> CommandParser:
+def build_parser(asked: Sequence[str]) -> CommandParser:
     """The command line; only the command that is asked for brings its options."""
     out = CommandParser(
         prog="carpus",
@@ -65,8 +71,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if _is_session_file(asked):
         asked = ["review", *asked]
     os.umask(0o077)  # whatever is written is about a patient: for its owner only
-    open_closed()
-    on_stop(_interrupt)
+    reopen_closed_streams()
+    handle_stop_signals(_raise_interrupt)
     code = EXIT_DONE
     words: str | None = None
     usage: SystemExit | None = None
@@ -77,16 +83,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Exception as cause:
         if os.environ.get("CARPUS_DEBUG") and not isinstance(cause, CarpusFault | OSError):
             raise
-        code, words = EXIT_COULD_NOT, _words(cause)
+        code, words = EXIT_FAILED, _describe_failure(cause)
     except KeyboardInterrupt:
-        code, words = EXIT_COULD_NOT, "stopped."
+        code, words = EXIT_FAILED, "stopped."
     # Before the code is decided: what was printed may still wait to be written.
-    cut = flushed(sys.stdout)
+    cut = flush_stream(sys.stdout)
     if cut is not None and code == EXIT_DONE:
-        code, words, usage = EXIT_COULD_NOT, _words(cut), None
+        code, words, usage = EXIT_FAILED, _describe_failure(cut), None
     if words is not None:
-        say(words)
-    flushed(sys.stderr)
+        print_message(words)
+    flush_stream(sys.stderr)
     if usage is not None:
         raise usage
     return code
@@ -99,10 +105,10 @@ def _is_session_file(asked: Sequence[str]) -> bool:
 
 
 def _run(asked: Sequence[str]) -> int:
-    top = parser(asked)
+    top = build_parser(asked)
     arguments, extra = top.parse_known_args(asked)
     if extra:
-        getattr(arguments, "parser", top).refuse(extra)
+        getattr(arguments, "build_parser", top).reject_unknown(extra)
     if arguments.command is None:
         from carpus.app.commands import desktop
 
@@ -110,17 +116,17 @@ def _run(asked: Sequence[str]) -> int:
     return int(arguments.run(arguments))
 
 
-def _words(cause: Exception) -> str | None:
+def _describe_failure(cause: Exception) -> str | None:
     """One sentence, or None where nobody is left to tell."""
     if isinstance(cause, CarpusFault):
-        from carpus.core.words import one_sentence
+        from carpus.core.words import format_fault_line
 
-        return one_sentence(cause)
+        return format_fault_line(cause)
     if isinstance(cause, BrokenPipeError):
         return None  # the reader of our output went away (`carpus info FILE | head`)
     if isinstance(cause, OSError):
-        if cause.errno in FULL:
-            return _words(DiskFull(cause.filename or "", cause.strerror or ""))
+        if cause.errno in DISK_FULL_ERRNOS:
+            return _describe_failure(DiskFull(cause.filename or "", cause.strerror or ""))
         subject = "" if cause.filename is None else f" {cause.filename}"
         reason = cause.strerror or cause
         return f"the system refuses{subject} ({reason}); check the file and the room on its disk."
@@ -135,7 +141,7 @@ def _words(cause: Exception) -> str | None:
     )
 
 
-def _interrupt() -> NoReturn:
+def _raise_interrupt() -> NoReturn:
     raise KeyboardInterrupt
 
 

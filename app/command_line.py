@@ -15,22 +15,22 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 
-from carpus.core.capture.devices.cameras import CAMERAS, check_address
+from carpus.core.capture.devices.cameras import CAMERAS, validate_address
 from carpus.core.errors import CameraUnknown
-from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
-from carpus.core.names import known_names, nearest
-from carpus.core.rounding import written
+from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
+from carpus.core.names import describe_known_names, find_similar_name
+from carpus.core.rounding import format_rounded
 
 if TYPE_CHECKING:
     from carpus.core.errors import CarpusFault
 
 
-_STOPS = ("SIGINT", "SIGTERM", "SIGHUP")
-SPEAK_AFTER_S = 10.0
+_STOP_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+SUMMARY_AFTER_S = 10.0
 """What took as long is told at its end in one line, with how fast it went."""
 
 
-def open_closed() -> None:
+def reopen_closed_streams() -> None:
     """A stream closed by whoever started us would give its number to the next file, and messages would go there."""
     for number in range(3):
         try:
@@ -40,7 +40,7 @@ def open_closed() -> None:
     sys.stdin, sys.stdout, sys.stderr = (stream or io.StringIO() for stream in (sys.stdin, sys.stdout, sys.stderr))
 
 
-def flushed(stream: TextIO) -> OSError | None:
+def flush_stream(stream: TextIO) -> OSError | None:
     """Write out what ``stream`` still holds; returns why that is impossible.
 
     What it holds then goes nowhere: the interpreter would try again at its end, and end in 120.
@@ -56,22 +56,22 @@ def flushed(stream: TextIO) -> OSError | None:
     return None
 
 
-def say(sentence: str, whose: str = "carpus") -> None:
+def print_message(sentence: str, prefix: str = "carpus") -> None:
     """One line on standard error, where that can be written."""
     with suppress(OSError):  # it waits in the stream, and comes once there is room
-        print(f"{whose}: {sentence}", file=sys.stderr, flush=True)
+        print(f"{prefix}: {sentence}", file=sys.stderr, flush=True)
 
 
-def tell(fault: CarpusFault) -> None:
+def print_fault(fault: CarpusFault) -> None:
     """One line of what a source tells and does not raise."""
-    from carpus.core.words import one_sentence
+    from carpus.core.words import format_fault_line
 
-    say(one_sentence(fault))
+    print_message(format_fault_line(fault))
 
 
-def misused(command: str, sentence: str) -> int:
+def report_usage_error(command: str, sentence: str) -> int:
     """Wrong usage that no option shows by itself: one line, and the exit code."""
-    say(sentence, f"carpus {command}")
+    print_message(sentence, f"carpus {command}")
     return 2
 
 
@@ -82,7 +82,7 @@ class ShowProgress(Protocol):
 
 
 @contextmanager
-def bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
+def progress_bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
     """A bar with how fast it goes and the time left, which goes when the work is over; nothing where stderr is no
     terminal. Of work that took long one line stays, of any."""
     from tqdm import tqdm  # as long to load as a tenth of the tracker
@@ -101,17 +101,17 @@ def bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
 
         yield show
     seconds = time.monotonic() - begin_s
-    if last and seconds >= SPEAK_AFTER_S:
+    if last and seconds >= SUMMARY_AFTER_S:
         behind = f", {note_now}" if note_now else ""
-        say(f"{what}, {last} {unit}s in {written(seconds)} s, {last / seconds:.3g} a second{behind}")
+        print_message(f"{what}, {last} {unit}s in {format_rounded(seconds)} s, {last / seconds:.3g} a second{behind}")
 
 
-def on_stop(action: Callable[[], object]) -> None:
+def handle_stop_signals(action: Callable[[], object]) -> None:
     """From now on whatever asks to stop makes ``action`` happen.
 
     What the program was told to ignore by whoever started it (nohup, a job in the background) it goes on ignoring.
     """
-    for name in _STOPS:
+    for name in _STOP_SIGNALS:
         number = getattr(signal, name, None)  # Windows knows no SIGHUP
         if number is not None and signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, lambda *_: action())
@@ -134,43 +134,43 @@ class CommandParser(argparse.ArgumentParser):
         if action.choices is not None and value not in action.choices:
             names = [str(name) for name in action.choices]
             if action.dest == "command":
-                meant = nearest(str(value), names)
-                also = f". Did you mean “{meant}”?" if meant else f"; {known_names(str(value), names)}"
+                meant = find_similar_name(str(value), names)
+                also = f". Did you mean “{meant}”?" if meant else f"; {describe_known_names(str(value), names)}"
                 raise argparse.ArgumentError(None, f"Unknown command “{value}”{also}")
-            raise argparse.ArgumentError(action, f"no “{value}” is known; {known_names(str(value), names)}")
+            raise argparse.ArgumentError(action, f"no “{value}” is known; {describe_known_names(str(value), names)}")
 
-    def refuse(self, extra: Sequence[str]) -> NoReturn:
+    def reject_unknown(self, extra: Sequence[str]) -> NoReturn:
         """End because of words that no option asked for."""
         word = extra[0]
-        meant = nearest(word.partition("=")[0], self._option_string_actions) if word.startswith("-") else None
+        meant = find_similar_name(word.partition("=")[0], self._option_string_actions) if word.startswith("-") else None
         also = f"; did you mean “{meant}”?" if meant else ""
         self.error(f"nothing here is called “{word}”{also}")
 
 
-def table_form(text: str) -> TableForm:
+def parse_table_form(text: str) -> TableDialect:
     """The form of tables of a region; a region that there is not is wrong usage."""
-    from carpus.ui.saved_table import form_of
+    from carpus.ui.saved_table import regional_table_form
 
     try:
-        return form_of(text)
+        return regional_table_form(text)
     except ValueError as cause:
         raise argparse.ArgumentTypeError(str(cause)) from cause
 
 
-def add_region(parser: argparse.ArgumentParser) -> None:
+def add_region_option(parser: argparse.ArgumentParser) -> None:
     """The option in whose form tables are written."""
     parser.add_argument(
         "--region",
-        type=table_form,
+        type=parse_table_form,
         dest="form",
-        default=FOR_PROGRAMS,
+        default=MACHINE_DIALECT,
         metavar="REGION",
         help="tables for a spreadsheet of this region, as de_DE, it_IT or en_GB: its separator and decimal sign, UTF-8 "
         "with a mark; else for programs, with comma and point",
     )
 
 
-def number(low: float = -math.inf, high: float = math.inf, unit: str = "") -> Callable[[str], float]:
+def number_type(low: float = -math.inf, high: float = math.inf, unit: str = "") -> Callable[[str], float]:
     """Reads a number from ``low`` to ``high``; anything else is wrong usage."""
 
     def read(text: str) -> float:
@@ -186,7 +186,7 @@ def number(low: float = -math.inf, high: float = math.inf, unit: str = "") -> Ca
     return read
 
 
-def count(low: int, high: int) -> Callable[[str], int]:
+def count_type(low: int, high: int) -> Callable[[str], int]:
     """Reads a whole number from ``low`` to ``high``; anything else is wrong usage."""
 
     def read(text: str) -> int:
@@ -201,10 +201,10 @@ def count(low: int, high: int) -> Callable[[str], int]:
     return read
 
 
-def camera_address(text: str) -> str:
+def parse_camera_address(text: str) -> str:
     """``KIND`` or ``KIND:WHICH`` of a live camera; an unknown kind is wrong usage."""
     try:
-        check_address(text)
+        validate_address(text)
     except CameraUnknown as fault:
         raise argparse.ArgumentTypeError(f"no kind of camera is called “{text}”; {fault.detail}") from None
     return text

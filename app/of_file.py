@@ -12,21 +12,21 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import say, tell
-from carpus.app.settings import Settings, load_sound_settings, sessions_folder
-from carpus.core.errors import CarpusFault, FolderMissing, NoDataFolder, StudyUnsuited
+from carpus.app.command_line import print_fault, print_message
+from carpus.app.settings import Settings, load_valid_settings, sessions_folder
+from carpus.core.errors import CarpusFault, DataFolderMissing, FolderMissing, StudyUnsuited
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_outline
 
 if TYPE_CHECKING:
     import sqlite3
 
-    from carpus.core.formats.formats import Exported
+    from carpus.core.formats.formats import ExportResult
     from carpus.core.records.library import Library
-    from carpus.core.records.log import Deed, Kind
-    from carpus.core.records.of_sessions import MadeKind
+    from carpus.core.records.log import AuditAction, SubjectKind
+    from carpus.core.records.of_sessions import OutputKind
     from carpus.core.records.store import Store
-    from carpus.core.results.figures import SessionFigures
+    from carpus.core.results.figures import SessionResults
     from carpus.core.results.repetition_rows import RepetitionChoices
     from carpus.core.results.report_form import ReportForm
 
@@ -35,10 +35,10 @@ STORE_FILE = "records.sqlite3"
 """As in :mod:`core.records`, which is loaded only for a file that lies in a data folder."""
 
 
-def data_folder_of(path: Path) -> Path | None:
+def find_data_folder(path: Path) -> Path | None:
     """The data folder in which a file lies, or this computer's for one on the clinic's share; None for any other."""
     parents = Path(os.path.realpath(path)).parents
-    settings, _ = load_sound_settings()
+    settings, _ = load_valid_settings()
     share = sessions_folder(settings)
     if share is not None and share.resolve() in parents and has_store(settings.data_folder):
         return settings.data_folder
@@ -47,50 +47,54 @@ def data_folder_of(path: Path) -> Path | None:
 
 def has_store(folder: Path) -> bool:
     """Whether a data folder has a list of patients: in it or, of this computer's own, on the clinic's server."""
-    return (folder / STORE_FILE).is_file() or bool(_server_of(folder))
+    return (folder / STORE_FILE).is_file() or bool(_find_server_url(folder))
 
 
-def look_for_store(folder: Path) -> None:
-    """Raises :class:`FolderMissing`, :class:`NoDataFolder` for a folder without a list of patients: a look makes
+def require_store(folder: Path) -> None:
+    """Raises :class:`FolderMissing`, :class:`DataFolderMissing` for a folder without a list of patients: a look makes
     none."""
     if not has_store(folder):
-        raise NoDataFolder(folder) if folder.is_dir() else FolderMissing(folder)
+        raise DataFolderMissing(folder) if folder.is_dir() else FolderMissing(folder)
 
 
-def open_store(folder: Path, *, only_reads: bool = False, told: Callable[[CarpusFault], None] = tell) -> Store:
+def open_store(
+    folder: Path, *, read_only: bool = False, on_fault: Callable[[CarpusFault], None] = print_fault
+) -> Store:
     """That of a data folder, on the clinic's server where it is this computer's own; also of one that cannot be
-    written, for who ``only_reads``. Raises what :func:`look_for_store` does, and the faults of a store."""
-    from carpus.core.records.store import Store, reading
+    written, for who ``read_only``. Raises what :func:`require_store` does, and the faults of a store."""
+    from carpus.core.records.store import Store, open_to_read
 
-    look_for_store(folder)
-    return (reading if only_reads else Store)(folder, _share_of(folder), _server_of(folder), told)
+    require_store(folder)
+    return (open_to_read if read_only else Store)(
+        folder, _find_shared_folder(folder), _find_server_url(folder), on_fault
+    )
 
 
-def copy_of_server(folder: Path) -> Callable[[], sqlite3.Connection] | None:
+def make_server_copier(folder: Path) -> Callable[[], sqlite3.Connection] | None:
     """Makes a copy of the store of a data folder that lies on the clinic's server; None for any other."""
 
-    def copied() -> sqlite3.Connection:
+    def copy_store() -> sqlite3.Connection:
         with open_store(folder) as store:
-            return store.copied()
+            return store.copy_to_memory()
 
-    return copied if _server_of(folder) else None
-
-
-def _server_of(folder: Path) -> str:
-    settings, _ = load_sound_settings()
-    return settings.records.url if _is_own(folder, settings) else ""
+    return copy_store if _find_server_url(folder) else None
 
 
-def _share_of(folder: Path) -> Path | None:
-    settings, _ = load_sound_settings()
-    return sessions_folder(settings) if _is_own(folder, settings) else None
+def _find_server_url(folder: Path) -> str:
+    settings, _ = load_valid_settings()
+    return settings.records.url if _is_default_folder(folder, settings) else ""
 
 
-def _is_own(folder: Path, settings: Settings) -> bool:
+def _find_shared_folder(folder: Path) -> Path | None:
+    settings, _ = load_valid_settings()
+    return sessions_folder(settings) if _is_default_folder(folder, settings) else None
+
+
+def _is_default_folder(folder: Path, settings: Settings) -> bool:
     return os.path.realpath(folder) == os.path.realpath(settings.data_folder)
 
 
-def is_of_practice(path: Path) -> bool:
+def is_practice_file(path: Path) -> bool:
     """Whether a file of a data folder is the practice patient's."""
     return Path(os.path.realpath(path)).parent.name == PRACTICE_PATIENT
 
@@ -99,38 +103,38 @@ def read_choices(path: Path) -> RepetitionChoices:
     """What a person left out or moved of a session; nothing outside every data folder."""
     from carpus.core.results.repetition_rows import RepetitionChoices
 
-    folder = data_folder_of(path)
+    folder = find_data_folder(path)
     if folder is None:
         return RepetitionChoices()
-    from carpus.core.records.of_sessions import choices
+    from carpus.core.records.of_sessions import read_choices
 
-    with open_store(folder, only_reads=True) as store:
-        return choices(store, read_outline(path).header.session_id)[0]
+    with open_store(folder, read_only=True) as store:
+        return read_choices(store, read_outline(path).header.session_id)[0]
 
 
 def read_comment(path: Path) -> str:
     """What the therapist wrote of a session last; empty outside every data folder."""
-    folder = data_folder_of(path)
+    folder = find_data_folder(path)
     if folder is None:
         return ""
-    from carpus.core.records.of_sessions import comments, latest
+    from carpus.core.records.of_sessions import current_comment, read_comments
 
-    with open_store(folder, only_reads=True) as store:
-        return latest(comments(store, read_outline(path).header.session_id))
+    with open_store(folder, read_only=True) as store:
+        return current_comment(read_comments(store, read_outline(path).header.session_id))
 
 
-def form_of(folder: Path) -> ReportForm:
+def read_report_form(folder: Path) -> ReportForm:
     """The form of reports of a data folder."""
     from carpus.core.records.of_clinic import read_form
     from carpus.core.results.report_form import ReportForm
 
     if not has_store(folder):
         return ReportForm()
-    with open_store(folder, only_reads=True) as store:
+    with open_store(folder, read_only=True) as store:
         return read_form(store)
 
 
-def sessions_in(places: Iterable[Path]) -> Iterator[Path]:
+def find_session_files(places: Iterable[Path]) -> Iterator[Path]:
     """Session files, and those of folders, in order. Raises :class:`FolderMissing`."""
     for place in places:
         if not place.exists():
@@ -139,94 +143,98 @@ def sessions_in(places: Iterable[Path]) -> Iterator[Path]:
 
 
 def read_figures(
-    places: Sequence[Path], told: Callable[[CarpusFault], object], named: Mapping[str, str] = MappingProxyType({})
-) -> tuple[list[SessionFigures], dict[str, str]]:
-    """Figures of all sessions, and their raters by session id; ``told`` hears of those that cannot be read.
+    places: Sequence[Path],
+    on_fault: Callable[[CarpusFault], object],
+    raters_by_file: Mapping[str, str] = MappingProxyType({}),
+) -> tuple[list[SessionResults], dict[str, str]]:
+    """Figures of all sessions, and their raters by session id; ``on_fault`` hears of those that cannot be read.
 
     Raises :class:`FolderMissing`, and :class:`StudyUnsuited` where none can be read.
     """
-    from carpus.core.results.figures import session_figures
+    from carpus.core.results.figures import compute_session_results
     from carpus.core.session.reader import read_session
 
     figures, raters, met = [], {}, set()
-    for path in sessions_in(places):
+    for path in find_session_files(places):
         try:
-            figures.append(session_figures(read_session(path), read_choices(path)))
+            figures.append(compute_session_results(read_session(path), read_choices(path)))
         except CarpusFault as fault:
-            told(fault)
+            on_fault(fault)
             continue
         for name in (path.name, path.stem):
-            if name in named:
-                raters[figures[-1].session_id] = named[name]
+            if name in raters_by_file:
+                raters[figures[-1].session_id] = raters_by_file[name]
                 met.add(name)
     if not figures:
         raise StudyUnsuited(places[0], "no session can be read")
-    for name in sorted(set(named) - met):
-        say(f"no session is called {name}, which the list of raters names.")
+    for name in sorted(set(raters_by_file) - met):
+        print_message(f"no session is called {name}, which the list of raters names.")
     return figures, raters
 
 
-def library_of(folder: Path, *, only_reads: bool = False) -> Library:
+def open_library(folder: Path, *, read_only: bool = False) -> Library:
     """Of a data folder, with the clinic's server and share where it is this computer's own; also of one that cannot be
-    written, for who ``only_reads``."""
+    written, for who ``read_only``."""
     from carpus.core.records.library import Library
 
-    url, share = _server_of(folder), _share_of(folder)
-    library = Library(folder, by="command", url=url, sessions=share, only_reads=only_reads)
-    library.who = initials
-    library.log_fault = tell
+    url, share = _find_server_url(folder), _find_shared_folder(folder)
+    library = Library(folder, source="command", url=url, sessions_folder=share, read_only=read_only)
+    library.get_initials = user_initials
+    library.on_fault = print_fault
     return library
 
 
-def initials() -> str:
+def user_initials() -> str:
     """Of the person at this computer, as the window knows them."""
-    return load_sound_settings()[0].report.therapist
+    return load_valid_settings()[0].report.therapist
 
 
-def note(did: Deed, path: Path, session_id: str) -> None:
+def log_session_action(action: AuditAction, path: Path, session_id: str) -> None:
     """Take down what a command does with a session; where that cannot be written a warning is said."""
-    folder = data_folder_of(path)
-    if folder is not None and not is_of_practice(path):
-        note_in(folder, did, "session", session_id)
+    folder = find_data_folder(path)
+    if folder is not None and not is_practice_file(path):
+        log_folder_action(folder, action, "session", session_id)
 
 
-def note_in(folder: Path, did: Deed, kind: Kind = "program", identity: str = "", **facts: int | str) -> None:
+def log_folder_action(
+    folder: Path, action: AuditAction, kind: SubjectKind = "program", identity: str = "", **facts: int | str
+) -> None:
     """Take down what a command does with a data folder; where that cannot be written a warning is said."""
-    from carpus.core.records.log import Log
+    from carpus.core.records.log import AuditLogWriter
 
     try:
         with open_store(folder) as store:
-            Log(store, "command", initials).note(did, kind, identity, **facts)
+            AuditLogWriter(store, "command", user_initials).write_entry(action, kind, identity, **facts)
     except CarpusFault as fault:
-        tell(fault)
+        print_fault(fault)
 
 
-def made(sessions: Sequence[tuple[Path, str]], files: Sequence[Path], kind: MadeKind) -> None:
+def log_created_files(sessions: Sequence[tuple[Path, str]], files: Sequence[Path], kind: OutputKind) -> None:
     """Take down what was made from sessions, each with its identity, so that it is named when one of them is erased."""
-    from carpus.core.records.of_sessions import remember_made
+    from carpus.core.records.of_sessions import record_output_files
 
-    folders = {path: data_folder_of(path) for path, _ in sessions}
+    folders = {path: find_data_folder(path) for path, _ in sessions}
     for folder in {one for one in folders.values() if one is not None}:
         own = [(path, session_id) for path, session_id in sessions if folders[path] == folder]
         try:
             with open_store(folder) as store:
-                remember_made(store, files, kind, [session_id for _, session_id in own])
+                record_output_files(store, files, kind, [session_id for _, session_id in own])
         except CarpusFault as fault:
-            tell(fault)
+            print_fault(fault)
             continue
         for path, session_id in own:
-            note("reported" if kind == "report" else "exported", path, session_id)
+            log_session_action("reported" if kind == "report" else "exported", path, session_id)
 
 
-def note_exported(done: Exported, *, deidentified: bool) -> None:
+def log_export(done: ExportResult, *, deidentified: bool) -> None:
     """Take down what was exported of sessions of a data folder, so that it is named when one of these is erased; what
     leads back to nobody is only noted."""
-    shared = [path for path in done.files if not any(path in of for of in done.parts.values())]
-    for path, own in done.parts.items():
-        if data_folder_of(path) is None:
+    shared = [path for path in done.files if not any(path in of for of in done.files_by_session.values())]
+    for path, own in done.files_by_session.items():
+        if find_data_folder(path) is None:
             continue
         session_id = read_outline(path).header.session_id
         if deidentified:
-            note("exported", path, session_id)
+            log_session_action("exported", path, session_id)
         else:
-            made([(path, session_id)], [*own, *shared], "export")
+            log_created_files([(path, session_id)], [*own, *shared], "export")

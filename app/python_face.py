@@ -17,29 +17,29 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from carpus.app.of_file import note, note_exported, read_choices
+from carpus.app.of_file import log_export, log_session_action, read_choices
 from carpus.app.sources import open_recording
-from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared
+from carpus.core.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S, Comparison
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import ANGLE_NAMES
-from carpus.core.calibration.candidates import marker_candidates
+from carpus.core.calibration.candidates import find_marker_candidates
 from carpus.core.calibration.clicks import read_clicks, write_clicks
-from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.naming import propose_labels
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, CarpusFault, RecordingEmpty, SettingsInvalid
-from carpus.core.formats.csv_tables import repetition_table, tables
-from carpus.core.formats.formats import FORMATS, Exported, Wanted, export_sessions
-from carpus.core.formats.new_output import FOR_PROGRAMS
-from carpus.core.formats.provenance import provenance
+from carpus.core.formats.csv_tables import build_repetition_table, build_tables
+from carpus.core.formats.formats import FORMATS, ExportRequest, ExportResult, export_sessions
+from carpus.core.formats.new_output import MACHINE_DIALECT
+from carpus.core.formats.provenance import build_provenance
 from carpus.core.hand.exercises import EXERCISES
-from carpus.core.hand.protocols import SITES, protocol_named
-from carpus.core.pipeline.track import TrackSettings, begin_tracking, track_recording
+from carpus.core.hand.protocols import SITES, get_protocol
+from carpus.core.pipeline.track import TrackSettings, start_tracking, track_recording
 from carpus.core.research.papers.chain import PaperSettings
 from carpus.core.research.papers.track import PaperTrackSettings
-from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.measures_table import measure_rows
+from carpus.core.results.figures import SessionResults, compute_session_results
+from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.session import reader
 from carpus.core.session.values import Session
 from carpus.core.simulation import recording
@@ -47,11 +47,11 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import Profile, TrackerSettings
 from carpus.core.types import BoolArray, FloatArray, Frame, Side, TrackedFrame, TrackStatus
-from carpus.core.words import one_sentence
+from carpus.core.words import format_fault_line
 
 FilterName = Literal["default", "paper"]
 Dip = Literal["coupled", "free"]
-_UNITS = {"_deg_s": "deg/s", "_mm_s": "mm/s", "_deg": "deg", "_mm": "mm", "_px": "px", "_s": "s"}
+_UNIT_BY_SUFFIX = {"_deg_s": "deg/s", "_mm_s": "mm/s", "_deg": "deg", "_mm": "mm", "_px": "px", "_s": "s"}
 """By the end of a column's name."""
 
 
@@ -108,11 +108,11 @@ class ProposedClicks:
 
     @property
     def complete(self) -> bool:
-        return len(self.markers) == len(protocol_named(self.protocol).markers)
+        return len(self.markers) == len(get_protocol(self.protocol).markers)
 
     def clicks(self) -> Clicks:
         """As the tracker takes them. Raises :class:`CalibrationImpossible` where a marker has no disc."""
-        protocol = protocol_named(self.protocol)
+        protocol = get_protocol(self.protocol)
         lacking = [name for name in protocol.markers if name not in self.markers]
         if lacking:
             raise CalibrationImpossible(f"no disc found for {', '.join(lacking)}")
@@ -135,26 +135,26 @@ class OpenedSession(Session):
         ``attrs["units"]`` says the unit of every column that has one.
         """
         figures = self._figures()
-        found: dict[str, Any] = dict(tables(self)) | {"repetitions": repetition_table(self, figures)}
-        rows = [asdict(row) for row in measure_rows(figures, self.path.stem)]
+        found: dict[str, Any] = dict(build_tables(self)) | {"repetitions": build_repetition_table(self, figures)}
+        rows = [asdict(row) for row in build_measure_rows(figures, self.path.stem)]
         found["measures"] = {name: [row[name] for row in rows] for name in rows[0]} if rows else {}
         try:
             import pandas
         except ModuleNotFoundError:
             return found
-        return {name: _framed(pandas, columns, self) for name, columns in found.items()}
+        return {name: _to_data_frame(pandas, columns, self) for name, columns in found.items()}
 
     def measures(self) -> Sequence[Any]:
-        """Every figure with its unit, as :class:`core.results.measures_table.SessionFigure`, of repetitions that count:
+        """Every figure with its unit, as :class:`core.results.measures_table.MeasureRow`, of repetitions that count:
         what a person left out or moved in the review is kept beside the file."""
-        return measure_rows(self._figures(), self.path.stem)
+        return build_measure_rows(self._figures(), self.path.stem)
 
-    def _figures(self) -> SessionFigures:
-        return session_figures(self, read_choices(self.path))
+    def _figures(self) -> SessionResults:
+        return compute_session_results(self, read_choices(self.path))
 
     def provenance(self) -> Mapping[str, Any]:
         """Of what, by what and with what it was made."""
-        return provenance(self)
+        return build_provenance(self)
 
 
 def track(
@@ -175,8 +175,8 @@ def track(
     says what is wrong with a file, and at once ``SettingsInvalid`` for a setting that has a value that it cannot have.
     """
     where = "carpus.track"
-    chosen = _chosen(where, filter, dip, use_depth, profile, lost_after_s)
-    return _tracked(_path(where, "path", path), _clicks(where, clicks), replace(chosen, smooth=False))
+    chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
+    return _track_frames(_check_path(where, "path", path), _load_clicks(where, clicks), replace(chosen, smooth=False))
 
 
 def write_session(
@@ -204,9 +204,13 @@ def write_session(
     _check(where, "exercise", exercise, str)
     if exercise:
         _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
-    chosen = _chosen(where, filter, dip, use_depth, profile, lost_after_s)
-    recorded, out, told = _path(where, "path", path), _path(where, "output", output), _clicks(where, clicks)
-    source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_warn)
+    chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
+    recorded, out, told = (
+        _check_path(where, "path", path),
+        _check_path(where, "output", output),
+        _load_clicks(where, clicks),
+    )
+    source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_show_warning)
     try:
         track_recording(
             source, told, out, replace(chosen, smooth=smooth and chosen.smooth),
@@ -217,7 +221,9 @@ def write_session(
     return open_session(out)
 
 
-def _chosen(where: str, method: str, dip: Dip, use_depth: bool, profile: Profile, lost_after_s: float) -> TrackSettings:
+def _build_settings(
+    where: str, method: str, dip: Dip, use_depth: bool, profile: Profile, lost_after_s: float
+) -> TrackSettings:
     """Checked settings. Raises :class:`SettingsInvalid` with one sentence."""
     wanted: dict[str, Any] = {"dip": dip, "use_depth": use_depth, "profile": profile, "lost_after_s": lost_after_s}
     _check(where, "filter", method, FilterName)
@@ -226,23 +232,23 @@ def _chosen(where: str, method: str, dip: Dip, use_depth: bool, profile: Profile
     if method == "paper":
         if others := [name for name in wanted if name != "profile" and wanted[name] != getattr(known, name)]:
             raise SettingsInvalid(where, f"the papers' filter knows no {others[0]}")
-        return PaperTrackSettings(smooth=False, paper=PaperSettings.for_profile(wanted["profile"]))
+        return PaperTrackSettings(smooth=False, paper=PaperSettings.from_profile(wanted["profile"]))
     return TrackSettings(tracker=replace(known, **wanted))
 
 
-def _path(where: str, name: str, value: object) -> Path:
+def _check_path(where: str, name: str, value: object) -> Path:
     """A path as given. Raises :class:`SettingsInvalid` for what is none."""
     if not isinstance(value, (str, Path)) or "\0" in str(value):
         raise SettingsInvalid(where, f"{name} is {value!r}, a path expected")
     return Path(value)
 
 
-def _clicks(where: str, clicks: str | Path | ProposedClicks) -> Clicks:
+def _load_clicks(where: str, clicks: str | Path | ProposedClicks) -> Clicks:
     """Clicks as proposed or of a file. Raises :class:`SettingsInvalid` for what is neither, and the faults of both."""
-    return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(_path(where, "clicks", clicks))
+    return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(_check_path(where, "clicks", clicks))
 
 
-def _listed(where: str, name: str, value: object) -> list[Any]:
+def _to_list(where: str, name: str, value: object) -> list[Any]:
     """One or several; what is no collection, or a single text or path, is one. Raises :class:`SettingsInvalid` for
     none."""
     found = list(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else [value]
@@ -251,7 +257,7 @@ def _listed(where: str, name: str, value: object) -> list[Any]:
     return found
 
 
-_KINDS: Mapping[Any, str] = {
+_TYPE_NAMES: Mapping[Any, str] = {
     float: "a number", int: "a whole number", bool: "True or False", str: "a text",
 }  # fmt: skip
 
@@ -274,13 +280,13 @@ def _check(
             return
         hint = next(one for one in get_args(hint) if one is not NoneType)
     number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    expected = _KINDS.get(hint, f"a {getattr(hint, '__name__', hint)}")
+    expected = _TYPE_NAMES.get(hint, f"a {getattr(hint, '__name__', hint)}")
     if get_origin(hint) is Literal:
         fits, expected = isinstance(value, str) and value in get_args(hint), " or ".join(map(repr, get_args(hint)))
     elif hint is float:
         fits = number
     else:
-        fits = type(value) is hint if hint in _KINDS else isinstance(value, get_origin(hint) or hint)
+        fits = type(value) is hint if hint in _TYPE_NAMES else isinstance(value, get_origin(hint) or hint)
     if fits and number and not limits[0] <= float(value) <= limits[1]:  # type: ignore[arg-type]
         fits, expected = False, f"from {limits[0]:g} to {limits[1]:g}"
     if not fits:
@@ -316,23 +322,23 @@ def _check_picture(
         raise SettingsInvalid(where, f"{name} is no recording and no picture ({wanted}) {kind.__name__}")
 
 
-def _warn(fault: CarpusFault) -> None:
+def _show_warning(fault: CarpusFault) -> None:
     """What a command says on stderr before it tracks."""
-    warnings.warn(one_sentence(fault), stacklevel=2)
+    warnings.warn(format_fault_line(fault), stacklevel=2)
 
 
-def _tracked(path: Path, told: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
-    source = open_recording(path, need_depth=chosen.uses_depth, notice=_warn)
+def _track_frames(path: Path, clicks: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
+    source = open_recording(path, need_depth=chosen.uses_depth, notice=_show_warning)
     try:
-        begun, names = begin_tracking(source, told, chosen), told.protocol.joint_names(chosen.dip_free)
+        begun, names = start_tracking(source, clicks, chosen), clicks.protocol.joint_names(chosen.dip_free)
         for frame in begun.frames:
-            yield _hand_frame(begun.pipeline(frame), names, told.protocol.markers)
+            yield _hand_frame(begun.pipeline(frame), names, clicks.protocol.markers)
     finally:
         source.close()
 
 
 def _hand_frame(found: TrackedFrame, joint_names: Sequence[str], markers: tuple[str, ...]) -> HandFrame:
-    moment = found.moment
+    moment = found.kinematics
     deviation, flexion, pronosupination = np.degrees(moment.angles_rad).tolist()
     deviation_sd, flexion_sd, pronosupination_sd = np.degrees(moment.angles_sd_rad).tolist()
     return HandFrame(
@@ -360,13 +366,13 @@ def _hand_frame(found: TrackedFrame, joint_names: Sequence[str], markers: tuple[
     )
 
 
-def _framed(pandas: Any, columns: Mapping[str, Any], session: Session) -> Any:
+def _to_data_frame(pandas: Any, columns: Mapping[str, Any], session: Session) -> Any:
     """A table as a data frame, with the time after the first picture as its index where it has times."""
     frame = pandas.DataFrame(columns)
     frame.attrs["units"] = {
         name: unit
         for name in frame.columns
-        if (unit := next((unit for end, unit in _UNITS.items() if name.endswith(end)), ""))
+        if (unit := next((unit for end, unit in _UNIT_BY_SUFFIX.items() if name.endswith(end)), ""))
     }
     if "timestamp_s" in columns or "start_s" in columns:
         first_s = session.timestamp_s[0] if len(session) else 0.0
@@ -379,9 +385,9 @@ def open_session(path: str | Path) -> OpenedSession:
     """A session file as values: header, calibration, times, status, motion, smoothed motion, markers, events; tables,
     measures and provenance when asked for. The file is never changed; that one of a data
     folder was opened stands in the log there. Read by a process of its own."""
-    named = _path("carpus.open_session", "path", path)
+    named = _check_path("carpus.open_session", "path", path)
     session = reader.read_session(named)
-    note("opened", named, session.header.session_id)
+    log_session_action("opened", named, session.header.session_id)
     return OpenedSession(**{field.name: getattr(session, field.name) for field in fields(Session)})
 
 
@@ -403,9 +409,9 @@ def propose_clicks(
     _check(where, "protocol", protocol, str)
     _check(where, "camera", camera, Camera | None)
     _check(where, "depth_unit_m", depth_unit_m, float, (1e-6, 1.0))
-    markers = protocol_named(protocol)
+    markers = get_protocol(protocol)
     if isinstance(frame, (str, Path)):
-        source = open_recording(_path(where, "frame", frame), need_depth=False)
+        source = open_recording(_check_path(where, "frame", frame), need_depth=False)
         try:
             first, camera = next(source.frames(), None), camera or source.info.camera
         finally:
@@ -420,8 +426,8 @@ def propose_clicks(
             _check_picture(where, "depth", depth, np.uint16, (), frame.shape[:2])
         first = Frame(0, 0.0, frame, depth, depth_unit_m)
     camera = camera or DEFAULT_CAMERA
-    blobs = marker_candidates(first, camera, DetectionSettings())
-    found = propose_names(blobs, camera, hand, markers)
+    blobs = find_marker_candidates(first, camera, DetectionSettings())
+    found = propose_labels(blobs, camera, hand, markers)
     named = {
         name: (blobs.pixel[blob].tolist(), bool(sure))
         for name, blob, sure in zip(markers.markers, found.blob.tolist(), found.is_sure, strict=True)
@@ -438,7 +444,7 @@ def export(
     *,
     deidentified: bool = False,
     region: str | None = None,
-) -> Exported:
+) -> ExportResult:
     """Write sessions as csv, json, c3d, trc, mot, bids or h5 into a folder, in which nothing is overwritten.
 
     Tables (csv) are for programs; with a ``region`` (``de_DE``) for a spreadsheet there: its separator and decimal
@@ -447,19 +453,19 @@ def export(
     """
     where = "carpus.export"
     _check(where, "deidentified", deidentified, bool)
-    paths = [_path(where, "sessions", path) for path in _listed(where, "sessions", sessions)]
-    wanted = [Wanted.stored(path, read_choices) for path in paths]
-    into, chosen = _path(where, "folder", folder), _listed(where, "formats", formats)
+    paths = [_check_path(where, "sessions", path) for path in _to_list(where, "sessions", sessions)]
+    wanted = [ExportRequest.from_file(path, read_choices) for path in paths]
+    into, chosen = _check_path(where, "folder", folder), _to_list(where, "formats", formats)
     for name in chosen:
         _check(where, "formats", name, Literal[*FORMATS])
-    from carpus.ui.saved_table import form_of  # Qt, which nothing else here loads
+    from carpus.ui.saved_table import regional_table_form  # Qt, which nothing else here loads
 
     try:
-        form = FOR_PROGRAMS if region is None else form_of(region)
+        form = MACHINE_DIALECT if region is None else regional_table_form(region)
     except ValueError as cause:
         raise SettingsInvalid(where, str(cause)) from cause
-    done = export_sessions(wanted, into, chosen, deidentified=deidentified, form=form)
-    note_exported(done, deidentified=deidentified)
+    done = export_sessions(wanted, into, chosen, deidentified=deidentified, dialect=form)
+    log_export(done, deidentified=deidentified)
     return done
 
 
@@ -471,10 +477,10 @@ def compare(
     markers: Mapping[str, str] | None = None,
     radians: bool | None = None,
     smoothed: bool = False,
-    most_shift_s: float = MOST_SHIFT_S,
+    most_shift_s: float = DEFAULT_MAX_SHIFT_S,
     lag_s: float | None = None,
     drift_percent: float = 0.0,
-) -> Compared:
+) -> Comparison:
     """How far a session agrees with C3D, TRC, MOT, a CSV table or list of readings, or another session.
 
     ``columns`` angle (or ``time``) to column, a minus before it turns its sign; ``markers`` disc to marker. The clocks
@@ -488,16 +494,16 @@ def compare(
     _check(where, "radians", radians, bool | None)
     _check_names(where, "columns", columns, ("time", *ANGLE_NAMES))
     _check_names(where, "markers", markers, SITES)
-    _check(where, "most_shift_s", most_shift_s, float, (0.0, FURTHEST_SHIFT_S))
-    _check(where, "lag_s", lag_s, float | None, (-FURTHEST_SHIFT_S, FURTHEST_SHIFT_S))
-    _check(where, "drift_percent", drift_percent, float, (-LARGEST_DRIFT_PERCENT, LARGEST_DRIFT_PERCENT))
-    ours, theirs = _path(where, "session", session), _path(where, "reference", reference)
+    _check(where, "most_shift_s", most_shift_s, float, (0.0, MAX_SHIFT_S))
+    _check(where, "lag_s", lag_s, float | None, (-MAX_SHIFT_S, MAX_SHIFT_S))
+    _check(where, "drift_percent", drift_percent, float, (-MAX_DRIFT_PERCENT, MAX_DRIFT_PERCENT))
+    ours, theirs = _check_path(where, "session", session), _check_path(where, "reference", reference)
     result = compare_files(
         ours, theirs, columns=columns, markers=markers, radians=radians, smoothed=smoothed,
-        most_shift_s=most_shift_s, lag_s=math.nan if lag_s is None else lag_s, drift=0.01 * drift_percent,
+        max_shift_s=most_shift_s, lag_s=math.nan if lag_s is None else lag_s, drift=0.01 * drift_percent,
         choices=read_choices(ours),
     )  # fmt: skip
-    return result.compared
+    return result.comparison
 
 
 def simulate(folder: str | Path, **options: Any) -> Truth:
@@ -505,4 +511,4 @@ def simulate(folder: str | Path, **options: Any) -> Truth:
     :class:`core.simulation.spec.RecordingSpec`. Its true values."""
     where = "carpus.simulate"
     _check_fields(where, options, RecordingSpec)
-    return recording.simulate(RecordingSpec(**options), _path(where, "folder", folder))
+    return recording.simulate(RecordingSpec(**options), _check_path(where, "folder", folder))

@@ -29,7 +29,7 @@ from carpus.core.pipeline.live_values import LiveSettings, StartMode
 from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
-from carpus.core.typed_value import NOT_IN_FILE, path_of, settable_names, typed_value
+from carpus.core.typed_value import NOT_IN_FILE, convert_value, expand_home, settable_names
 
 if TYPE_CHECKING:
     from carpus.core.pipeline.track import TrackSettings
@@ -41,7 +41,7 @@ LAST_FOLDER_FILE = "last-data-folder.txt"
 TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
 DATA_VARIABLE = "CARPUS_DATA"
-GONE = {
+OBSOLETE = {
     *(
         f"live.{name}"
         for name in (
@@ -179,7 +179,7 @@ class UpdatesSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class FirstStartSettings:
+class WelcomeSettings:
     """``answered``: what the first start offers was taken up or declined, and is not offered again."""
 
     answered: bool = False
@@ -199,7 +199,7 @@ class Settings:
     stream: StreamSettings = field(default_factory=StreamSettings)
     patient: PatientSettings = field(default_factory=PatientSettings)
     updates: UpdatesSettings = field(default_factory=UpdatesSettings)
-    first_start: FirstStartSettings = field(default_factory=FirstStartSettings)
+    first_start: WelcomeSettings = field(default_factory=WelcomeSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
     tracking: Mapping[str, Values] = field(default_factory=dict, metadata=NOT_IN_FILE)
     """What a person's file says in the sections of :data:`TRACKING`."""
@@ -212,7 +212,7 @@ class Settings:
         wait for that."""
         from carpus.core.pipeline.track import TrackSettings
 
-        return replace(_filled(TrackSettings, self.tracking, "", SETTINGS_FILE), smooth=self.recording.smooth)
+        return replace(_build_section(TrackSettings, self.tracking, "", SETTINGS_FILE), smooth=self.recording.smooth)
 
     @property
     def data_folder(self) -> Path:
@@ -220,7 +220,7 @@ class Settings:
         if self.run_folder is not None:
             return self.run_folder
         named = os.environ.get(DATA_VARIABLE) or self.recording.folder
-        return path_of(named) if named else default_data_folder()
+        return expand_home(named) if named else default_data_folder()
 
 
 def default_data_folder() -> Path:
@@ -230,7 +230,7 @@ def default_data_folder() -> Path:
 
 def sessions_folder(settings: Settings) -> Path | None:
     """The shared folder of the sessions; None for the data folder's own."""
-    return path_of(settings.records.sessions) if settings.records.sessions else None
+    return expand_home(settings.records.sessions) if settings.records.sessions else None
 
 
 def settings_folder() -> Path:
@@ -240,67 +240,67 @@ def settings_folder() -> Path:
 
 def load_settings(folder: Path | None = None) -> Settings:
     """The shipped defaults with this person's settings and what was chosen in the window over them."""
-    settings, faults = load_sound_settings(folder)
+    settings, faults = load_valid_settings(folder)
     for fault in faults:
         raise fault
     return settings
 
 
-def load_sound_settings(folder: Path | None = None) -> tuple[Settings, list[CarpusFault]]:
+def load_valid_settings(folder: Path | None = None) -> tuple[Settings, list[CarpusFault]]:
     """For the window, which starts whatever a file holds: one that cannot be used is left out, and its fault told."""
     folder = folder or settings_folder()
-    merged = _defaults()
+    merged = _load_defaults()
     faults: list[CarpusFault] = []
     for name in (SETTINGS_FILE, PREFERENCES_FILE):
         try:
-            merged = _merged(merged, _own(folder / name))
+            merged = _merge(merged, _read_own_settings(folder / name))
         except CarpusFault as fault:
             faults.append(fault)
-    return _settings(merged, "defaults.toml"), faults
+    return _build_settings(merged, "defaults.toml"), faults
 
 
-def _defaults() -> Values:
+def _load_defaults() -> Values:
     """The shipped file, but for what the code says itself when it tracks."""
-    shipped = _read("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
+    shipped = _parse_toml("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
     return {name: section for name, section in shipped.items() if name not in TRACKING}
 
 
-def _settings(values: Values, file: str) -> Settings:
+def _build_settings(values: Values, file: str) -> Settings:
     """All sections; what a person says of tracking is looked at now, so that its fault is told now."""
     tracking = {name: values[name] for name in TRACKING if values.get(name)}
     if tracking:
         from carpus.core.pipeline.track import TrackSettings
 
-        _filled(TrackSettings, tracking, "", file)
+        _build_section(TrackSettings, tracking, "", file)
     others = {name: value for name, value in values.items() if name not in TRACKING}
-    return replace(_filled(Settings, others, "", file), tracking=tracking)
+    return replace(_build_section(Settings, others, "", file), tracking=tracking)
 
 
-def _own(path: Path) -> Values:
+def _read_own_settings(path: Path) -> Values:
     """What a person's file says, sound as far as it goes; nothing where there is no file."""
     try:
-        own = _without_gone(_read(str(path), path.read_bytes()), path) if path.exists() else {}
+        own = _drop_obsolete(_parse_toml(str(path), path.read_bytes()), path) if path.exists() else {}
     except OSError as cause:
         raise SettingsInvalid(path, cause.strerror or phrase("cannot be read")) from cause
-    _settings(own, str(path))  # faults name the file they are in
+    _build_settings(own, str(path))  # faults name the file they are in
     return own
 
 
-def _without_gone(values: Values, path: Path, where: str = "") -> Values:
+def _drop_obsolete(values: Values, path: Path, where: str = "") -> Values:
     """Drop settings of earlier versions, with a line in the log."""
     kept: dict[str, Any] = {}
     for name, value in values.items():
         place = f"{where}{name}"
-        if place in GONE:
+        if place in OBSOLETE:
             logger.info("The setting %s in %s is not used any more", place, path)
         elif not isinstance(value, Mapping):
             kept[name] = value
-        elif (inner := _without_gone(value, path, f"{place}.")) or not value:
+        elif (inner := _drop_obsolete(value, path, f"{place}.")) or not value:
             kept[name] = inner
     return kept
 
 
-_PREFERENCES = {
+_PREFERENCE_FIELDS = {
     "screen": ("theme", "text_scale", "language", "research"),
     "recording": ("folder",),
     "report": ("therapist", "angle_order"),
@@ -313,7 +313,7 @@ _PREFERENCES = {
 }
 
 
-def keep_preferences(before: Settings, chosen: Settings, folder: Path | None = None) -> None:
+def save_preferences(before: Settings, chosen: Settings, folder: Path | None = None) -> None:
     """Store what a person has changed in the window, and nothing else.
 
     What was named for one run, or stands in the person's own file, is no choice made in the window. Raises
@@ -322,30 +322,30 @@ def keep_preferences(before: Settings, chosen: Settings, folder: Path | None = N
     path = (folder or settings_folder()) / PREFERENCES_FILE
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        kept = _usable(path)
+        kept = _read_preferences(path)
     except OSError as cause:
         raise write_fault(path, cause) from cause
-    for section, names in _PREFERENCES.items():
+    for section, names in _PREFERENCE_FIELDS.items():
         for name in names:
             value = getattr(getattr(chosen, section), name)
             if value != getattr(getattr(before, section), name):
                 kept.setdefault(section, {})[name] = value
     lines = ["# Chosen in the window of Carpus."]
     for section, values in kept.items():
-        lines += [f"[{section}]", *(f"{name} = {_text(value)}" for name, value in values.items())]
+        lines += [f"[{section}]", *(f"{name} = {_format_value(value)}" for name, value in values.items())]
     replace_text(path, "\n".join([*lines, ""]))
 
 
-def _usable(path: Path) -> dict[str, dict[str, Any]]:
+def _read_preferences(path: Path) -> dict[str, dict[str, Any]]:
     """What a file of preferences says; one that cannot be used is kept under another name."""
     try:
-        return {section: dict(values) for section, values in _own(path).items()}
+        return {section: dict(values) for section, values in _read_own_settings(path).items()}
     except SettingsInvalid:
         path.replace(path.with_name(f"{path.stem}.unusable{path.suffix}"))
         return {}
 
 
-def note_data_folder(data_folder: Path, folder: Path | None = None) -> Path | None:
+def save_last_data_folder(data_folder: Path, folder: Path | None = None) -> Path | None:
     """Remember the data folder that a window opens; the one of the start before, where that was another."""
     path = (folder or settings_folder()) / LAST_FOLDER_FILE
     before = ""
@@ -358,14 +358,14 @@ def note_data_folder(data_folder: Path, folder: Path | None = None) -> Path | No
     return Path(before) if before not in ("", str(data_folder)) else None
 
 
-def _text(value: object) -> str:
+def _format_value(value: object) -> str:
     """As TOML writes it, which writes texts, numbers and truths as JSON does."""
     if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{name} = {_text(one)}' for name, one in sorted(value.items()))}}}"
+        return f"{{{', '.join(f'{name} = {_format_value(one)}' for name, one in sorted(value.items()))}}}"
     return json.dumps(value, ensure_ascii=False)
 
 
-def _read(name: str, data: bytes) -> Values:
+def _parse_toml(name: str, data: bytes) -> Values:
     try:
         return tomllib.loads(data.decode("utf-8"))
     except RecursionError as cause:
@@ -374,15 +374,15 @@ def _read(name: str, data: bytes) -> Values:
         raise SettingsInvalid(name, f"not TOML: {cause}"[:200]) from cause
 
 
-def _merged(below: Values, above: Values) -> Values:
+def _merge(below: Values, above: Values) -> Values:
     out = dict(below)
     for name, value in above.items():
         both = isinstance(value, Mapping) and isinstance(out.get(name), Mapping)
-        out[name] = _merged(out[name], value) if both else value
+        out[name] = _merge(out[name], value) if both else value
     return out
 
 
-def _filled(kind: type[T], values: Values, where: str, file: str) -> T:
+def _build_section(kind: type[T], values: Values, where: str, file: str) -> T:
     """A dataclass from a table; every key must be one of its fields, but for those that no file has."""
     hints = typing.get_type_hints(kind)
     known = settable_names(kind)
@@ -393,7 +393,9 @@ def _filled(kind: type[T], values: Values, where: str, file: str) -> T:
             raise SettingsInvalid(place, phrase("there is no such setting, in {file}", file=file))
         hint = hints[name]
         is_section = isinstance(hint, type) and is_dataclass(hint) and isinstance(value, Mapping)
-        found[name] = _filled(hint, value, place, file) if is_section else typed_value(hint, value, place, file)
+        found[name] = (
+            _build_section(hint, value, place, file) if is_section else convert_value(hint, value, place, file)
+        )
     try:
         return kind(**found)
     except ValueError as cause:
@@ -409,12 +411,12 @@ def with_data_folder(settings: Settings, folder: Path | None) -> Settings:
     return replace(settings, run_folder=folder, records=records, backup=backup)
 
 
-def with_kept_folder(settings: Settings, folder: Path) -> Settings:
+def with_saved_folder(settings: Settings, folder: Path) -> Settings:
     """The settings with another data folder; also from the next start on, unless this run had a folder of its own."""
     if settings.run_folder is not None:
         return replace(settings, run_folder=folder)
     os.environ.pop(DATA_VARIABLE, None)  # it would go over what was just chosen
     chosen = replace(settings, recording=replace(settings.recording, folder=str(folder)))
     with suppress(CarpusFault):
-        keep_preferences(settings, chosen)
+        save_preferences(settings, chosen)
     return chosen

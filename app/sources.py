@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.core.capture.source import FrameSource, Notice, ignore
+from carpus.core.capture.source import FrameSource, NoticeHandler, ignore_notice
 from carpus.core.errors import IntrinsicsAssumed, RecordingMissing, RecordingUnreadable
 from carpus.core.phrase import phrase
 
@@ -30,7 +30,7 @@ def open_recording(
     registered: bool | None = None,
     leave_out_damaged: bool = False,
     data_folder: Path | None = None,
-    notice: Notice = ignore,
+    notice: NoticeHandler = ignore_notice,
 ) -> FrameSource:
     """A folder or file of any kind in :data:`RECORDINGS` as a source. The readers are loaded when needed.
 
@@ -38,7 +38,7 @@ def open_recording(
     ``leave_out_damaged``: a missing or damaged picture of a folder is left out, counted and told, not a fault.
     ``data_folder``: what is kept there of the camera is used where the recording brings no intrinsics of its own.
     """
-    source = _opened(path, _How(need_depth, registered, leave_out_damaged, notice))
+    source = _open_by_kind(path, _OpenOptions(need_depth, registered, leave_out_damaged, notice))
     if data_folder is None:
         return source
     from carpus.core.capture.calibrated import with_stored_calibration
@@ -46,26 +46,26 @@ def open_recording(
     return with_stored_calibration(source, data_folder)
 
 
-def open_board(recording: Path | None, notice: Notice) -> FrameSource:
+def open_board(recording: Path | None, notice: NoticeHandler) -> FrameSource:
     """What a printed board is looked at with: a recording, also without depth, or None for the live camera."""
     if recording is None:
         from carpus.app.settings import load_settings
 
-        return _named_camera(load_settings(), notice)
+        return _open_named_camera(load_settings(), notice)
     return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=notice)
 
 
-def open_card(recording: Path | None, settings: Settings, notice: Notice) -> FrameSource:
+def open_card(recording: Path | None, settings: Settings, notice: NoticeHandler) -> FrameSource:
     """What a printed card is looked at with, calibrated by what is kept of it: a recording, or None for the live
     camera."""
     from carpus.core.capture.calibrated import with_stored_calibration
 
     if recording is None:
-        return with_stored_calibration(_named_camera(settings, notice), settings.data_folder)
+        return with_stored_calibration(_open_named_camera(settings, notice), settings.data_folder)
     return open_recording(recording, leave_out_damaged=True, notice=notice, data_folder=settings.data_folder)
 
 
-def _named_camera(settings: Settings, notice: Notice) -> FrameSource:
+def _open_named_camera(settings: Settings, notice: NoticeHandler) -> FrameSource:
     """The live camera of the settings, named as it was given."""
     from carpus.core.capture.calibrated import with_given_name
     from carpus.core.capture.devices.cameras import open_camera
@@ -74,20 +74,24 @@ def _named_camera(settings: Settings, notice: Notice) -> FrameSource:
 
 
 @dataclass(frozen=True, slots=True)
-class _How:
+class _OpenOptions:
     """As in :func:`open_recording`."""
 
     need_depth: bool
     registered: bool | None
     leave_out_damaged: bool
-    notice: Notice
+    notice: NoticeHandler
 
 
-def _tum_folder(path: Path, how: _How) -> FrameSource:
+def _open_tum_folder(path: Path, options: _OpenOptions) -> FrameSource:
     from carpus.core.capture.files.tum import TumFolder
 
     return TumFolder(
-        path, need_depth=how.need_depth, read_ahead=8, leave_out_damaged=how.leave_out_damaged, notice=how.notice
+        path,
+        requires_depth=options.need_depth,
+        read_ahead=8,
+        skip_damaged=options.leave_out_damaged,
+        notice=options.notice,
     )
 
 
@@ -95,10 +99,10 @@ def _is_oni(path: Path) -> bool:
     return path.suffix.lower() == ".oni"
 
 
-def _oni(path: Path, how: _How) -> FrameSource:
+def _open_oni(path: Path, options: _OpenOptions) -> FrameSource:
     from carpus.core.capture.files.oni_source import OniSource
 
-    return OniSource(path, registered=how.registered, notice=how.notice)
+    return OniSource(path, registered=options.registered, notice=options.notice)
 
 
 def _is_raw(path: Path) -> bool:
@@ -107,27 +111,27 @@ def _is_raw(path: Path) -> bool:
     return is_raw_recording(path)
 
 
-def _raw(path: Path, how: _How) -> FrameSource:
+def _open_raw(path: Path, options: _OpenOptions) -> FrameSource:
     from carpus.core.capture.files.raw import RawRecording
 
-    return RawRecording(path, notice=how.notice)
+    return RawRecording(path, notice=options.notice)
 
 
 def _is_realsense(path: Path) -> bool:
     return path.suffix.lower() == REALSENSE_SUFFIX
 
 
-def _realsense(path: Path, _how: _How) -> FrameSource:
+def _open_realsense(path: Path, _options: _OpenOptions) -> FrameSource:
     from carpus.core.capture.files.realsense_recording import RealSenseRecording
 
     return RealSenseRecording(path)
 
 
-RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _How], FrameSource]], ...] = (
-    (Path.is_dir, _tum_folder),
-    (_is_oni, _oni),
-    (_is_realsense, _realsense),
-    (_is_raw, _raw),
+RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _OpenOptions], FrameSource]], ...] = (
+    (Path.is_dir, _open_tum_folder),
+    (_is_oni, _open_oni),
+    (_is_realsense, _open_realsense),
+    (_is_raw, _open_raw),
 )
 """Every kind: whether a path is of it, and how it is opened; the first that is it counts."""
 
@@ -135,19 +139,19 @@ RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _How], FrameSour
 _INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
 
 
-def tell_assumed(source: FrameSource, path: Path, notice: Notice) -> None:
+def warn_assumed_intrinsics(source: FrameSource, path: Path, notice: NoticeHandler) -> None:
     """``notice`` hears where nobody measured how the camera of a recording sees."""
     origin = source.info.camera.origin
     if origin in _INTRINSICS:
         notice(IntrinsicsAssumed(path, _INTRINSICS[origin]))
 
 
-def _opened(path: Path, how: _How) -> FrameSource:
+def _open_by_kind(path: Path, options: _OpenOptions) -> FrameSource:
     if not path.exists():
         raise RecordingMissing(path)
     for is_it, opened in RECORDINGS:
         if is_it(path):
-            return opened(path, how)
+            return opened(path, options)
     raise RecordingUnreadable(path, phrase("no recording of a form that Carpus knows"))
 
 
@@ -174,29 +178,29 @@ def is_recording(path: Path) -> bool:
     return path.suffix.lower() in (*FILE_SUFFIXES, SESSION_SUFFIX)
 
 
-def is_many(named: Sequence[Path], output: Path) -> bool:
+def is_batch(named: Sequence[Path], output: Path) -> bool:
     """Whether a folder of sessions is asked for, not one session."""
     if len(named) > 1 or output.is_dir():
         return True
     return output.suffix != SESSION_SUFFIX and named[0].is_dir() and not is_recording(named[0])
 
 
-def recordings_in(folder: Path, left_out: Path) -> Iterator[Path]:
-    """Recordings in a folder and the folders in it, in the order of their names, but for the folder ``left_out``.
+def find_recordings(folder: Path, excluded: Path) -> Iterator[Path]:
+    """Recordings in a folder and the folders in it, in the order of their names, but for the folder ``excluded``.
 
     Sessions are not among them: they are results, tracked again only where they are named.
     """
     for path in sorted(folder.iterdir()):
-        if path.name.startswith(".") or (path.is_dir() and path.resolve() == left_out.resolve()):
+        if path.name.startswith(".") or (path.is_dir() and path.resolve() == excluded.resolve()):
             continue
         if is_recording(path):
             if path.suffix.lower() != SESSION_SUFFIX:
                 yield path
         elif path.is_dir():
-            yield from recordings_in(path, left_out)
+            yield from find_recordings(path, excluded)
 
 
-def places(named: Sequence[Path], output: Path) -> list[TrackingInput]:
+def plan_inputs(named: Sequence[Path], output: Path) -> list[TrackingInput]:
     """All that is named, folders searched; each once, sessions under ``output`` as the recordings lie to each other.
 
     What is named and is no folder of recordings counts as one recording, there or not: its fault is told later.
@@ -207,7 +211,7 @@ def places(named: Sequence[Path], output: Path) -> list[TrackingInput]:
         if path.is_dir() and not is_recording(path):
             if len(named) == 1:
                 base = path.resolve()
-            found |= {each.resolve(): each for each in recordings_in(path, output) if each.resolve() not in found}
+            found |= {each.resolve(): each for each in find_recordings(path, output) if each.resolve() not in found}
         else:
             found.setdefault(path.resolve(), path)
     names = {
@@ -218,11 +222,13 @@ def places(named: Sequence[Path], output: Path) -> list[TrackingInput]:
     for real, path in found.items():
         name = names[real] if taken[names[real]] == 1 else real.relative_to(base)
         session = name.with_name(name.name + SESSION_SUFFIX)
-        out.append(TrackingInput(path.absolute(), clicks_of(path.absolute()), output / session, session.as_posix()))
+        out.append(
+            TrackingInput(path.absolute(), find_clicks_file(path.absolute()), output / session, session.as_posix())
+        )
     return out
 
 
-def clicks_of(recording: Path) -> Path | None:
+def find_clicks_file(recording: Path) -> Path | None:
     """Where the clicks of a recording are to be; None for a session, which brings its own."""
     if recording.is_dir():
         return recording / CLICKS_FILE

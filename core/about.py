@@ -16,7 +16,7 @@ from carpus.core.installing import is_packed
 _LICENCE_NAMES = ("LICEN", "COPYING", "NOTICE", "AUTHORS")
 _FOLDERS = ("licences", "fonts", "icons")
 """Of the resources: what was packed with the program, the typeface, the icons."""
-_LONGEST_EXPRESSION = 80
+_MAX_EXPRESSION = 80
 PACKED_TEXTS = "licences.txt"
 """Beside the program, where it was packed with its own Python."""
 
@@ -31,22 +31,24 @@ class BundledPart:
     texts: tuple[str, ...] = ()
 
 
-def bundled_parts() -> list[BundledPart]:
+def list_bundled_parts() -> list[BundledPart]:
     """Every package that an installed program needs, itself first, then by name; without what is not installed."""
     seen: dict[str, BundledPart] = {}
     waiting = ["carpus"]
     while waiting:
-        name = _normal(waiting.pop())
+        name = _normalize_name(waiting.pop())
         if name in seen:
             continue
         try:
             found = distribution(name)
         except PackageNotFoundError:
             continue
-        seen[name] = BundledPart(found.metadata["Name"], found.version, _licence(found), tuple(_texts(found)))
+        seen[name] = BundledPart(
+            found.metadata["Name"], found.version, _licence_name(found), tuple(_licence_texts(found))
+        )
         needs = (line.partition(";") for line in found.requires or ())
         waiting += [re.split(r"[<>=!~ \[(]", need.strip())[0] for need, _, marker in needs if "extra" not in marker]
-    return sorted(seen.values(), key=lambda part: (_normal(part.name) != "carpus", _normal(part.name)))
+    return sorted(seen.values(), key=lambda part: (_normalize_name(part.name) != "carpus", _normalize_name(part.name)))
 
 
 def licence_texts() -> str:
@@ -55,7 +57,7 @@ def licence_texts() -> str:
     ready = Path(sys.executable).parent / PACKED_TEXTS
     if is_packed() and ready.is_file():
         return ready.read_text(encoding="utf-8", errors="replace")
-    parts = bundled_parts()
+    parts = list_bundled_parts()
     lines = ["Carpus is made with these parts:", ""]
     lines += [f"{part.name} {part.version}: {part.licence or 'see its text below'}" for part in parts]
     lines += [
@@ -67,35 +69,35 @@ def licence_texts() -> str:
     for part in parts:
         for text in part.texts:
             lines += ["=" * 80, f"{part.name} {part.version}", "=" * 80, text.strip(), ""]
-    for name, text in _own_texts():
+    for name, text in _resource_texts():
         lines += ["=" * 80, name, "=" * 80, text.strip(), ""]
     return "\n".join(lines)
 
 
-def _normal(name: str) -> str:
+def _normalize_name(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
-def _licence(found: Distribution) -> str:
+def _licence_name(found: Distribution) -> str:
     says = found.metadata.get_all
     said = next(iter((*(says("License-Expression") or ()), *(says("License") or ()))), "")
-    if said and len(said) <= _LONGEST_EXPRESSION and "\n" not in said:
+    if said and len(said) <= _MAX_EXPRESSION and "\n" not in said:
         return said
     kinds = [line for line in says("Classifier") or () if line.startswith("License ::")]
     if kinds:
         return ", ".join(kind.rpartition(":: ")[2] for kind in kinds)
-    title = next(_texts(found), "").strip().partition("\n")[0]  # as its text calls itself
-    return title if len(title) <= _LONGEST_EXPRESSION else ""
+    title = next(_licence_texts(found), "").strip().partition("\n")[0]  # as its text calls itself
+    return title if len(title) <= _MAX_EXPRESSION else ""
 
 
-def _texts(found: Distribution) -> Iterator[str]:
+def _licence_texts(found: Distribution) -> Iterator[str]:
     for path in sorted(found.files or (), key=str):
         in_metadata = any(folder.endswith(".dist-info") for folder in path.parts[:-1])
         if in_metadata and path.name.upper().startswith(_LICENCE_NAMES) and Path(str(path.locate())).is_file():
             yield Path(str(path.locate())).read_text(encoding="utf-8", errors="replace")
 
 
-def _own_texts() -> Iterator[tuple[str, str]]:
+def _resource_texts() -> Iterator[tuple[str, str]]:
     for folder in _FOLDERS:
         place = files("carpus.resources").joinpath(folder)
         if place.is_dir():
@@ -108,7 +110,7 @@ def _own_texts() -> Iterator[tuple[str, str]]:
 _PACKAGE = "carpus"
 
 
-def newest_version(folder: Path) -> str:
+def find_latest_version(folder: Path) -> str:
     """Of the packages listed in an apt repository's folder, empty for none. Raises :class:`OSError`."""
     text = (folder / "Packages").read_text(encoding="utf-8", errors="replace")
     found = []
@@ -116,18 +118,18 @@ def newest_version(folder: Path) -> str:
         fields = dict(re.findall(r"^(Package|Version): *(\S+)$", part, re.MULTILINE))
         if fields.get("Package") == _PACKAGE and "Version" in fields:
             found.append(fields["Version"].replace("~", ""))
-    return max(found, key=_order, default="")
+    return max(found, key=_sort_key, default="")
 
 
-def is_newer(version: str, than: str) -> bool:
+def is_newer(version: str, other: str) -> bool:
     """Whether a version, written as Python or Debian does, comes after another.
 
     >>> is_newer("0.10.0", "0.9.1"), is_newer("0.2.0rc1", "0.2.0"), is_newer("0.2.0", "0.2.0")
     (True, False, False)
     """
-    return _order(version) > _order(than)
+    return _sort_key(version) > _sort_key(other)
 
 
-def _order(version: str) -> tuple[tuple[int, ...], bool, tuple[int, ...]]:
+def _sort_key(version: str) -> tuple[tuple[int, ...], bool, tuple[int, ...]]:
     release, before = re.findall(r"^([\d.]*)(.*)", version.replace("~", ""))[0]
     return tuple(map(int, re.findall(r"\d+", release))), not before, tuple(map(int, re.findall(r"\d+", before)))

@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from carpus.core.types import FloatArray
 
 
-def nearest_within(distance: FloatArray, reach: FloatArray) -> NDArray[np.int64]:
+def assign_nearest(distance: FloatArray, max_distance: FloatArray) -> NDArray[np.int64]:
     """Column of every row (R,) by distances (R, C), each once and the nearest overall; -1 where none is within the
-    row's ``reach`` (R,)."""
+    row's ``max_distance`` (R,)."""
     from scipy.optimize import linear_sum_assignment  # a third of a second to load
 
-    far = distance > reach[:, None]
+    far = distance > max_distance[:, None]
     rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
     out = np.full(len(distance), -1, dtype=np.int64)
     near = ~far[rows, columns]

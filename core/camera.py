@@ -14,10 +14,14 @@ from carpus.core.types import FloatArray
 
 DistortionModel = Literal["plumb_bob", "rational_polynomial", "inverse_brown_conrady"]
 
-COEFFICIENTS: Mapping[DistortionModel, int] = {"plumb_bob": 5, "rational_polynomial": 8, "inverse_brown_conrady": 5}
+DISTORTION_COEFFICIENT_COUNTS: Mapping[DistortionModel, int] = {
+    "plumb_bob": 5,
+    "rational_polynomial": 8,
+    "inverse_brown_conrady": 5,
+}
 """Of every model that is known, how many there are; in OpenCV's order k1 k2 p1 p2 k3, then k4 k5 k6."""
 
-_MOST_ROUNDS, _NEAR_PX = 20, 1e-7
+_MAX_ITERATIONS, _TOLERANCE_PX = 20, 1e-7
 """OpenCV's own few rounds leave a strong lens unfinished."""
 
 
@@ -64,7 +68,7 @@ class Camera:
         out += (self.cx_px, self.cy_px)
         return out
 
-    def back_project(self, pixel: FloatArray, depth_m: FloatArray) -> FloatArray:
+    def backproject(self, pixel: FloatArray, depth_m: FloatArray) -> FloatArray:
         """Points (..., 3) in camera axes, metres, of undistorted pixels (..., 2) at depths (...)."""
         x = (pixel[..., 0] - self.cx_px) / self.fx_px
         y = (pixel[..., 1] - self.cy_px) / self.fy_px
@@ -78,31 +82,39 @@ class Camera:
             k = self.matrix
             flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
             return np.asarray(flat, dtype=np.float64).reshape(-1, 2)
-        return self._through(pixel) if self.distortion_model == "inverse_brown_conrady" else self._back_through(pixel)
+        return (
+            self._apply_polynomial(pixel)
+            if self.distortion_model == "inverse_brown_conrady"
+            else self._invert_polynomial(pixel)
+        )
 
     def distort(self, pixel: FloatArray) -> FloatArray:
         """Inverse of :meth:`undistort`: where ideal pixels (D, 2) lie in the real picture."""
         if not self.is_distorted or pixel.size == 0:
             return pixel
-        return self._back_through(pixel) if self.distortion_model == "inverse_brown_conrady" else self._through(pixel)
+        return (
+            self._invert_polynomial(pixel)
+            if self.distortion_model == "inverse_brown_conrady"
+            else self._apply_polynomial(pixel)
+        )
 
-    def _through(self, pixel: FloatArray) -> FloatArray:
+    def _apply_polynomial(self, pixel: FloatArray) -> FloatArray:
         """Pixels (D, 2) moved by the polynomial."""
-        rays = self.back_project(pixel, np.ones(pixel.shape[:-1]))
+        rays = self.backproject(pixel, np.ones(pixel.shape[:-1]))
         out, _ = cv2.projectPoints(
             rays.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, np.array(self.distortion)
         )
         return np.asarray(out, dtype=np.float64).reshape(-1, 2)
 
-    def _back_through(self, pixel: FloatArray) -> FloatArray:
-        """Inverse of :meth:`_through`, to the end."""
+    def _invert_polynomial(self, pixel: FloatArray) -> FloatArray:
+        """Inverse of :meth:`_apply_polynomial`, to the end."""
         k = self.matrix
         flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
         out = np.asarray(flat, dtype=np.float64).reshape(-1, 2)
-        for _ in range(_MOST_ROUNDS):
-            off = self._through(out) - pixel
+        for _ in range(_MAX_ITERATIONS):
+            off = self._apply_polynomial(out) - pixel
             out = out - off
-            if np.abs(off).max() < _NEAR_PX:
+            if np.abs(off).max() < _TOLERANCE_PX:
                 break
         return out
 

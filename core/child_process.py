@@ -24,14 +24,14 @@ from typing import Any
 BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 NICENESS = 5
 """Whoever tracks, draws and stores comes first, three times, until they wait for the child."""
-TIDY_S = 7.5
+CLEANUP_S = 7.5
 """A child whose owner is gone may take so long to tidy what it was at."""
-KILLED_S = 3.0
+KILL_TIMEOUT_S = 3.0
 """The system takes a killed process away within this time, unless a disk or a device holds it."""
 _STARTING = threading.Lock()
 
 
-class ChildDied(Exception):
+class ChildDiedError(Exception):
     """The child ended, or was ended, before it answered."""
 
 
@@ -64,10 +64,10 @@ class ChildProcess:
         context: Any = multiprocessing.get_context("fork" if is_forked else "spawn")
         packed = pickle.dumps(arguments)
         self._process = context.Process(
-            target=_begin, args=(theirs, work, packed, is_forked), name=f"carpus-{name}", daemon=True
+            target=_run_child, args=(theirs, work, packed, is_forked), name=f"carpus-{name}", daemon=True
         )
         try:
-            with _STARTING, _allowed_children(), _hidden_main():
+            with _STARTING, _allow_children(), _hide_main():
                 self._process.start()
         except BaseException:
             self.link.close()
@@ -94,14 +94,14 @@ class ChildProcess:
         """End the process for certain once ``grace_s`` is over; from any thread, as often as wanted."""
         self._process.join(grace_s)
         self._process.kill()
-        self._process.join(KILLED_S)
+        self._process.join(KILL_TIMEOUT_S)
 
     def end(self, grace_s: float = 0.0) -> None:
         """Kill the process and close the pipe."""
         self.kill(grace_s)
         self.link.close()
 
-    def describe_death(self, patience_s: float = KILLED_S) -> str:
+    def describe_exit(self, patience_s: float = KILL_TIMEOUT_S) -> str:
         """What a process whose pipe has ended died of."""
         self._process.join(patience_s)
         code = self._process.exitcode
@@ -120,13 +120,13 @@ def call_in_child(function: Callable[..., Any], *arguments: object, limit_s: flo
     Exception
         What the function raised.
     """
-    child = ChildProcess(_answer, function, arguments, name="call")
+    child = ChildProcess(_send_result, function, arguments, name="call")
     try:
         if not child.link.poll(limit_s):
-            raise ChildDied(f"no answer for {limit_s:g} s")
+            raise ChildDiedError(f"no answer for {limit_s:g} s")
         value, fault = child.link.recv()
     except (EOFError, OSError):
-        raise ChildDied(child.describe_death()) from None
+        raise ChildDiedError(child.describe_exit()) from None
     finally:
         child.end()
     if fault is not None:
@@ -135,7 +135,7 @@ def call_in_child(function: Callable[..., Any], *arguments: object, limit_s: flo
 
 
 @contextlib.contextmanager
-def _allowed_children() -> Iterator[None]:
+def _allow_children() -> Iterator[None]:
     """Let a daemon start a child: a worker of Dask or of a pool is one, and this child does not outlive its owner."""
     own: Any = multiprocessing.current_process()
     is_daemon = own.daemon
@@ -149,7 +149,7 @@ def _allowed_children() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _hidden_main() -> Iterator[None]:
+def _hide_main() -> Iterator[None]:
     """Hide the main script, which a child would run again: as researchers write them they are not made for that."""
     main = sys.modules["__main__"]
     sys.modules["__main__"] = types.ModuleType("__main__")
@@ -160,7 +160,7 @@ def _hidden_main() -> Iterator[None]:
 
 
 # --- in the child -------------------------------------------------------------------------------------------------
-def _begin(link: Connection, work: str, arguments: bytes, is_forked: bool) -> None:
+def _run_child(link: Connection, work: str, arguments: bytes, is_forked: bool) -> None:
     if is_forked:
         _STARTING.release()  # the copy was made while the owner held it
         _close_copied_files(link)
@@ -186,7 +186,7 @@ def _close_copied_files(link: Connection) -> None:
         os.closerange(low + 1, high)
 
 
-def _answer(link: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+def _send_result(link: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
     try:
         link.send((function(*arguments), None))
     except Exception as fault:  # the one catch of this process: told, not printed
@@ -195,16 +195,16 @@ def _answer(link: Connection, function: Callable[..., Any], arguments: tuple[Any
 
 def end_with_owner() -> None:
     """End this child when its owner is gone, also from within a call that does not return: by SIGTERM, which work may
-    hear as a wish to tidy, and after :data:`TIDY_S` in any case."""
-    threading.Thread(target=_wait_for_owner, name="owner", daemon=True).start()
+    hear as a wish to tidy, and after :data:`CLEANUP_S` in any case."""
+    threading.Thread(target=_end_after_owner, name="owner", daemon=True).start()
 
 
-def _wait_for_owner() -> None:
+def _end_after_owner() -> None:
     owner = multiprocessing.parent_process()
     assert owner is not None
     owner.join()
     os.kill(os.getpid(), signal.SIGTERM)
-    time.sleep(TIDY_S)
+    time.sleep(CLEANUP_S)
     os._exit(1)
 
 

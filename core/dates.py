@@ -8,7 +8,7 @@ _EARLIEST = datetime(2000, 1, 1, tzinfo=UTC)
 """No depth camera is older: an earlier time counts from when the camera was switched on."""
 
 
-def time_of_day(timestamp_s: float) -> datetime | None:
+def moment_from_timestamp(timestamp_s: float) -> datetime | None:
     """The moment that a picture's time names when it counts from 1970, None when it counts from anything else."""
     latest_s = datetime.now(UTC).timestamp() + 86400.0
     if not _EARLIEST.timestamp() <= timestamp_s <= latest_s:
@@ -24,7 +24,7 @@ def is_moment(text: str) -> bool:
         return False
 
 
-def day_of(text: str) -> date | None:
+def parse_day(text: str) -> date | None:
     """The day that a text names, None for one that is none."""
     try:
         return date.fromisoformat(text)
@@ -32,6 +32,6 @@ def day_of(text: str) -> date | None:
         return None
 
 
-def iso(moment: datetime) -> str:
+def to_iso(moment: datetime) -> str:
     """ISO 8601 to the second, in the zone of this place."""
     return moment.astimezone().isoformat(timespec="seconds")

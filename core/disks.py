@@ -13,11 +13,11 @@ from typing import Literal
 from carpus.core.installing import Finding
 from carpus.core.phrase import phrase
 
-DiskState = Literal["encrypted", "plain", "unknown"]
+EncryptionState = Literal["encrypted", "plain", "unknown"]
 
-ENCRYPTING_KINDS = ("ecryptfs", "fuse.gocryptfs", "fuse.cryfs", "fuse.encfs")
+ENCRYPTED_FILE_SYSTEMS = ("ecryptfs", "fuse.gocryptfs", "fuse.cryfs", "fuse.encfs")
 """File systems that encrypt by themselves, whatever lies under them."""
-PATIENCE_S = 20.0
+TIMEOUT_S = 20.0
 _BITLOCKER = (
     "(New-Object -ComObject Shell.Application).NameSpace('{drive}').Self"
     ".ExtendedProperty('System.Volume.BitLockerProtection')"
@@ -26,31 +26,33 @@ _ENCRYPTED_FLAG, _GET_FLAGS = 0x800, 0x80086601
 """Of a folder of ext4 and its like that is encrypted by itself (fscrypt)."""
 
 
-def disk_state(folder: Path) -> DiskState:
+def detect_encryption(folder: Path) -> EncryptionState:
     """Of the disk that a folder lies on, or will lie on; ``unknown`` wherever the system does not tell."""
     there = next((one for one in (folder, *folder.parents) if one.exists()), Path.cwd()).resolve()
     try:
         if sys.platform == "win32":
-            return bitlocker_state(there)
+            return detect_bitlocker(there)
         if sys.platform == "darwin":
-            return filevault_state(there)
-        return "encrypted" if _is_encrypted_folder(there) else linux_state(there)
+            return detect_filevault(there)
+        return "encrypted" if _is_encrypted_folder(there) else detect_linux_encryption(there)
     except (OSError, ValueError, subprocess.SubprocessError):
         return "unknown"
 
 
-def disk_encryption_finding(state: DiskState) -> Finding:
+def check_disk_encryption(state: EncryptionState) -> Finding:
     """For ``carpus doctor`` and the settings: how it stands, and how it is switched on."""
     name = phrase("Disk encryption")
     if state == "encrypted":
         return Finding(name, "good", phrase("The disk of the data folder is encrypted by the system."))
     if state == "plain":
-        return Finding(name, "warning", phrase("The disk of the data folder is not encrypted."), switching_on())
-    remedy = phrase("Ask whoever looks after this computer. {how}", how=switching_on())
+        return Finding(
+            name, "warning", phrase("The disk of the data folder is not encrypted."), format_encryption_advice()
+        )
+    remedy = phrase("Ask whoever looks after this computer. {how}", how=format_encryption_advice())
     return Finding(name, "warning", phrase("Whether the disk of the data folder is encrypted is not known."), remedy)
 
 
-def switching_on(platform: str = sys.platform) -> str:
+def format_encryption_advice(platform: str = sys.platform) -> str:
     """How this system's encryption is switched on."""
     if platform == "win32":
         return phrase(
@@ -68,34 +70,34 @@ def switching_on(platform: str = sys.platform) -> str:
     )
 
 
-def linux_state(folder: Path, root: Path = Path("/")) -> DiskState:
+def detect_linux_encryption(folder: Path, root: Path = Path("/")) -> EncryptionState:
     """By the mounted file system and the layers of devices under it: the dm-crypt layer of LUKS may lie under volumes.
     ``root`` is that of the system looked at. Raises OSError, ValueError."""
-    number, kind, source = _mount_of(folder, (root / "proc/self/mountinfo").read_text(encoding="utf-8"))
-    if kind in ENCRYPTING_KINDS:
+    number, kind, source = _find_mount(folder, (root / "proc/self/mountinfo").read_text(encoding="utf-8"))
+    if kind in ENCRYPTED_FILE_SYSTEMS:
         return "encrypted"
     device = root / "sys/dev/block" / number
     if number.startswith("0:"):  # file systems of several devices, and such without one
         device = root / "sys/class/block" / (root / source.lstrip("/")).resolve().name
-    return _device_state(device.resolve()) if source.startswith("/dev/") else "unknown"
+    return _detect_device_encryption(device.resolve()) if source.startswith("/dev/") else "unknown"
 
 
-def bitlocker_state(folder: Path, ask: Callable[[Sequence[str]], str] | None = None) -> DiskState:
+def detect_bitlocker(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
     """As Windows tells everybody: 1 on, 3 being switched on, 5 on but its key lies open. Raises OSError and more."""
     command = ["powershell", "-NoProfile", "-Command", _BITLOCKER.format(drive=folder.drive)]
-    said = (ask or _asked)(command).strip()
+    said = (run_command or _run_command)(command).strip()
     return "encrypted" if said == "1" else "plain" if said in ("2", "3", "4", "5") else "unknown"
 
 
-def filevault_state(folder: Path, ask: Callable[[Sequence[str]], str] | None = None) -> DiskState:
+def detect_filevault(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
     """Of the volume, as macOS tells everybody. Raises OSError and more."""
     mount = next((one for one in (folder, *folder.parents) if os.path.ismount(one)), Path("/"))
-    told = (ask or _asked)(["diskutil", "info", str(mount)])
+    told = (run_command or _run_command)(["diskutil", "info", str(mount)])
     said = re.findall(r"^\s*(?:FileVault|Encrypted):\s+(Yes|No)", told, re.MULTILINE)
     return "unknown" if not said else "encrypted" if "Yes" in said else "plain"
 
 
-def _mount_of(folder: Path, mounts: str) -> tuple[str, str, str]:
+def _find_mount(folder: Path, mounts: str) -> tuple[str, str, str]:
     """Number of the device, kind of file system and source of the mount that a folder lies in."""
     found = ("0:0", "", "")
     longest = -1
@@ -107,14 +109,14 @@ def _mount_of(folder: Path, mounts: str) -> tuple[str, str, str]:
     return found
 
 
-def _device_state(device: Path) -> DiskState:
+def _detect_device_encryption(device: Path) -> EncryptionState:
     """Encrypted by itself, or because all that it lies on is."""
     if not device.is_dir() or (device / "loop").is_dir():
         return "unknown"
     uuid = device / "dm/uuid"
     if uuid.is_file() and uuid.read_text(encoding="utf-8").startswith("CRYPT-"):
         return "encrypted"
-    under = [_device_state(one.resolve()) for one in sorted((device / "slaves").glob("*"))]
+    under = [_detect_device_encryption(one.resolve()) for one in sorted((device / "slaves").glob("*"))]
     if "unknown" in under:
         return "unknown"
     return "encrypted" if under and "plain" not in under else "plain"
@@ -133,14 +135,14 @@ def _is_encrypted_folder(folder: Path) -> bool:
     return bool(int.from_bytes(flags[:4], sys.byteorder) & _ENCRYPTED_FLAG)
 
 
-def _asked(command: Sequence[str]) -> str:
-    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=PATIENCE_S).stdout
+def _run_command(command: Sequence[str]) -> str:
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=TIMEOUT_S).stdout
 
 
 SYSTEM_DEVICES = Path("/sys/dev/block")
 
 
-def on_same_disk(one: Path, other: Path, devices: Path = SYSTEM_DEVICES) -> bool:
+def is_same_disk(one: Path, other: Path, devices: Path = SYSTEM_DEVICES) -> bool:
     """Whether the disks below two folders that are there have one in common; False where one of them is not there.
 
     Two partitions lie on one disk, and so does what is encrypted or joined on top of it. Where the system says nothing
@@ -150,19 +152,19 @@ def on_same_disk(one: Path, other: Path, devices: Path = SYSTEM_DEVICES) -> bool
         first, second = one.stat().st_dev, other.stat().st_dev
     except OSError:
         return False
-    return first == second or bool(_disks(first, devices) & _disks(second, devices))
+    return first == second or bool(_find_disks(first, devices) & _find_disks(second, devices))
 
 
-def _disks(device: int, devices: Path) -> set[str]:
+def _find_disks(device: int, devices: Path) -> set[str]:
     if not hasattr(os, "major"):  # Windows has no such table
         return set()
     found = devices / f"{os.major(device)}:{os.minor(device)}"
-    return _below(found.resolve()) if found.exists() else set()
+    return _physical_disks(found.resolve()) if found.exists() else set()
 
 
-def _below(block: Path) -> set[str]:
+def _physical_disks(block: Path) -> set[str]:
     """The disks that a block device is made of."""
     slaves = sorted((block / "slaves").glob("*"))
     if slaves:
-        return {disk for slave in slaves for disk in _below(slave.resolve())}
+        return {disk for slave in slaves for disk in _physical_disks(slave.resolve())}
     return {(block.parent if (block / "partition").exists() else block).name}

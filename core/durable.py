@@ -16,10 +16,10 @@ from typing import IO, Self
 
 from carpus.core.errors import CarpusFault, DiskFull, OutputNotWritable
 
-FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+DISK_FULL_ERRNOS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
-class Writing:
+class FileWriter:
     """A file in the making: closed where its block ends, abandoned where that ends by a fault, with what was taken."""
 
     def __enter__(self) -> Self:
@@ -42,12 +42,12 @@ def write_fault(path: Path, cause: OSError | RuntimeError) -> CarpusFault:
     """The fault behind an exception of a write; h5py hides some error numbers in the text."""
     found = re.search(r"errno = (\d+)", str(cause))
     number = getattr(cause, "errno", None) or (int(found[1]) if found else None)
-    if number in FULL:
+    if number in DISK_FULL_ERRNOS:
         return DiskFull(path, os.strerror(number))
     return OutputNotWritable(path, os.strerror(number) if number else "")
 
 
-def is_full(folder: Path) -> bool:
+def is_disk_full(folder: Path) -> bool:
     """Whether the disk of a folder takes nothing more."""
     try:
         with tempfile.TemporaryFile(dir=folder) as file:
@@ -55,7 +55,7 @@ def is_full(folder: Path) -> bool:
             file.flush()
             os.fsync(file.fileno())
     except OSError as cause:
-        return cause.errno in FULL
+        return cause.errno in DISK_FULL_ERRNOS
     return False
 
 
@@ -99,13 +99,13 @@ def replace_text(path: Path, text: str) -> None:
     """As :func:`replace_file`, with a text that nobody else may read at any time."""
 
     def write(part: Path) -> None:
-        with open(part, "x", encoding="utf-8", opener=private) as file:
+        with open(part, "x", encoding="utf-8", opener=open_private) as file:
             file.write(text)
 
     replace_file(path, write)
 
 
-def private(name: str, flags: int) -> int:
+def open_private(name: str, flags: int) -> int:
     """An opener for :func:`open`: a file that it opens to write can be read and written by its owner alone, whatever
     the umask takes or gives."""
     descriptor = os.open(name, flags, 0o600)
@@ -115,7 +115,7 @@ def private(name: str, flags: int) -> int:
     return descriptor
 
 
-def make_private(folder: Path) -> None:
+def make_private_folder(folder: Path) -> None:
     """Make a folder that only its owner may enter. Raises :class:`OutputNotWritable`."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -144,7 +144,7 @@ def link_or_copy(path: Path, target: Path) -> None:
             os.fsync(copy.fileno())
 
 
-def hold(file: IO[bytes]) -> None:
+def lock_file(file: IO[bytes]) -> None:
     """Until it is closed, or the program dies. Raises OSError where another program holds it."""
     if os.name == "nt":
         import msvcrt

@@ -14,17 +14,17 @@ State = Literal["good", "warning", "bad"]
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One need. ``found`` is the fact; ``remedy`` what to do, empty when nothing is to be done."""
+    """One need. ``observation`` is the fact; ``remedy`` what to do, empty when nothing is to be done."""
 
     name: str
     state: State
-    found: str
+    observation: str
     remedy: str = ""
 
 
 CAMERAS_EXTRA = "carpus-cameras-extra"
 """The second Debian package."""
-IN_CAMERAS_EXTRA = ALONE = ("pyorbbecsdk2",)
+CAMERAS_EXTRA_PACKAGES = NO_DEPENDENCY_PACKAGES = ("pyorbbecsdk2",)
 """Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
 it would take the place of what Carpus runs on: for that reason there is no extra for it."""
 
@@ -34,12 +34,12 @@ def is_packed() -> bool:
     return getattr(sys, "frozen", False)
 
 
-def how_to_install(*packages: str) -> Phrase:
+def install_hint(*packages: str) -> Phrase:
     """What to do for Python packages that are missing."""
     if not is_packed():
-        alone = "--no-deps " if set(packages) <= set(ALONE) else ""
+        alone = "--no-deps " if set(packages) <= set(NO_DEPENDENCY_PACKAGES) else ""
         return phrase("Run “{command}”.", command=f"{sys.executable} -m pip install {alone}{' '.join(packages)}")
-    if sys.platform.startswith("linux") and set(packages) <= set(IN_CAMERAS_EXTRA):
+    if sys.platform.startswith("linux") and set(packages) <= set(CAMERAS_EXTRA_PACKAGES):
         return phrase("Install the package {package}, which comes beside that of Carpus.", package=CAMERAS_EXTRA)
     return phrase(
         "The packed program does without {packages}; Carpus from its source can have it.", packages=", ".join(packages)

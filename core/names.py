@@ -12,12 +12,12 @@ from difflib import get_close_matches
 from carpus.core.errors import NameUnsuited, SettingsInvalid
 from carpus.core.phrase import phrase
 
-MOST_CHARACTERS = 100
-_UNSEEN = {"\u034f", "\u115f", "\u1160", "\u2800", "\u3164", "\uffa0", *map(chr, range(0xFE00, 0xFE10))}
+MAX_NAME_CHARACTERS = 100
+_INVISIBLE = {"\u034f", "\u115f", "\u1160", "\u2800", "\u3164", "\uffa0", *map(chr, range(0xFE00, 0xFE10))}
 """Fillers, joiners and selectors, which count as letters or marks and show nothing."""
 
 
-def name_of(text: str) -> str:
+def normalize_name(text: str) -> str:
     """The text as it is kept: composed (NFC), blanks single and none around it. Raises :class:`NameUnsuited`.
 
     Signs that nobody sees (soft hyphens, joiners, direction marks, controls) are refused: two names that look the same
@@ -27,35 +27,35 @@ def name_of(text: str) -> str:
     'Linden 42'
     """
     name = re.sub(" +", " ", unicodedata.normalize("NFC", text).strip())
-    if sign := next((one for one in name if not one.isprintable() or one in _UNSEEN), ""):
+    if sign := next((one for one in name if not one.isprintable() or one in _INVISIBLE), ""):
         called = unicodedata.name(sign, f"U+{ord(sign):04X}").lower()
         raise NameUnsuited(called, phrase("it holds a sign that cannot be seen"))
-    if len(name) > MOST_CHARACTERS:
-        raise NameUnsuited(str(len(name)), phrase("more than {count} signs", count=MOST_CHARACTERS))
+    if len(name) > MAX_NAME_CHARACTERS:
+        raise NameUnsuited(str(len(name)), phrase("more than {count} signs", count=MAX_NAME_CHARACTERS))
     return name
 
 
-def folded(text: str) -> str:
+def fold_name(text: str) -> str:
     """A name as it is compared: capitals and kinds of the same letter do not count."""
     return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", text).casefold()).strip()
 
 
-MOST_LISTED = 24
-CLOSE_ENOUGH = 0.6
+MAX_LISTED_NAMES = 24
+MIN_SIMILARITY = 0.6
 
 
-def nearest(word: str, known: Iterable[str]) -> str | None:
+def find_similar_name(word: str, names: Iterable[str]) -> str | None:
     """The known name that a mistyped one most likely means, None where none is near.
 
     >>> nearest("trak", ["track", "info"]), nearest("Ferm 12", ["Fern 12"]), nearest("xyz", ["track"])
     ('track', 'Fern 12', None)
     """
-    written = {name.casefold(): name for name in known}
-    found = get_close_matches(word.casefold(), written, n=1, cutoff=CLOSE_ENOUGH)
+    written = {name.casefold(): name for name in names}
+    found = get_close_matches(word.casefold(), written, n=1, cutoff=MIN_SIMILARITY)
     return written[found[0]] if found else None
 
 
-def known_names(word: str, known: Iterable[str]) -> str:
+def describe_known_names(word: str, names: Iterable[str]) -> str:
     """What was meant by ``word`` and the names that there are, as one sentence for a person.
 
     >>> known_names("slwo", ["slow", "brisk"])
@@ -63,17 +63,17 @@ def known_names(word: str, known: Iterable[str]) -> str:
     >>> known_names("x", [])
     'there are none yet'
     """
-    names = list(dict.fromkeys(known))
+    names = list(dict.fromkeys(names))
     if not names:
         return phrase("there are none yet")
-    listed = ", ".join(names[:MOST_LISTED]) + (", …" if len(names) > MOST_LISTED else "")
-    meant = nearest(word, names)
+    listed = ", ".join(names[:MAX_LISTED_NAMES]) + (", …" if len(names) > MAX_LISTED_NAMES else "")
+    meant = find_similar_name(word, names)
     if meant is None:
         return phrase("there are: {names}", names=listed)
     return phrase("did you mean “{meant}”? There are: {names}", meant=meant, names=listed)
 
 
-CAMERAS = "cameras"
+CAMERAS_FOLDER = "cameras"
 """Folder of stored calibrations and checks inside the data folder, where back-ups find it."""
 
 
@@ -90,11 +90,11 @@ Limits = Mapping[str, tuple[float, float]]
 """Least and largest value by the name of the field."""
 
 
-def check_limits(where: str, chosen: object, limits: Limits) -> None:
+def check_limits(section: str, settings: object, limits: Limits) -> None:
     """Raise :class:`SettingsInvalid` for a number beyond its limits, also one of several, and for no number of several.
     None is no number."""
     for name, (low, high) in limits.items():
-        value = getattr(chosen, name)
+        value = getattr(settings, name)
         several = value if isinstance(value, tuple) else (value,)
         if not several or not all(one is None or low <= one <= high for one in several):  # a NaN lies nowhere
-            raise SettingsInvalid(where, f"{name} = {value}, from {low:g} to {high:g}")
+            raise SettingsInvalid(section, f"{name} = {value}, from {low:g} to {high:g}")

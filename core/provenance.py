@@ -15,10 +15,10 @@ from carpus.core.version import __version__
 _REVISION_LENGTH = 40
 REVISION_FILE = "revision.txt"
 """Beside the other resources of an installed program; a checkout knows its revision itself."""
-LISTS = ("rgb.txt", "depth.txt", "camera_info.yaml")
+HASHED_LISTS = ("rgb.txt", "depth.txt", "camera_info.yaml")
 
 
-def revision() -> str:
+def source_revision() -> str:
     """The source revision of this program, 40 digits; empty where nobody knows."""
     root = Path(__file__).resolve().parent.parent
     with suppress(OSError, ValueError):
@@ -26,7 +26,7 @@ def revision() -> str:
         if git.is_file():  # a second checkout of the same repository
             git = root / git.read_text(encoding="utf-8").split(":", 1)[1].strip()
         if git.is_dir():
-            return _head(git)
+            return _head_revision(git)
     with suppress(OSError, ModuleNotFoundError):
         return resources.files("carpus.resources").joinpath(REVISION_FILE).read_text(encoding="utf-8").strip()
     return ""
@@ -34,14 +34,14 @@ def revision() -> str:
 
 def version_with_revision() -> str:
     """``0.1.0 (1a2b3c4)``; the version alone where nobody knows the revision."""
-    known = revision()
+    known = source_revision()
     return f"{__version__} ({known[:7]})" if known else __version__
 
 
-def said_in(parameters: str, part: str) -> dict[str, Any]:
+def parameter_section(parameters: str, section: str) -> dict[str, Any]:
     """A part of a session's parameters, as ``provenance`` or ``source``; empty where it says nothing."""
     try:
-        said = json.loads(parameters)[part]
+        said = json.loads(parameters)[section]
     except (KeyError, TypeError, ValueError):
         return {}
     return said if isinstance(said, dict) else {}
@@ -66,12 +66,12 @@ def sha256_of_recording(path: Path) -> str:
     """
     if path.is_file():
         return sha256_of_file(path)
-    lines = (f"{sha256_of_file(path / name)} {name}\n" for name in sorted(set(_names(path))))
+    lines = (f"{sha256_of_file(path / name)} {name}\n" for name in sorted(set(_listed_files(path))))
     return hashlib.sha256("".join(lines).encode()).hexdigest()
 
 
-def _names(folder: Path) -> Iterator[str]:
-    for name in LISTS:
+def _listed_files(folder: Path) -> Iterator[str]:
+    for name in HASHED_LISTS:
         if (folder / name).is_file():
             yield name
             if name.endswith(".txt"):
@@ -81,7 +81,7 @@ def _names(folder: Path) -> Iterator[str]:
                         yield words[1]
 
 
-def _head(git: Path) -> str:
+def _head_revision(git: Path) -> str:
     head = (git / "HEAD").read_text(encoding="utf-8").strip()
     if not head.startswith("ref:"):
         return head if len(head) == _REVISION_LENGTH else ""

@@ -6,7 +6,7 @@ import math
 from decimal import ROUND_HALF_UP, Decimal
 
 
-def rounded(value: float) -> int:
+def round_half_away(value: float) -> int:
     """The nearest whole number, halves away from zero.
 
     >>> rounded(44.5), rounded(-44.5), rounded(0.4999)
@@ -15,7 +15,7 @@ def rounded(value: float) -> int:
     return int(Decimal(repr(float(value))).quantize(Decimal(1), ROUND_HALF_UP))
 
 
-def written(value: float, decimals: int = 0) -> str:
+def format_rounded(value: float, decimals: int = 0) -> str:
     """A number with that many decimals, halves away from zero; nothing is never minus nothing.
 
     >>> written(44.5), written(-44.5), written(0.25, 1), written(-0.04, 1), written(math.nan)

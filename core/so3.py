@@ -34,7 +34,7 @@ def skew(vector: FloatArray) -> FloatArray:
     return np.asarray((vector @ _GENERATORS).reshape(*vector.shape, 3))
 
 
-def exp(turn_rad: FloatArray) -> FloatArray:
+def exp(rotation_vector: FloatArray) -> FloatArray:
     """Rotation matrices (..., 3, 3) of turns (..., 3); Rodrigues' formula.
 
     >>> exp(np.array([0.0, 0.0, np.pi / 2])).round(6) + 0.0
@@ -42,16 +42,16 @@ def exp(turn_rad: FloatArray) -> FloatArray:
            [ 1.,  0.,  0.],
            [ 0.,  0.,  1.]])
     """
-    if turn_rad.ndim == 1:
-        return _exp_one(*turn_rad.tolist())
-    turn = turn_rad.reshape(-1, 3)
+    if rotation_vector.ndim == 1:
+        return _exp_one(*rotation_vector.tolist())
+    turn = rotation_vector.reshape(-1, 3)
     angle = np.sqrt(np.vecdot(turn, turn) + _TINY)
     a, half = np.sin(angle) / angle, np.sin(0.5 * angle) / angle
     cross = skew(turn)
     out: FloatArray = (2.0 * half * half)[:, None, None] * (cross @ cross)  # (1 - cos(angle)) / angle^2
     out += a[:, None, None] * cross
     out.reshape(-1, 9)[:, ::4] += 1.0  # the diagonals
-    return out.reshape(*turn_rad.shape, 3)
+    return out.reshape(*rotation_vector.shape, 3)
 
 
 def _exp_one(x: float, y: float, z: float) -> FloatArray:
@@ -110,7 +110,7 @@ def _log_one(rotation: FloatArray) -> FloatArray | None:
     return np.array((scale * x, scale * y, scale * z))
 
 
-def nearest_rotation(matrix: FloatArray) -> FloatArray:
+def project_to_rotation(matrix: FloatArray) -> FloatArray:
     """Rotation matrices (..., 3, 3) nearest to ``matrix`` in the least-squares sense."""
     u, _, vt = np.linalg.svd(matrix)
     sign = np.linalg.det(u @ vt)
@@ -119,10 +119,10 @@ def nearest_rotation(matrix: FloatArray) -> FloatArray:
     return np.asarray(u @ vt)
 
 
-def rigid(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
+def fit_rigid_transform(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Rotation (3, 3) and shift (3,) that bring points (P, 3) nearest to others (Kabsch, without a mirror)."""
     a, b = source.mean(axis=0), target.mean(axis=0)
-    turn = nearest_rotation((target - b).T @ (source - a))
+    turn = project_to_rotation((target - b).T @ (source - a))
     return turn, b - turn @ a
 
 

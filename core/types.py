@@ -45,7 +45,7 @@ class Region:
     right: int
     bottom: int
 
-    def clipped(self, width: int, height: int) -> Region:
+    def clip(self, width: int, height: int) -> Region:
         return Region(max(self.left, 0), max(self.top, 0), min(self.right, width), min(self.bottom, height))
 
     @property
@@ -69,14 +69,14 @@ class Frame:
     depth_unit_m: float
     dropped_before: int = 0
 
-    def seen(self, _part: Region | None) -> Frame:
+    def decode(self, _region: Region | None) -> Frame:
         """The frame for who looks at a part of its pictures alone, None for all of them."""
         return self
 
 
-SURFACE_READINGS, FINGER_READINGS = 224, 352
+MAX_SURFACE_READINGS, MAX_FINGER_READINGS = 224, 352
 """Most readings on the back of the hand, and about the fingers, that a frame keeps."""
-FINGER_STEP_PX = 4
+FINGER_SAMPLE_STEP_PX = 4
 """Between two readings about the fingers."""
 
 
@@ -106,16 +106,16 @@ class Detections:
     surface: SurfaceSamples | None = None
     fingers: SurfaceSamples | None = None
 
-    def only(self, kept: NDArray[np.bool_]) -> Detections:
-        """The blobs ``kept`` (D,) alone."""
-        if kept.all():
+    def subset(self, is_kept: NDArray[np.bool_]) -> Detections:
+        """The blobs ``is_kept`` (D,) alone."""
+        if is_kept.all():
             return self
         return Detections(
-            self.pixel[kept],
-            self.depth_m[kept],
-            self.depth_sd_m[kept],
-            self.area_px[kept],
-            self.similarity[kept],
+            self.pixel[is_kept],
+            self.depth_m[is_kept],
+            self.depth_sd_m[is_kept],
+            self.area_px[is_kept],
+            self.similarity[is_kept],
             self.surface,
             self.fingers,
         )
@@ -135,7 +135,7 @@ class Detections:
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class KinematicState:
     """Wrist and joints at one moment; NaN where not known. A field here is a line of the schema's ``MOTION_FIELDS``.
 
     ``position_m`` and ``velocity_m_s`` (3,) of W2's origin, the WRIST disc, in W0 as calibrated; ``rotation_w2_w0``
@@ -163,20 +163,21 @@ class Moment:
 class TrackedFrame:
     """What Carpus knows about one frame; the row of every dataset of the session file.
 
-    M markers of the protocol. Unknown is NaN. ``moment`` wrist and joints;
+    M markers of the protocol. Unknown is NaN. ``kinematics`` wrist and joints;
     ``marker_position_cam_m`` (M, 3); ``marker_predicted_px`` (M, 2) before the update, with its
     covariance ``marker_predicted_cov_px2`` (M, 2, 2); ``marker_measured_px`` (M, 2) and
     ``marker_measured_depth_m`` (M,) the blob taken for the marker.
     ``measured_share`` (3,) or (J,) share of direct measurement in the last second; ``nis`` normalised
     innovation squared and ``nis_dof`` its degrees of freedom.
     ``doubted`` (M,) whether what is seen contradicts what is stated of the marker; none when not given.
-    ``no_disc`` (D,) detections that a person said are no disc, and that were not used; none when not given; not stored.
+    ``is_rejected`` (D,) detections that a person said are no disc, and that were not used; none when not given; not
+    stored.
     """
 
     index: int
     timestamp_s: float
     status: TrackStatus
-    moment: Moment
+    kinematics: KinematicState
     marker_position_cam_m: FloatArray
     marker_predicted_px: FloatArray
     marker_predicted_cov_px2: FloatArray
@@ -188,47 +189,47 @@ class TrackedFrame:
     nis: float
     nis_dof: int
     doubted: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
-    no_disc: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    is_rejected: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
 
     def __post_init__(self) -> None:
         if not len(self.doubted):
             object.__setattr__(self, "doubted", np.zeros(len(self.marker_measured_px), dtype=np.bool_))
-        if len(self.no_disc) != len(self.detections):
+        if len(self.is_rejected) != len(self.detections):
             object.__setattr__(self, "no_disc", np.zeros(len(self.detections), dtype=np.bool_))
 
 
-SPOT_SAID = "spot_said"
+OPERATOR_LABEL = "spot_said"
 """The event of a session in which a person said which blue spot is a marker, or that one is none."""
 
 
 @dataclass(frozen=True, slots=True)
-class SpotAnswer:
-    """``marker`` is the spot at ``place_px`` (u, v), None for none of those asked about; the spots at ``not_px`` are
-    not it. All as they lie in picture ``index``."""
+class MarkerLabel:
+    """``marker`` is the spot at ``pixel`` (u, v), None for none of those asked about; the spots at ``rejected_px`` are
+    not it. All as they lie in picture ``frame_index``."""
 
-    index: int
+    frame_index: int
     marker: str
-    place_px: tuple[float, float] | None
-    not_px: tuple[tuple[float, float], ...] = ()
+    pixel: tuple[float, float] | None
+    rejected_px: tuple[tuple[float, float], ...] = ()
 
-    def text(self) -> str:
+    def to_json(self) -> str:
         """For the session's events."""
         told: dict[str, object] = {"marker": self.marker}
-        told["at"] = None if self.place_px is None else _rounded(self.place_px)
-        told["not"] = [_rounded(place) for place in self.not_px]
+        told["at"] = None if self.pixel is None else _round_pixel(self.pixel)
+        told["not"] = [_round_pixel(place) for place in self.rejected_px]
         return json.dumps(told, sort_keys=True)
 
     @staticmethod
-    def of_text(text: str, index: int) -> SpotAnswer | None:
-        """What the event of a session says of picture ``index``; None where it cannot be read."""
+    def from_json(text: str, index: int) -> MarkerLabel | None:
+        """What the event of a session says of picture ``frame_index``; None where it cannot be read."""
         try:
             told = json.loads(text)
             at = told["at"]
             place = None if at is None else (float(at[0]), float(at[1]))
-            return SpotAnswer(index, str(told["marker"]), place, tuple((float(u), float(v)) for u, v in told["not"]))
+            return MarkerLabel(index, str(told["marker"]), place, tuple((float(u), float(v)) for u, v in told["not"]))
         except (ValueError, TypeError, KeyError, IndexError):
             return None
 
 
-def _rounded(place: tuple[float, float]) -> list[float]:
+def _round_pixel(place: tuple[float, float]) -> list[float]:
     return [round(place[0], 1), round(place[1], 1)]

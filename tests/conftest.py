@@ -192,7 +192,7 @@ def own_folders(homes: Iterator[Path], monkeypatch: pytest.MonkeyPatch) -> Path:
 def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RecordingSpec], Path]:
     """The folder with the simulated recording of a spec: the run's own copy, of what is rendered once into ``build``
     for as long as core and the pins stay as they are."""
-    from carpus.core.simulation.recording import cached_recording
+    from carpus.core.simulation.recording import render_cached
 
     root, run = Path(__file__).parents[1], tmp_path_factory.getbasetemp()
     made_by = [root / "requirements.lock", *sorted((root / "core").rglob("*.[pch]*"))]
@@ -213,7 +213,7 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RecordingSpe
         with (folder / f"{spec.cache_key}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)  # another process renders it already
             if not own.exists():
-                shutil.copytree(cached_recording(spec, cache=kept), own)
+                shutil.copytree(render_cached(spec, cache=kept), own)
             return own
 
     return recording
@@ -258,7 +258,7 @@ def open_desktop(qapp: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[C
     yield open_one
     for desktop in opened:
         desktop.close()
-    qtbot.waitUntil(lambda: not any(desktop.journey.background.busy for desktop in opened))
+    qtbot.waitUntil(lambda: not any(desktop.controller.background.is_busy for desktop in opened))
 
 
 @pytest.fixture(autouse=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from carpus.core.errors import CarpusFault
-from carpus.core.words import words_of
+from carpus.core.words import format_fault
 
 PAGE = Path(__file__).parents[1] / "resources" / "faults.md"
 HEAD = """# Fault codes
@@ -31,9 +31,9 @@ def fault_page() -> str:
     """Markdown text; kept in ``resources/faults.md``."""
     rows = []
     for kind in sorted(all_faults(), key=lambda kind: kind.code):
-        words = words_of(kind(), brief=True)
+        words = format_fault(kind(), is_brief=True)
         rows.append(
-            f"| `{kind.code}` | {words.title} | {words.happened} | {words.safe} | {words.do} | {kind.support} |"
+            f"| `{kind.code}` | {words.title} | {words.summary} | {words.data_safety} | {words.remedy} | {kind.support} |"  # noqa: E501
         )
     return HEAD + "\n".join(rows) + "\n"
 

@@ -12,7 +12,7 @@ import numpy as np
 from carpus.core.simulation.recording import TRUTH_FILE
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import VISIBLE_SHARE_PATH, Truth, truth_of
+from carpus.core.simulation.truth import VISIBLE_SHARE_PATH, Truth, compute_truth
 
 Rendered = Callable[[RecordingSpec], Path]
 """Gives the folder with the recording of a spec; nobody writes into it."""
@@ -32,4 +32,4 @@ def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
     """The true values of a recording made earlier from the same spec."""
     with h5py.File(folder / TRUTH_FILE, "r") as file:
         seen = np.asarray(file[VISIBLE_SHARE_PATH][()], dtype=np.float64)
-    return replace(truth_of(Scene(spec)), visible_share=seen)
+    return replace(compute_truth(Scene(spec)), visible_share=seen)

@@ -68,7 +68,7 @@ def write_guide() -> int:
     from PySide6.QtCore import QRectF
     from PySide6.QtGui import QColor, QImage, QPainter
 
-    from carpus.ui.help.cards import FILE_NAME, paint_camera, paint_discs, write_cards
+    from carpus.ui.help.cards import FILE_NAME, paint_camera_setup, paint_marker_map, write_cards
     from tests.ui.gallery import render_all_screens
 
     folder = GUIDE / "pictures"
@@ -79,9 +79,9 @@ def write_guide() -> int:
             picture = QImage(str(next(path for path in written if f"-{state}-light-" in path.name)))
         picture.save(str(folder / f"{name}.jpg"), None, GUIDE_QUALITY)
     for name, paint in (
-        ("discs-6", lambda painter, box: paint_discs(painter, box, "right", whole_hand=False, unit=2.0)),
-        ("discs-21", lambda painter, box: paint_discs(painter, box, "right", whole_hand=True, unit=2.0)),
-        ("camera-setup", lambda painter, box: paint_camera(painter, box, 2.0)),
+        ("discs-6", lambda painter, box: paint_marker_map(painter, box, "right", whole_hand=False, unit=2.0)),
+        ("discs-21", lambda painter, box: paint_marker_map(painter, box, "right", whole_hand=True, unit=2.0)),
+        ("camera-setup", lambda painter, box: paint_camera_setup(painter, box, 2.0)),
     ):
         drawn = QImage(1440, 900, QImage.Format.Format_RGB32)
         drawn.fill(QColor("#FFFFFF"))

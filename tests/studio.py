@@ -12,8 +12,8 @@ from functools import cache
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.board import Board, Pattern, board_sheet
-from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox
+from carpus.core.calibration.camera.board import Board, Pattern, create_board_sheet
+from carpus.core.calibration.camera.sheet import PrintedSheet, SheetBox, SheetDisc
 from carpus.core.calibration.card.card import (
     CARD_CORNER_MM,
     FOOT_CORNER_MM,
@@ -27,9 +27,9 @@ from carpus.core.calibration.card.card import (
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.source import SERIAL as SAID_SERIAL
 from carpus.core.capture.source import SourceInfo
-from carpus.core.simulation.appearance import appearance_of, linear
+from carpus.core.simulation.appearance import sample_appearance, to_linear
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import ColorSensor, depth_pictures
+from carpus.core.simulation.sensor import ColorSensor, create_depth_sensor
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trace import FloatImage
 from carpus.core.types import SIMULATED, FloatArray, Frame
@@ -55,13 +55,13 @@ def texture_of(sheet: PrintedSheet) -> FloatArray:
     """White paper with the sheet's boxes and discs, in linear light."""
     size = (round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM))
     out = np.full((*size, 3), 0.86, dtype=np.float32)
-    for mark in sheet.marks:
+    for mark in sheet.items:
         if isinstance(mark, SheetBox):
             left, top = round(mark.left_mm * PX_PER_MM), round(mark.top_mm * PX_PER_MM)
             right = round((mark.left_mm + mark.width_mm) * PX_PER_MM)
             bottom = round((mark.top_mm + mark.height_mm) * PX_PER_MM)
             out[top:bottom, left:right] = _light(mark.color)
-        elif isinstance(mark, Disc):
+        elif isinstance(mark, SheetDisc):
             v, u = np.indices(size, dtype=np.float32)
             off = np.hypot((u + 0.5) / PX_PER_MM - mark.x_mm, (v + 0.5) / PX_PER_MM - mark.y_mm)
             out[off <= mark.radius_mm] = _light(mark.color)
@@ -70,7 +70,7 @@ def texture_of(sheet: PrintedSheet) -> FloatArray:
 
 def _light(color: str) -> FloatArray:
     srgb = np.array([int(color[k : k + 2], 16) for k in (1, 3, 5)], dtype=np.float64)
-    return np.maximum(linear(srgb), 0.03).astype(np.float32)
+    return np.maximum(to_linear(srgb), 0.03).astype(np.float32)
 
 
 class Studio:
@@ -79,8 +79,8 @@ class Studio:
     def __init__(self, camera: Camera = LENS, seed: int = 3, depth_scale_error: float = 0.01) -> None:
         self.camera = camera
         self.spec = RecordingSpec(seed=seed, depth_scale_error=depth_scale_error, light="normal")
-        self._color = ColorSensor(self.spec, appearance_of(Scene(self.spec)))
-        self._depth = depth_pictures(self.spec, camera)
+        self._color = ColorSensor(self.spec, sample_appearance(Scene(self.spec)))
+        self._depth = create_depth_sensor(self.spec, camera)
         self._rays = {step: _rays(camera, step) for step in (1, FINER)}
         self._drawn: tuple[Sequence[Placed], FloatImage, FloatImage] | None = None
 
@@ -130,7 +130,7 @@ def _rays(camera: Camera, step: int) -> FloatArray:
     v = (np.arange(camera.height_px * step) + 0.5) / step - 0.5
     pixel = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
     ideal = camera.undistort(pixel)
-    rays = camera.back_project(ideal, np.ones(len(ideal)))
+    rays = camera.backproject(ideal, np.ones(len(ideal)))
     return rays.reshape(len(v), len(u), 3).astype(np.float32)
 
 
@@ -244,7 +244,7 @@ def card_camera(speed: float = 1.0) -> StudioCamera:
 
 def _board_frames(board: Board) -> Iterator[Frame]:
     studio = _studio()
-    texture = texture_of(board_sheet(board, "a4"))
+    texture = texture_of(create_board_sheet(board, "a4"))
     index = 0
     before: Placed | None = None
     for around in itertools.count(5):

@@ -31,11 +31,11 @@ def test_projection_is_equation_2() -> None:
 
 def test_back_projection_undoes_projection() -> None:
     there = points().reshape(4, 10, 3)
-    assert np.allclose(CAMERA.back_project(CAMERA.project(there), there[..., 2]), there, atol=1e-12)
+    assert np.allclose(CAMERA.backproject(CAMERA.project(there), there[..., 2]), there, atol=1e-12)
 
 
 def test_a_point_of_unknown_depth_is_unknown_whole() -> None:
-    back = CAMERA.back_project(np.array([[300.0, 200.0]]), np.array([np.nan]))
+    back = CAMERA.backproject(np.array([[300.0, 200.0]]), np.array([np.nan]))
     assert np.isnan(back).all()
 
 

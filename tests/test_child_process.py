@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.child_process import BLAS_THREADS, ChildDied, ChildProcess, call_in_child, end_with_owner
+from carpus.core.child_process import BLAS_THREADS, ChildDiedError, ChildProcess, call_in_child, end_with_owner
 
 ROOT = Path(__file__).parents[1]
 
@@ -71,7 +71,7 @@ def test_child_that_ignores_its_end_is_killed() -> None:
     assert child.link.recv() == "deaf"
     child.terminate()
     child.end(grace_s=0.1)
-    assert "SIGKILL" in child.describe_death()
+    assert "SIGKILL" in child.describe_exit()
 
 
 def test_child_ends_with_its_owner() -> None:
@@ -95,9 +95,9 @@ def test_call_in_child_gives_value_fault_and_death() -> None:
     assert call_in_child(len, "four") == 4
     with pytest.raises(ValueError, match="not today"):
         call_in_child(refuse)
-    with pytest.raises(ChildDied, match="SIGKILL"):
+    with pytest.raises(ChildDiedError, match="SIGKILL"):
         call_in_child(die)
-    with pytest.raises(ChildDied, match="no answer"):
+    with pytest.raises(ChildDiedError, match="no answer"):
         call_in_child(time.sleep, 120.0, limit_s=0.1)
 
 

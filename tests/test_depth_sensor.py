@@ -18,7 +18,7 @@ from carpus.core.depth_sensor import (
     PRIMESENSE,
     SENSORS,
     DepthSensor,
-    sensor_of,
+    parse_sensor,
 )
 from carpus.core.simulation.sensor import window_noise
 
@@ -49,10 +49,10 @@ def test_neighbours_average_only_where_they_are_independent() -> None:
 
 @pytest.mark.parametrize("sensor", SENSORS.values(), ids=SENSORS)
 def test_every_sensor_goes_through_a_file(sensor: DepthSensor) -> None:
-    said = json.loads(json.dumps(sensor.as_mapping()))
-    assert sensor_of(said) == sensor
-    assert sensor_of(said | {"colour_of_its_case": "grey"}) == sensor
-    assert sensor_of(sensor.name) == sensor
+    said = json.loads(json.dumps(sensor.to_dict()))
+    assert parse_sensor(said) == sensor
+    assert parse_sensor(said | {"colour_of_its_case": "grey"}) == sensor
+    assert parse_sensor(sensor.name) == sensor
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_every_sensor_goes_through_a_file(sensor: DepthSensor) -> None:
 )
 def test_what_is_no_sensor_is_refused(wrong: dict[str, object]) -> None:
     with pytest.raises(ValueError, match="figures"):
-        sensor_of(dataclasses.asdict(D435) | wrong)
+        parse_sensor(dataclasses.asdict(D435) | wrong)
 
 
 @pytest.mark.parametrize("core_px", [3, 7, 11, 21])
@@ -86,5 +86,5 @@ def test_what_stays_of_a_disc_is_the_mean_of_a_windows_error_over_its_middle(cor
     noise = window_noise(np.random.default_rng(5), (600, 600), 11)
     found = float(np.std(cv2.blur(noise, (core_px, core_px))[40:-40, 40:-40]))
     area_px = np.array(core_px**2 / 0.4)
-    stays = sensor.disc_stays_sd_m(np.array(0.7), area_px) / sensor.flat_stays_sd_m(np.array(0.7))
+    stays = sensor.disc_bias_sd_m(np.array(0.7), area_px) / sensor.flat_bias_sd_m(np.array(0.7))
     assert float(stays) == pytest.approx(found, rel=0.1)

@@ -11,13 +11,13 @@ import pytest
 
 from carpus.core import disks
 from carpus.core.disks import (
-    bitlocker_state,
-    disk_encryption_finding,
-    disk_state,
-    filevault_state,
-    linux_state,
-    on_same_disk,
-    switching_on,
+    check_disk_encryption,
+    detect_bitlocker,
+    detect_encryption,
+    detect_filevault,
+    detect_linux_encryption,
+    format_encryption_advice,
+    is_same_disk,
 )
 
 HOME = Path("/home/ada/Carpus data")
@@ -49,7 +49,7 @@ class System:
         (self.root / "proc/self/mountinfo").write_text("\n".join(self.mounts) + "\n")
 
     def state(self, folder: Path = HOME) -> str:
-        return linux_state(folder, self.root)
+        return detect_linux_encryption(folder, self.root)
 
 
 @pytest.fixture
@@ -119,27 +119,27 @@ def test_a_file_system_that_encrypts_by_itself(system: System) -> None:
 def test_bitlocker_and_filevault() -> None:
     answers = {"1\r\n": "encrypted", "2\n": "plain", "3\n": "plain", "6\n": "unknown", "": "unknown"}
     for said, state in answers.items():
-        assert bitlocker_state(Path("C:/data"), lambda _, said=said: said) == state  # type: ignore[misc]
+        assert detect_bitlocker(Path("C:/data"), lambda _, said=said: said) == state  # type: ignore[misc]
     root = Path("/")
-    assert filevault_state(root, lambda _: "  Mounted:   Yes\n  FileVault:     Yes (Unlocked)\n") == "encrypted"
-    assert filevault_state(root, lambda _: "  Mounted:   Yes\n  FileVault:     No\n") == "plain"
-    assert filevault_state(root, lambda _: "  Encrypted:     Yes\n") == "encrypted"
-    assert filevault_state(root, lambda command: " ".join(command)) == "unknown"
+    assert detect_filevault(root, lambda _: "  Mounted:   Yes\n  FileVault:     Yes (Unlocked)\n") == "encrypted"
+    assert detect_filevault(root, lambda _: "  Mounted:   Yes\n  FileVault:     No\n") == "plain"
+    assert detect_filevault(root, lambda _: "  Encrypted:     Yes\n") == "encrypted"
+    assert detect_filevault(root, lambda command: " ".join(command)) == "unknown"
 
 
 def test_this_computer_answers_without_a_fault(tmp_path: Path) -> None:
-    assert disk_state(tmp_path / "not there yet") in ("encrypted", "plain", "unknown")
+    assert detect_encryption(tmp_path / "not there yet") in ("encrypted", "plain", "unknown")
 
 
 def test_only_an_encrypted_disk_is_good_and_every_other_has_a_remedy() -> None:
-    assert disk_encryption_finding("encrypted").state == "good"
+    assert check_disk_encryption("encrypted").state == "good"
     for state in ("plain", "unknown"):
-        finding = disk_encryption_finding(state)  # type: ignore[arg-type]
+        finding = check_disk_encryption(state)  # type: ignore[arg-type]
         assert finding.state == "warning"
-        assert switching_on() in finding.remedy
-    assert "BitLocker" in switching_on("win32")
-    assert "FileVault" in switching_on("darwin")
-    assert "LUKS" in switching_on("linux")
+        assert format_encryption_advice() in finding.remedy
+    assert "BitLocker" in format_encryption_advice("win32")
+    assert "FileVault" in format_encryption_advice("darwin")
+    assert "LUKS" in format_encryption_advice("linux")
 
 
 @pytest.fixture
@@ -164,16 +164,16 @@ def folder(major: int, minor: int) -> Path:
 
 def test_partitions_and_what_lies_on_them_are_one_disk(devices: Path) -> None:
     first, second, encrypted, other, unknown = folder(8, 1), folder(8, 2), folder(253, 0), folder(8, 17), folder(0, 40)
-    assert on_same_disk(first, second, devices)
-    assert on_same_disk(first, encrypted, devices)
-    assert not on_same_disk(first, other, devices)
-    assert not on_same_disk(encrypted, other, devices)
-    assert not on_same_disk(first, unknown, devices)
-    assert on_same_disk(unknown, unknown, devices)
+    assert is_same_disk(first, second, devices)
+    assert is_same_disk(first, encrypted, devices)
+    assert not is_same_disk(first, other, devices)
+    assert not is_same_disk(encrypted, other, devices)
+    assert not is_same_disk(first, unknown, devices)
+    assert is_same_disk(unknown, unknown, devices)
 
 
 def test_without_a_table_of_disks_the_file_system_decides(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(disks, "os", SimpleNamespace())
     (tmp_path / "a").mkdir()
-    assert on_same_disk(tmp_path, tmp_path / "a")
-    assert not on_same_disk(tmp_path, tmp_path / "not there")
+    assert is_same_disk(tmp_path, tmp_path / "a")
+    assert not is_same_disk(tmp_path, tmp_path / "not there")

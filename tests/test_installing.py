@@ -11,10 +11,10 @@ import pytest
 
 from carpus.core.capture import doctor
 from carpus.core.capture.devices import orbbec, realsense
-from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, udev_rules
+from carpus.core.capture.devices.cameras import CAMERAS, format_udev_rules, load_camera_kind
 from carpus.core.errors import ExtraMissing
-from carpus.core.installing import CAMERAS_EXTRA, how_to_install
-from carpus.core.words import one_sentence
+from carpus.core.installing import CAMERAS_EXTRA, install_hint
+from carpus.core.words import format_fault_line
 
 ROOT = Path(__file__).parents[1]
 
@@ -24,18 +24,18 @@ def missing(name: str) -> str:
 
 
 def test_from_source_the_line_can_be_pasted() -> None:
-    line = how_to_install("pylsl").removeprefix("Run “").removesuffix("”.")
+    line = install_hint("pylsl").removeprefix("Run “").removesuffix("”.")
     assert shlex.split(line) == [sys.executable, "-m", "pip", "install", "pylsl"]
-    assert "--no-deps" in how_to_install("pyorbbecsdk2"), "its own needs would break what Carpus runs on"
+    assert "--no-deps" in install_hint("pyorbbecsdk2"), "its own needs would break what Carpus runs on"
 
 
 def test_the_packed_program_never_says_pip(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "frozen", True, raising=False)
     monkeypatch.setattr("importlib.metadata.version", missing)
     monkeypatch.setattr(doctor, "version", missing)
-    said = [one_sentence(ExtraMissing(name)) for name in ("pyorbbecsdk2", "pyarrow", "pylsl", "distributed")]
-    findings = [kind.driver(False, True) for kind in (realsense.KIND, orbbec.KIND)]
-    findings += [doctor.packages_finding(), doctor.window_finding()]
+    said = [format_fault_line(ExtraMissing(name)) for name in ("pyorbbecsdk2", "pyarrow", "pylsl", "distributed")]
+    findings = [kind.check_driver(False, True) for kind in (realsense.KIND, orbbec.KIND)]
+    findings += [doctor.check_packages(), doctor.check_window()]
     said += [finding.remedy for finding in findings if finding is not None]
     assert all(said)
     assert not [text for text in said if "pip" in text.split()]
@@ -54,8 +54,8 @@ def test_only_one_module_speaks_of_pip() -> None:
 
 
 def test_the_udev_rules_let_every_kind_be_opened(tmp_path: Path) -> None:
-    (tmp_path / "60-carpus-cameras.rules").write_text(udev_rules(), encoding="utf-8")
-    kinds = [camera_kind(name) for name in CAMERAS]
-    assert [doctor.rules_finding(kind, (tmp_path,)).state for kind in kinds] == ["good"] * len(kinds)
+    (tmp_path / "60-carpus-cameras.rules").write_text(format_udev_rules(), encoding="utf-8")
+    kinds = [load_camera_kind(name) for name in CAMERAS]
+    assert [doctor.check_udev_rules(kind, (tmp_path,)).state for kind in kinds] == ["good"] * len(kinds)
     for kind in kinds:
-        assert all(product in kind.rules for _, product in kind.models)
+        assert all(product in kind.udev_rules for _, product in kind.models)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from carpus.app.__main__ import main
-from carpus.core.provenance import revision, sha256_of_recording, sha256_of_settings
+from carpus.core.provenance import sha256_of_recording, sha256_of_settings, source_revision
 from carpus.core.session.reader import read_session
 from tests.rendered import FLEXION, Rendered
 
@@ -20,9 +20,9 @@ ROOT = Path(__file__).parents[1]
 def test_the_revision_is_the_checkouts() -> None:
     asked = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
     if asked.returncode:
-        assert revision() == "", "no checkout, and nothing told"
+        assert source_revision() == "", "no checkout, and nothing told"
     else:
-        assert revision() == asked.stdout.strip()
+        assert source_revision() == asked.stdout.strip()
 
 
 def test_a_recordings_hash_is_of_its_lists_and_pictures_alone(tmp_path: Path) -> None:
@@ -48,7 +48,7 @@ def test_a_session_says_what_it_is_of(rendered: Rendered, tmp_path: Path, capsys
     told = json.loads(read_session(output).header.parameters)
     assert told["source"]["sha256"] == sha256_of_recording(folder)
     assert told["provenance"]["settings_sha256"] == sha256_of_settings(told["settings"])
-    assert told["provenance"]["revision"] == revision()
+    assert told["provenance"]["revision"] == source_revision()
     capsys.readouterr()
     assert main(["info", str(output)]) == 0
     assert told["source"]["sha256"] in capsys.readouterr().out

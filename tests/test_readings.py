@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.simulation.motions import motion_of
+from carpus.core.simulation.motions import create_motion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import Truth, truth_of
+from carpus.core.simulation.truth import Truth, compute_truth
 from carpus.core.types import FloatArray
 from tests.accuracy.readings import Reading, read_figures, reading_of, strokes_of
 
 
 @pytest.fixture(scope="module")
 def truth() -> Truth:
-    return truth_of(Scene(RecordingSpec(seed=4, motion="flexion", speed_hz=0.4, seconds=12.0)))
+    return compute_truth(Scene(RecordingSpec(seed=4, motion="flexion", speed_hz=0.4, seconds=12.0)))
 
 
 def read(truth: Truth, error_deg: FloatArray, sd_deg: float = 1.0) -> Reading:
@@ -69,13 +69,13 @@ def test_what_is_unknown_is_left_out_and_told_where_too_much_is(truth: Truth) ->
 
 def test_repetitions_of_a_resting_wrist_are_those_of_its_fingers() -> None:
     spec = RecordingSpec(seed=4, motion="rest", habit="open_close", seconds=9.0)
-    truth = truth_of(Scene(spec))
+    truth = compute_truth(Scene(spec))
     windows, _ = strokes_of(truth, truth.time_s)
-    bend = motion_of(spec).joint_angles_rad(truth.time_s)
+    bend = create_motion(spec).joint_angles_rad(truth.time_s)
     assert len(windows) >= 3
     widest = int(np.ptp(bend, axis=0).argmax())
     assert all(np.ptp(bend[window, widest]) > np.radians(20.0) for window in windows)
-    still = truth_of(Scene(RecordingSpec(seed=4, motion="rest", seconds=9.0)))
+    still = compute_truth(Scene(RecordingSpec(seed=4, motion="rest", seconds=9.0)))
     quiet, ends = strokes_of(still, still.time_s)
     assert len(quiet) == 3
     assert len(ends) == 0

@@ -140,7 +140,7 @@ def test_nearest_rotation_is_the_least_squares_one() -> None:
     rng = np.random.default_rng(7)
     rotations = so3.exp(random_turns(30, 3.0, seed=8))
     matrices = rotations + 0.2 * rng.normal(size=rotations.shape)
-    nearest = so3.nearest_rotation(matrices)
+    nearest = so3.project_to_rotation(matrices)
     for matrix, found in zip(matrices, nearest, strict=True):
         assert np.allclose(found @ found.T, np.eye(3), atol=1e-12)
         assert np.linalg.det(found) == pytest.approx(1.0)
@@ -152,5 +152,5 @@ def test_nearest_rotation_is_the_least_squares_one() -> None:
 def test_nearest_rotation_of_a_mirror_is_no_mirror() -> None:
     mirror = np.diag([1.0, 1.0, -1.0])
     mirror[2, 2] = -0.4
-    found = so3.nearest_rotation(mirror)
+    found = so3.project_to_rotation(mirror)
     assert np.allclose(found, np.eye(3), atol=1e-12)

@@ -14,10 +14,10 @@ from carpus.core.errors import SessionUnfinished
 from carpus.core.hand.protocols import HAND21
 from carpus.core.records.recordings import write_session
 from carpus.core.results import session_lines
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.results.session_lines import range_lines, recording_summary, session_summary
 from carpus.core.session.reader import read_session
-from carpus.core.session.values import motion_of
+from carpus.core.session.values import stack_states
 from carpus.core.types import TrackStatus
 from tests.capture.test_tum import write_recording
 from tests.moments import with_moment
@@ -44,7 +44,7 @@ def write(path: Path) -> Path:
         session.append(frame)
     session.add_event(time_of(1), "note", "x")
     session.add_event(time_of(2), "note", "y")
-    session.write_smoothed(motion_of([make_frame(row) for row in range(6)]))
+    session.write_motion(stack_states([make_frame(row) for row in range(6)]))
     session.close()
     return path
 
@@ -77,20 +77,20 @@ def test_a_session_is_told_in_plain_lines(tmp_path: Path) -> None:
 @pytest.mark.parametrize("exercise", ["WRIST_FE", "FREE"])
 def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
     made = fakes.session(seconds=20.0, exercise=exercise)
-    figures = session_figures(made)
+    figures = compute_session_results(made)
     lines = {line.split()[0]: line for line in range_lines(made, figures)}
     flexion, extension, arc = (figures.find("flexion", name) for name in ("flexion", "extension", "arc"))
     ends = f"from {extension.mean:.1f}° extension to {flexion.mean:.1f}° flexion, arc {arc.mean:.1f}°"
-    counted = f", mean of {figures.counted} repetitions" if exercise == "WRIST_FE" else ""
+    counted = f", mean of {figures.repetition_count} repetitions" if exercise == "WRIST_FE" else ""
     assert lines["flexion"].split(maxsplit=1)[1] == ends + counted
-    assert figures.counted >= 2 or exercise == "FREE"
+    assert figures.repetition_count >= 2 or exercise == "FREE"
 
 
 def test_a_side_that_was_never_reached_is_told_as_it_is() -> None:
     made = fakes.session(seconds=20.0, exercise="FREE")
     bent = dataclasses.replace(made.motion, angles_rad=0.2 * made.motion.angles_rad + np.radians([0.0, 40.0, 0.0]))
     turned = dataclasses.replace(made, motion=bent)
-    text = next(line for line in range_lines(turned, session_figures(turned)) if "flexion " in line)
+    text = next(line for line in range_lines(turned, compute_session_results(turned)) if "flexion " in line)
     low, high = (float(part.split("°")[0]) for part in (text.split("from ")[1], text.split(" to ")[1]))
     assert "extension" not in text
     assert 20.0 < low < 40.0 < high
@@ -99,7 +99,7 @@ def test_a_side_that_was_never_reached_is_told_as_it_is() -> None:
 def test_an_angle_that_stays_at_nought_has_a_range_of_nothing() -> None:
     made = fakes.session(seconds=20.0, exercise="FREE")
     still = dataclasses.replace(made, motion=dataclasses.replace(made.motion, angles_rad=0.0 * made.motion.angles_rad))
-    assert [line.split(", arc ")[1] for line in range_lines(still, session_figures(still))] == ["0.0°"] * 3
+    assert [line.split(", arc ")[1] for line in range_lines(still, compute_session_results(still))] == ["0.0°"] * 3
 
 
 def test_a_session_cut_short_is_read_when_it_is_recovered(tmp_path: Path) -> None:
@@ -164,11 +164,11 @@ def test_a_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:
 
 def test_the_forearm_is_told_from_thumb_up_also_where_it_started_elsewhere() -> None:
     made = fakes.session(seconds=20.0, exercise="FOREARM_PS", motion="palm_up")
-    (line,) = (one for one in range_lines(made, session_figures(made)) if "forearm, thumb up" in one)
+    (line,) = (one for one in range_lines(made, compute_session_results(made)) if "forearm, thumb up" in one)
     assert re.search(r"from 9\d\.\d° pronation to [34]\d\.\d° pronation", line)
     bent = fakes.session()
-    (other,) = (one for one in range_lines(bent, session_figures(bent)) if "rotation" in one)
+    (other,) = (one for one in range_lines(bent, compute_session_results(bent)) if "rotation" in one)
     assert re.search(r"rotation +arc \d+\.\d°$", other), "beside another movement it is no pronation"
     start = np.radians([0.0, 0.0, 30.0])
     began = dataclasses.replace(made, calibration=dataclasses.replace(made.calibration, start_angles_rad=start))
-    assert any("60.0° pronation" in one for one in session_lines._calibration(began))
+    assert any("60.0° pronation" in one for one in session_lines._calibration_lines(began))

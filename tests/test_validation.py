@@ -6,7 +6,7 @@ import re
 import shlex
 from pathlib import Path
 
-from carpus.core.provenance import revision
+from carpus.core.provenance import source_revision
 from tests.accuracy.jobs import jobs_for
 from tests.accuracy.scenarios import WRIST
 from tests.validation import MOTIONS, main, mountings
@@ -19,7 +19,7 @@ def test_the_document_names_what_makes_it_again(tmp_path: Path) -> None:
     assert main([*words, "--output", str(tmp_path / "a.md")]) == 0
     made = (tmp_path / "a.md").read_text(encoding="utf-8")
     found = AGAIN.search(made)
-    assert revision()[:12] in made
+    assert source_revision()[:12] in made
     assert main([*shlex.split(found[1]), *words[2:], "--output", str(tmp_path / "b.md")]) == 0
     assert (tmp_path / "b.md").read_text(encoding="utf-8") == made, "the same seeds, the same document"
     assert main([*words, "--output", str(tmp_path / "c.md")]) == 0

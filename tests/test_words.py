@@ -13,10 +13,16 @@ import pytest
 
 import carpus.core
 from carpus.core import errors
-from carpus.core.calibration.result import FINDINGS, CalibrationFinding, FindingKind, finding_sentence, finding_words
+from carpus.core.calibration.result import (
+    FINDING_TEXTS,
+    CalibrationFinding,
+    FindingKind,
+    finding_sentence,
+    finding_words,
+)
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import HAND21
-from carpus.core.words import marker_in_words, markers_in_words, one_sentence, words_of
+from carpus.core.words import format_fault, format_fault_line, join_marker_names, marker_name
 from tests.fault_page import PAGE, fault_page
 
 JARGON = re.compile(r"\b(exception|abort|aborted|null|None|nan)\b", re.IGNORECASE)
@@ -40,8 +46,8 @@ KINDS = sorted(kinds(), key=lambda kind: kind.__name__)
 
 
 def texts() -> list[str]:
-    spoken = [text for kind in KINDS for text in (kind.happened, kind.safe, kind.do)]
-    return spoken + [text for words in FINDINGS.values() for text in words]
+    spoken = [text for kind in KINDS for text in (kind.summary, kind.data_safety, kind.remedy)]
+    return spoken + [text for words in FINDING_TEXTS.values() for text in words]
 
 
 def test_every_fault_says_for_itself_what_happened_and_what_to_do() -> None:
@@ -52,7 +58,7 @@ def test_every_fault_says_for_itself_what_happened_and_what_to_do() -> None:
 def test_every_fault_states_for_itself_whether_the_data_are_safe() -> None:
     assert not hasattr(CarpusFault, "safe")
     assert [kind.__name__ for kind in KINDS if "safe" not in vars(kind)] == []
-    nothing_lost = {kind.__name__ for kind in KINDS if "othing is lost" in kind.safe}
+    nothing_lost = {kind.__name__ for kind in KINDS if "othing is lost" in kind.data_safety}
     assert nothing_lost <= {
         "ClickOutsidePicture", "ClickOnNoMarker", "MarkerWithoutDepth", "CalibrationImpossible", "CameraUnknown",
         "CameraMissing", "CameraBusy", "CameraPermission", "PinUncheckable",
@@ -78,19 +84,19 @@ def test_fault_sentences_for_clinicians_name_no_command_or_file_of_the_program()
 
 
 def test_fault_brief_words_keep_the_measured_fact_among_the_details() -> None:
-    words = words_of(errors.SessionUnreadable("/data/sessions/p1/a.h5", "truncated file"), brief=True)
-    assert words.happened == "This session cannot be opened: …/p1/a.h5."
+    words = format_fault(errors.SessionUnreadable("/data/sessions/p1/a.h5", "truncated file"), is_brief=True)
+    assert words.summary == "This session cannot be opened: …/p1/a.h5."
     assert words.details == ("/data/sessions/p1/a.h5", "truncated file")
     assert words.code == "C-501"
-    assert one_sentence(errors.SessionUnreadable("a.h5", "truncated file")).endswith("(C-501)")
+    assert format_fault_line(errors.SessionUnreadable("a.h5", "truncated file")).endswith("(C-501)")
 
 
 def test_no_two_faults_say_the_same_of_what_happened() -> None:
-    assert len({kind.happened for kind in KINDS}) == len(KINDS)
+    assert len({kind.summary for kind in KINDS}) == len(KINDS)
 
 
 def test_every_finding_has_words_and_no_words_are_left_over() -> None:
-    assert set(FINDINGS) == set(typing.get_args(FindingKind))
+    assert set(FINDING_TEXTS) == set(typing.get_args(FindingKind))
 
 
 FACTS = {"subject", "detail", "markers", "first", "second", "value", "limit", "unit"}
@@ -110,20 +116,20 @@ def test_the_wording_keeps_the_rules() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -> None:
     for fault in (kind("/a/place", "line 7"), kind("/a/place"), kind(), kind("", "line\n7")):
-        words, line = words_of(fault), one_sentence(fault)
-        for text in (words.happened, words.safe, words.do, line):
+        words, line = format_fault(fault), format_fault_line(fault)
+        for text in (words.summary, words.data_safety, words.remedy, line):
             assert not re.search(r"\(\)|  | [.;:,)]|[{}]|\n", text), text
             assert not re.search(r"\b(for|at|to|in|named|the)[.;,]", text), text
         assert line.removesuffix(f" ({kind.code})").endswith(".")
-        assert words.do[1:] in line
-    assert "{odd}" in one_sentence(kind("{odd}", "{odd}")) or "{subject}" not in kind.happened
+        assert words.remedy[1:] in line
+    assert "{odd}" in format_fault_line(kind("{odd}", "{odd}")) or "{subject}" not in kind.summary
     if kind.__name__.startswith(("Recording", "Picture", "Output", "Clicks", "Session", "DiskFull", "CameraFile")):
-        assert "/a/place" in one_sentence(kind("/a/place", "line 7"))
+        assert "/a/place" in format_fault_line(kind("/a/place", "line 7"))
 
 
 def test_a_file_and_its_line_are_named() -> None:
     fault = errors.RecordingUnreadable("/take/rgb.txt", "line 7 is not a time and a file name: 'x'")
-    assert one_sentence(fault) == (
+    assert format_fault_line(fault) == (
         "The recording cannot be read: /take/rgb.txt (line 7 is not a time and a file name: 'x'). The recording was "
         "not changed. Copy the recording again, or correct its list of frames. (C-102)"
     )
@@ -135,40 +141,40 @@ def test_markers_are_called_by_their_clinical_names() -> None:
         "TIP4": "ring tip", "elsewhere": "elsewhere", "CMC1": "thumb base", "MCP2": "index knuckle",
         "MCP3": "middle knuckle", "MCP4": "ring knuckle", "MCP5": "little knuckle",
     }  # fmt: skip
-    assert {name: marker_in_words(name) for name in called} == called
-    assert (markers_in_words(("MCP4",)), markers_in_words(())) == ("ring knuckle", "")
-    assert len({marker_in_words(name) for name in HAND21.markers}) == 21
+    assert {name: marker_name(name) for name in called} == called
+    assert (join_marker_names(("MCP4",)), join_marker_names(())) == ("ring knuckle", "")
+    assert len({marker_name(name) for name in HAND21.markers}) == 21
 
 
 def test_a_fault_about_a_marker_names_it_for_the_clinic_and_for_the_file() -> None:
-    fault = errors.ClickOutsidePicture("MCP3", "700, 20 in a picture of 640 x 480 pixels")
-    assert words_of(fault).happened.startswith("A click lies outside the image: middle knuckle (700")
-    assert "middle knuckle, MCP3 (700, 20" in one_sentence(fault)
+    fault = errors.ClickOutsideImage("MCP3", "700, 20 in a picture of 640 x 480 pixels")
+    assert format_fault(fault).summary.startswith("A click lies outside the image: middle knuckle (700")
+    assert "middle knuckle, MCP3 (700, 20" in format_fault_line(fault)
 
 
 @pytest.mark.parametrize("kind", typing.get_args(FindingKind))
 def test_findings_tell_place_and_number(kind: FindingKind) -> None:
     finding = CalibrationFinding(kind, ("MCP2", "MCP3"), 22.26, 15.0, "mm")
     words = finding_words(finding)
-    assert words.happened[0].isupper()
-    assert "{" not in words.happened
-    if "{value}" in FINDINGS[kind][0]:
-        assert "22.3" in words.happened
-        assert "15" in words.happened
-    if "{markers}" in FINDINGS[kind][0]:
-        assert "ndex and middle knuckle" in words.happened
+    assert words.summary[0].isupper()
+    assert "{" not in words.summary
+    if "{value}" in FINDING_TEXTS[kind][0]:
+        assert "22.3" in words.summary
+        assert "15" in words.summary
+    if "{markers}" in FINDING_TEXTS[kind][0]:
+        assert "ndex and middle knuckle" in words.summary
     line = finding_sentence(finding)
-    assert line.endswith(words.do[1:])
+    assert line.endswith(words.remedy[1:])
     assert "\n" not in line
 
 
 def test_swapped_knuckles_read_as_in_the_design() -> None:
     assert (
-        finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).happened
+        finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).summary
         == "Index and middle knuckle look swapped."
     )
 
 
 def test_shifted_names_say_which_marker_is_which() -> None:
     words = finding_words(CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
-    assert words.happened == "The names look shifted: the marker clicked as wrist is the little knuckle."
+    assert words.summary == "The names look shifted: the marker clicked as wrist is the little knuckle."

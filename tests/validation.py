@@ -25,14 +25,14 @@ from pathlib import Path
 import numpy as np
 
 from carpus import __version__
-from carpus.app.batch.processes import outcomes
-from carpus.app.batch.work import Task
+from carpus.app.batch.processes import run_tasks
+from carpus.app.batch.work import TrackingTask
 from carpus.app.sources import TrackingInput
-from carpus.core.agreement.retest import StudyFigures, studies
-from carpus.core.agreement.study import AgreementStudy, read_table, study_lines, study_of
+from carpus.core.agreement.retest import RetestAnalysis, analyse_retests
+from carpus.core.agreement.study import AgreementStudy, format_study, read_study_table, run_study
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.provenance import revision
-from carpus.core.results.figures import session_figures
+from carpus.core.provenance import source_revision
+from carpus.core.results.figures import compute_session_results
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
@@ -93,8 +93,8 @@ def tracked(made: Sequence[Mounting], exercise: str, folder: Path, processes: in
     for one in made:
         recording, session = folder / one.name, folder / f"{one.name}.h5"
         place = TrackingInput(recording, recording / CLICKS_FILE, session, session.name)
-        tasks.append(Task(place, TrackSettings(), f"P{one.person + 1}", exercise))
-    faults = [each.said for each in outcomes(tasks, processes) if each.result == "fault"]
+        tasks.append(TrackingTask(place, TrackSettings(), f"P{one.person + 1}", exercise))
+    faults = [each.messages for each in run_tasks(tasks, processes) if each.result == "fault"]
     if faults:
         print(f"{len(faults)} not tracked: {faults[0]}", file=sys.stderr)
     table = folder / f"{made[0].spec.motion}.csv"
@@ -102,13 +102,13 @@ def tracked(made: Sequence[Mounting], exercise: str, folder: Path, processes: in
         rows = csv.writer(file)
         rows.writerow(("person", "session", "reference"))
         rows.writerows((f"P{one.person + 1}", f"{one.name}.h5", f"{one.name}/{TRUTH_FILE}") for one in made)
-    return study_of(table, read_table(table, lambda _: {}))
+    return run_study(table, read_study_table(table, lambda _: {}))
 
 
-def retested(made: Sequence[Mounting], folder: Path) -> list[StudyFigures]:
+def retested(made: Sequence[Mounting], folder: Path) -> list[RetestAnalysis]:
     """Test and retest of the mountings that were tracked."""
     paths = [path for one in made if (path := folder / f"{one.name}.h5").exists()]
-    return studies([session_figures(read_session(path)) for path in paths])
+    return analyse_retests([compute_session_results(read_session(path)) for path in paths])
 
 
 def accuracy(only: str, seeds: int, first_seed: int, processes: int) -> Iterator[str]:
@@ -132,17 +132,17 @@ def accuracy(only: str, seeds: int, first_seed: int, processes: int) -> Iterator
         yield from ("### Whole hand, 21 discs", "", hand21_table.markdown(runs_of_hands, hand), "")
 
 
-def retest_lines(found: Sequence[StudyFigures]) -> Iterator[str]:
+def retest_lines(found: Sequence[RetestAnalysis]) -> Iterator[str]:
     yield "| exercise | of | people | SEM | MDC95 (95 % interval) | ICC(2,1) | ICC(3,1) | last less first |"
     yield "|---|---|---|---|---|---|---|---|"
     for one in found:
-        for (of, movement), f in one.found.items():
+        for (of, movement), f in one.results.items():
             low, high = f.mdc95_interval
             yield (
                 f"| {one.exercise} | {of} {movement} | {f.people} | {f.sem:.2f} "
-                f"| {f.mdc95:.1f} ({low:.1f} to {high:.1f}) | {f.icc:.3f} | {f.icc_3_1:.3f} | {f.step:+.2f} |"
+                f"| {f.mdc95:.1f} ({low:.1f} to {high:.1f}) | {f.icc:.3f} | {f.icc_3_1:.3f} | {f.systematic_change:+.2f} |"  # noqa: E501
             )
-        for left in one.left_out:
+        for left in one.excluded:
             yield f"| {one.exercise} | left out: {left.reason.replace('_', ' ')} | | | | | | |"
 
 
@@ -159,7 +159,7 @@ camera.** It says what the program makes of what it is given, and nothing about 
 | | |
 |---|---|
 | again | `make validation ARGUMENTS='{asked}'` |
-| Carpus | {__version__}, revision {revision()[:12] or "unknown"} |
+| Carpus | {__version__}, revision {source_revision()[:12] or "unknown"} |
 | with | Python {platform.python_version()}, {libraries}; {platform.system()} {platform.machine()} |
 | seeds | from {options.first_seed} on, drawn for this run; settings were chosen on others ([accuracy](accuracy.md)) |
 | accuracy | {options.seeds} recordings a row |
@@ -177,18 +177,18 @@ Rendered pictures, {SECONDS:g} s each at {SPEED_HZ:g} repetitions a second, trac
 estimate; degrees, Carpus less truth. The truth stands in for a reference system on the same clock, without error of its
 own. Limits by Bland and Altman (2007), intervals by Zou (2013).
 """
-    found: list[StudyFigures] = []
+    found: list[RetestAnalysis] = []
     for motion in options.motions:
         made = mountings(motion, options.people, options.first_seed)
         with tempfile.TemporaryDirectory(prefix="carpus-validation-") as name:
             folder = Path(name)
             study = tracked(made, MOTIONS[motion], folder, options.processes)
             found += retested(made, folder)
-            yield from (f"### {motion}", "", "```", *study_lines(study), "```", "")
+            yield from (f"### {motion}", "", "```", *format_study(study), "```", "")
             pictures = options.output.parent / "pictures"
-            for one in study.angles:
-                if one.pairs.name == motion and np.isfinite(one.pairs.figures_deg.bias):
-                    write_plots(study.as_compared(), folder / "plots", motion)
+            for one in study.pooled_angles:
+                if one.pairs.name == motion and np.isfinite(one.pairs.agreement_deg.bias):
+                    write_plots(study.to_comparison(), folder / "plots", motion)
                     pictures.mkdir(parents=True, exist_ok=True)
                     shutil.copy(folder / "plots" / f"{motion}.{motion}.png", pictures / f"validation-{motion}.png")
                     yield from (f"![Carpus and truth, {motion}](pictures/validation-{motion}.png)", "")

@@ -16,110 +16,116 @@ from carpus.core.errors import CameraLost, CarpusFault
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.types import Frame
 from carpus.ui.background import Background
-from carpus.ui.camera_name_sheet import CameraNameSheet
+from carpus.ui.camera_name_sheet import CameraNameDialog
 from carpus.ui.fault_words import fault_words
 from carpus.ui.flow import Flow, ScreenContext
 
 log = logging.getLogger(__name__)
 
-PULL_EVERY_MS = 66
-_LOOK_AGAIN_S = 0.02
-Look = Callable[[Frame], None]
+POLL_INTERVAL_MS = 66
+_IDLE_S = 0.02
+FrameProcessor = Callable[[Frame], None]
 
 
-class CameraAtHand(QObject):
+class CameraSession(QObject):
     """Opens a source, looks at its pictures in a thread of its own, and lets it go; one at a time.
 
-    ``opened`` carries the :class:`LiveSession`, ``failed`` a fault after which the camera is let go, ``pulled`` the
-    newest frame for the screen, ``lost`` what is said while the camera is away.
+    ``on_opened`` carries the :class:`LiveSession`, ``on_failed`` a fault after which the camera is let go,
+    ``frame_ready`` the
+    newest frame for the screen, ``camera_lost`` what is said while the camera is away.
     """
 
     opened = Signal(object)
     failed = Signal(object)
-    pulled = Signal(object)
-    lost = Signal(str)
+    frame_ready = Signal(object)
+    camera_lost = Signal(str)
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._background = Background()
         self._session: LiveSession | None = None
-        self._made: list[LiveSession] = []
-        self._looking: threading.Thread | None = None
-        self._ending = threading.Event()
+        self._starting_sessions: list[LiveSession] = []
+        self._thread: threading.Thread | None = None
+        self._stop_event = threading.Event()
         self._fault: Exception | None = None
-        self._number, self._shown = 0, -1
-        self._timer = QTimer(self, interval=PULL_EVERY_MS)
-        self._timer.timeout.connect(self._pull)
+        self._request_number, self._shown_index = 0, -1
+        self._timer = QTimer(self, interval=POLL_INTERVAL_MS)
+        self._timer.timeout.connect(self._poll)
 
     @property
     def is_open(self) -> bool:
-        return self._session is not None or self._number > 0
+        return self._session is not None or self._request_number > 0
 
-    def open(self, source: Callable[[], LiveSession], looker: Callable[[LiveSession], Look]) -> None:
-        """Open what ``source`` gives, and have every newest picture looked at by what ``looker`` gives."""
+    def open(
+        self, open_session: Callable[[], LiveSession], make_processor: Callable[[LiveSession], FrameProcessor]
+    ) -> None:
+        """Open what ``open_session`` gives, and have every newest picture looked at by what ``make_processor``
+        gives."""
         self.close()
-        self._number = abs(self._number) + 1
-        number = self._number
+        self._request_number = abs(self._request_number) + 1
+        number = self._request_number
 
-        def make() -> None:
-            session = source()
-            self._made.append(session)
+        def start_session() -> None:
+            session = open_session()
+            self._starting_sessions.append(session)
             session.start()
 
-        def opened(_: object) -> None:
-            session = self._made.pop(0)
-            if number != self._number:
+        def on_opened(_: object) -> None:
+            session = self._starting_sessions.pop(0)
+            if number != self._request_number:
                 self._background.run(session.stop, lambda _: None, lambda _: None)
                 return
-            self._session, self._fault, self._shown = session, None, -1
-            self._ending = threading.Event()
-            self._looking = threading.Thread(
-                target=self._look, args=(session, looker(session), self._ending), name="looking at the camera"
+            self._session, self._fault, self._shown_index = session, None, -1
+            self._stop_event = threading.Event()
+            self._thread = threading.Thread(
+                target=self._process_frames,
+                args=(session, make_processor(session), self._stop_event),
+                name="looking at the camera",
             )
-            self._looking.start()
+            self._thread.start()
             self._timer.start()
             self.opened.emit(session)
 
-        def failed(fault: Exception) -> None:
-            if number == self._number:
-                self._number = -number
+        def on_failed(fault: Exception) -> None:
+            if number == self._request_number:
+                self._request_number = -number
                 self.failed.emit(fault)
 
-        self._background.run(make, opened, failed)
+        self._background.run(start_session, on_opened, on_failed)
 
     def close(self) -> None:
         """Let the camera go, or do not wait for it any more; may be called at any time."""
-        self._number = -abs(self._number)
-        session, thread = self._session, self._looking
-        self._session = self._looking = None
+        self._request_number = -abs(self._request_number)
+        session, thread = self._session, self._thread
+        self._session = self._thread = None
         self._timer.stop()
-        self._ending.set()
+        self._stop_event.set()
         if session is not None:
-            self._background.run(lambda: _ended(session, thread), lambda _: None, lambda _: None)
+            self._background.run(lambda: _end_session(session, thread), lambda _: None, lambda _: None)
 
-    def wait(self) -> None:
+    def shut_down(self) -> None:
         """The window closes: wait until it is let go. What was still being opened is closed as well."""
         self.close()
-        self._background.wait()
-        while self._made:
-            self._made.pop().stop()
+        self._background.join()
+        while self._starting_sessions:
+            self._starting_sessions.pop().stop()
 
-    def _look(self, session: LiveSession, look: Look, ending: threading.Event) -> None:
+    def _process_frames(self, session: LiveSession, process: FrameProcessor, stop_event: threading.Event) -> None:
         newest = -1
         try:
-            while not ending.is_set():
-                frame = session.newest_frame()
+            while not stop_event.is_set():
+                frame = session.current_frame()
                 if frame is None or frame.index == newest:
-                    ending.wait(_LOOK_AGAIN_S)
+                    stop_event.wait(_IDLE_S)
                     continue
                 newest = frame.index
-                look(frame)
+                process(frame)
         except Exception as fault:  # the one catch at the top of this thread
             log.exception("looking at the camera")
-            if not ending.is_set():
+            if not stop_event.is_set():
                 self._fault = fault
 
-    def _pull(self) -> None:
+    def _poll(self) -> None:
         """What happened since the last time, in the window's thread."""
         session = self._session
         if session is None:
@@ -128,92 +134,94 @@ class CameraAtHand(QObject):
         for event in session.drain_events():
             if event.kind == "camera_lost":
                 words = fault_words(event.cause if isinstance(event.cause, CarpusFault) else CameraLost())
-                self.lost.emit(f"{words.happened} {words.do}")
+                self.camera_lost.emit(f"{words.summary} {words.remedy}")
             elif event.kind in ("source_failed", "source_ended"):
                 fault = event.cause or CameraLost()
         if fault is not None:
             self.close()
             self.failed.emit(fault)
             return
-        frame = session.newest_frame()
-        if frame is not None and frame.index != self._shown:
-            self._shown = frame.index
-            self.pulled.emit(frame)
+        frame = session.current_frame()
+        if frame is not None and frame.index != self._shown_index:
+            self._shown_index = frame.index
+            self.frame_ready.emit(frame)
 
 
-class AtCameraFlow(Flow):
+class CameraFlowBase(Flow):
     """A screen that opens a camera for itself. Where that does not tell its number it is asked over the screen which
-    one it is, and nobody looks at its pictures before ``_known`` is set."""
+    one it is, and nobody looks at its pictures before ``_identified`` is set."""
 
-    guide, while_aside = "cameracheck", True
+    guide_page, runs_behind_overlay = "cameracheck", True
 
-    def __init__(self, context: ScreenContext, screen: QWidget, name_sheet: CameraNameSheet) -> None:
+    def __init__(self, context: ScreenContext, screen: QWidget, name_dialog: CameraNameDialog) -> None:
         super().__init__(context, screen)
-        self._name_sheet = name_sheet
-        self._kind, self._now, self._said = "", "", ""
-        self._known = threading.Event()
-        self.hand = CameraAtHand(self)
-        self.hand.failed.connect(self._failed)
-        name_sheet.named.connect(self._take_name)
-        name_sheet.refused.connect(self.back)
+        self._name_dialog = name_dialog
+        self._camera_model, self._serial, self._entered_name = "", "", ""
+        self._identified = threading.Event()
+        self.camera_session = CameraSession(self)
+        self.camera_session.failed.connect(self._on_failed)
+        name_dialog.name_entered.connect(self._on_name_entered)
+        name_dialog.cancelled.connect(self.return_to_start)
 
     @property
-    def is_at_work(self) -> bool:
-        return self.hand.is_open
+    def is_busy(self) -> bool:
+        return self.camera_session.is_open
 
-    def begin(self) -> None:
+    def start(self) -> None:
         raise NotImplementedError
 
-    def back(self) -> None:
+    def return_to_start(self) -> None:
         raise NotImplementedError
 
-    def to_settings(self) -> None:
+    def return_to_settings(self) -> None:
         """Back to the camera's card, from which one came; behind it are the patients."""
-        self.to_patient()
-        self.context.way.show("settings", "camera")
+        self.return_to_patients()
+        self.context.navigator.open_screen("settings", "camera")
 
-    def leave(self) -> None:
+    def on_leave(self) -> None:
         """Let the camera go; what was taken and not kept is forgotten."""
-        self._name_sheet.dismiss()
-        self._known = threading.Event()  # a name that is still being kept opens it no more
-        self.hand.close()
+        self._name_dialog.dismiss()
+        self._identified = threading.Event()  # a name that is still being kept opens it no more
+        self.camera_session.close()
 
     def close(self) -> None:
-        self.hand.wait()
+        self.camera_session.shut_down()
 
-    def _failed(self, fault: Exception) -> None:
-        self.back()
-        self.context.messages.fault(fault)
+    def _on_failed(self, fault: Exception) -> None:
+        self.return_to_start()
+        self.context.messages.show_fault(fault)
 
-    def _meet(self, session: LiveSession) -> None:
+    def _identify_camera(self, session: LiveSession) -> None:
         info = session.info
-        self._kind, self._now = info.name, info.serial
-        if not info.is_nameless or (self._now and self._now == self._said):
-            self._said = ""
-            self._known.set()
+        self._camera_model, self._serial = info.name, info.serial
+        if not info.is_nameless or (self._serial and self._serial == self._entered_name):
+            self._entered_name = ""
+            self._identified.set()
         else:
-            self._name_sheet.begin(self._now)
+            self._name_dialog.request_name(self._serial)
 
-    def _take_name(self, name: str) -> None:
-        kind, known, cameras = self._kind, self._known, self.context.cameras
-        if name == self._now:
+    def _on_name_entered(self, name: str) -> None:
+        kind, known, cameras = self._camera_model, self._identified, self.context.cameras
+        if name == self._serial:
             known.set()
             return
 
-        def kept(as_kept: str) -> None:
-            if known is self._known:  # nobody has left meanwhile
-                self._said = as_kept if as_kept == name else ""  # another than was typed is shown before it is used
-                self.begin()
+        def on_saved(saved_name: str) -> None:
+            if known is self._identified:  # nobody has left meanwhile
+                self._entered_name = (
+                    saved_name if saved_name == name else ""
+                )  # another than was typed is shown before it is used
+                self.start()
 
-        self.run(lambda: cameras.keep_name(kind, name), kept, self._failed)
+        self.run(lambda: cameras.save_name(kind, name), on_saved, self._on_failed)
 
-    def save_page(self, name: str, title: str, write: Callable[[Path], Path]) -> None:
-        path = self.ask_where_to_save("reports", name, title, "PDF (*.pdf)")
+    def save_printout(self, name: str, title: str, write: Callable[[Path], Path]) -> None:
+        path = self.choose_save_path("reports", name, title, "PDF (*.pdf)")
         if path is not None:
             self.run(lambda: replace_file(path, write))
 
 
-def _ended(session: LiveSession, thread: threading.Thread | None) -> None:
+def _end_session(session: LiveSession, thread: threading.Thread | None) -> None:
     if thread is not None:
         thread.join()
     session.stop()

@@ -13,21 +13,21 @@ from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.pipeline.live import LiveSession
 from carpus.ui.background import Background
 
-LOOK_EVERY_MS = 2000
+CHECK_INTERVAL_MS = 2000
 
 
-class Cameras(Protocol):
+class CameraAccess(Protocol):
     """What opens cameras, which no window does, and where what is known of them is kept."""
 
     def name(self) -> str | None:
         """Of the camera that would be opened, empty where the system does not tell; None where none is there."""
         ...
 
-    def for_board(self) -> LiveSession:
+    def open_for_calibration(self) -> LiveSession:
         """The camera that looks at the board, as it says itself, without what was calibrated before."""
         ...
 
-    def for_card(self) -> LiveSession:
+    def open_for_check(self) -> LiveSession:
         """The camera that looks at the card, as a session would have it."""
         ...
 
@@ -35,11 +35,11 @@ class Cameras(Protocol):
         """Where what is known of it is kept."""
         ...
 
-    def met(self, serial: str) -> None:
+    def set_serial(self, serial: str) -> None:
         """The number of the camera that is there."""
         ...
 
-    def keep_name(self, kind: str, name: str) -> str:
+    def save_name(self, kind: str, name: str) -> str:
         """What cameras of a kind that tell no number are called from now on: the name as it is kept."""
         ...
 
@@ -49,50 +49,51 @@ class Cameras(Protocol):
 
 
 class CameraState(QObject):
-    """``looked`` when it was looked whether one is there; ``changed`` when it was read what is known of it."""
+    """``availability_checked`` when it was looked whether one is there; ``status_changed`` when it was read what is
+    known of it."""
 
-    looked = Signal()
-    changed = Signal()
+    availability_checked = Signal()
+    status_changed = Signal()
 
     def __init__(
-        self, cameras: Cameras, background: Background, now: Callable[[], datetime], parent: QObject, *,
+        self, cameras: CameraAccess, background: Background, now: Callable[[], datetime], parent: QObject, *,
         is_demo: bool = False,
     ) -> None:  # fmt: skip
         """In a demo the simulated camera is the camera: nobody looks whether another is plugged in, or says so."""
         super().__init__(parent)
         self._cameras, self._background, self._now, self._is_demo = cameras, background, now, is_demo
-        self.there, self.name = False, ""
+        self.is_connected, self.name = False, ""
         self.status = CheckStatus("")
-        self._timer = QTimer(self, interval=LOOK_EVERY_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer = QTimer(self, interval=CHECK_INTERVAL_MS)
+        self._timer.timeout.connect(self.check_connection)
 
     def start(self) -> None:
         self._timer.start()
-        self.look()
-        self.read()
+        self.check_connection()
+        self.refresh_status()
 
-    def when_looked(self, show: Callable[[], object]) -> None:
-        self.looked.connect(show)
-        show()
+    def notify_availability(self, callback: Callable[[], object]) -> None:
+        self.availability_checked.connect(callback)
+        callback()
 
     def stop(self) -> None:
         self._timer.stop()
 
-    def look(self) -> None:
+    def check_connection(self) -> None:
         name = "" if self._is_demo else self._cameras.name()
-        self.there, self.name = name is not None, name or ""
-        self.looked.emit()
+        self.is_connected, self.name = name is not None, name or ""
+        self.availability_checked.emit()
 
-    def read(self) -> None:
+    def refresh_status(self) -> None:
         """Read anew what is kept of the camera; a disk that does not answer keeps nobody waiting."""
         cameras, now = self._cameras, self._now()
-        self._background.run(lambda: cameras.status(now), self._take, lambda _: None, self)
+        self._background.run(lambda: cameras.status(now), self._on_status, lambda _: None, self)
 
-    def met(self, serial: str) -> None:
+    def set_serial(self, serial: str) -> None:
         """A camera was opened: from now on it is the one that is spoken of."""
-        self._cameras.met(serial)
-        self.read()
+        self._cameras.set_serial(serial)
+        self.refresh_status()
 
-    def _take(self, status: CheckStatus) -> None:
+    def _on_status(self, status: CheckStatus) -> None:
         self.status = status
-        self.changed.emit()
+        self.status_changed.emit()

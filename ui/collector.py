@@ -6,7 +6,7 @@ import gc
 
 from PySide6.QtCore import QObject, QTimer
 
-COLLECT_MS = 100
+COLLECT_INTERVAL_MS = 100
 
 
 def collect_due_garbage() -> None:
@@ -17,12 +17,12 @@ def collect_due_garbage() -> None:
             return
 
 
-class Collector(QObject):
+class GarbageCollector(QObject):
     """Takes the place of Python's collector, which runs in whichever thread has just made an object."""
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         gc.disable()
-        self._timer = QTimer(self, interval=COLLECT_MS)
+        self._timer = QTimer(self, interval=COLLECT_INTERVAL_MS)
         self._timer.timeout.connect(collect_due_garbage)
         self._timer.start()

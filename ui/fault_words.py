@@ -7,26 +7,26 @@ import traceback
 from carpus.core import words
 from carpus.core.calibration import result
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.errors import UNEXPECTED, CarpusFault
-from carpus.core.words import Words
+from carpus.core.errors import UNEXPECTED_CODE, CarpusFault
+from carpus.core.words import MessageText
 from carpus.ui import numbers
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import tr, translate_phrase
 
 
-def fault_words(fault: Exception) -> Words:
+def fault_words(fault: Exception) -> MessageText:
     """Say a fault in the person's language; any other exception is an unexpected error."""
     if isinstance(fault, CarpusFault):
-        return words.words_of(fault, brief=True, say=say)
-    return Words(
+        return words.format_fault(fault, is_brief=True, translate=translate_phrase)
+    return MessageText(
         tr("An unexpected error occurred."),
         tr("Everything saved before is safe."),
         tr("Try again. If it happens again, restart Carpus and show the details to your IT support."),
         tr("Program"),
-        UNEXPECTED,
+        UNEXPECTED_CODE,
         tuple(traceback.format_exception_only(fault)),
     )
 
 
-def finding_words(finding: CalibrationFinding) -> Words:
+def finding_words(finding: CalibrationFinding) -> MessageText:
     """Say a finding of the calibration, and how to correct it."""
-    return result.finding_words(finding, say, lambda value: numbers.figures(value, 3))
+    return result.finding_words(finding, translate_phrase, lambda value: numbers.format_significant(value, 3))

@@ -17,21 +17,21 @@ from carpus.core.records.library import Library
 from carpus.core.records.values import Patient
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
-from carpus.ui.camera_state import Cameras, CameraState
-from carpus.ui.controls.sheet import Sheet
-from carpus.ui.last_places import Kind, LastPlaces
-from carpus.ui.messages.messages import Messages, tell_written
-from carpus.ui.now_open import NowOpen
-from carpus.ui.opening import Opener
-from carpus.ui.shell import Shell
+from carpus.ui.camera_state import CameraAccess, CameraState
+from carpus.ui.controls.sheet import Dialog
+from carpus.ui.last_places import FolderKind, RecentLocations
+from carpus.ui.messages.messages import Messages, show_files_written
+from carpus.ui.now_open import CurrentSelection
+from carpus.ui.opening import SourceOpener
+from carpus.ui.shell import MainWindow
 from carpus.ui.theme import Theme
 
 T = TypeVar("T")
-STEPS = ("exercise", "camera", "markers", "live")
+SETUP_STEPS = ("exercise", "camera", "markers", "live")
 """The set-up, in order; the top bar counts them."""
-TABS = ("sessions", "review", "progress", "report")
+PATIENT_TABS = ("sessions", "review", "progress", "report")
 """The views of an open patient, in the order of the tabs."""
-ASIDE = ("help", "settings")
+OVERLAYS = ("help", "settings")
 """Places beside the way: from them one comes back to where one was."""
 
 
@@ -39,18 +39,18 @@ ASIDE = ("help", "settings")
 class ScreenContext:
     """What the screens share. A screen makes itself what it alone needs."""
 
-    shell: Shell
+    window: MainWindow
     theme: Theme
     library: Library
     background: Background
     messages: Messages
-    way: Navigator
-    now: NowOpen
-    opener: Opener
+    navigator: Navigator
+    current: CurrentSelection
+    opener: SourceOpener
     camera: CameraState
-    cameras: Cameras
-    places: LastPlaces
-    report: ReportSettings
+    cameras: CameraAccess
+    recent_locations: RecentLocations
+    report_settings: ReportSettings
     """As chosen now."""
     today: Callable[[], date]
     """The day now: the program may stand open for days."""
@@ -66,69 +66,69 @@ class ScreenContext:
 class Flow(QObject):
     """One screen: where it stands, and what is done on it. Made once, it enters itself into the table of places."""
 
-    place: str
-    """Its name for the others: ``context.way.show("progress")``."""
-    guide: str = "session"
+    screen_name: str
+    """Its name for the others: ``context.navigator.show("progress")``."""
+    guide_page: str = "session"
     """The page of the guide that F1 opens on it."""
-    tab: str = ""
+    parent_tab: str = ""
     """Where it lies under a tab of an open patient without being one: that tab's place."""
-    while_aside: bool = False
+    runs_behind_overlay: bool = False
     """Whether it goes on behind help and settings."""
     screen: QWidget
 
     def __init__(self, context: ScreenContext, screen: QWidget) -> None:
-        super().__init__(context.shell)
+        super().__init__(context.window)
         self.context, self.screen = context, screen
-        context.way.put(self)
+        context.navigator.register(self)
 
-    def show(self, *_: Any, **__: Any) -> None:
+    def open(self, *_: Any, **__: Any) -> None:
         """Bring it up; a screen that shows something certain says here what it must be told."""
-        self.context.way.go(self.place)
+        self.context.navigator.switch_screen(self.screen_name)
 
     def title(self) -> str:
         """What the top bar says; who is open, where a screen is of nobody else."""
-        return self.context.now.name
+        return self.context.current.patient_name
 
-    def first(self) -> QWidget:
+    def initial_focus(self) -> QWidget:
         """What gets the keyboard: what the screen itself names, or all of it."""
-        named: Callable[[], QWidget] | None = getattr(self.screen, "first", None)
+        named: Callable[[], QWidget] | None = getattr(self.screen, "initial_focus", None)
         return named() if named is not None else self.screen
 
-    def up(self) -> None:
+    def navigate_back(self) -> None:
         """One step back from here."""
-        self.to_patient()
+        self.return_to_patients()
 
-    def to_patient(self) -> None:
+    def return_to_patients(self) -> None:
         """Back to the list, with who is open."""
-        row = self.context.now.patient
-        self.context.way.show("patients", row.patient_id if row is not None else "")
+        row = self.context.current.patient
+        self.context.navigator.open_screen("patients", row.patient_id if row is not None else "")
 
-    def to_session(self) -> None:
+    def return_to_session(self) -> None:
         """Back to the session that was looked at."""
-        if self.context.now.session_id:
-            self.context.way.show("review", self.context.now.session_id)
+        if self.context.current.session_id:
+            self.context.navigator.open_screen("review", self.context.current.session_id)
         else:
-            self.to_patient()
+            self.return_to_patients()
 
-    def leave(self) -> None:
+    def on_leave(self) -> None:
         """Another screen is shown: what must not go on ends."""
 
     def close(self) -> None:
         """The window closes: what runs ends, and is waited for."""
 
-    def asks_before_closing(self) -> bool:
+    def prompt_before_close(self) -> bool:
         """Ask the person where something would be lost or end with the window; False where nothing would."""
         return False
 
-    def server_back(self) -> None:
+    def on_server_reconnected(self) -> None:
         """The clinic's server answers again: what could not be read before is read now."""
 
     @property
-    def is_at_work(self) -> bool:
+    def is_busy(self) -> bool:
         """Whether something is worked on here that would end with the window."""
         return False
 
-    def sign_lines(self) -> list[str]:
+    def banner_lines(self) -> list[str]:
         """What must not be forgotten of what is on the screen."""
         return []
 
@@ -137,155 +137,161 @@ class Flow(QObject):
 
     def open_patient(self, patient_id: str) -> Patient:
         """From now on this patient is open."""
-        now = self.context.now
+        now = self.context.current
         if now.patient is None or now.patient.patient_id != patient_id:
-            now.patient = self.context.library.patients.one(patient_id)
+            now.patient = self.context.library.patients.get(patient_id)
         return now.patient
 
     def close_patient(self) -> None:
         """Whoever was open is not any more, and the camera is let go."""
         self.context.opener.close_source()
-        self.context.now.close()
+        self.context.current.clear()
 
     def run(
         self,
         work: Callable[[], T],
-        done: Callable[[T], None] = lambda _: None,
-        failed: Callable[[Exception], None] | None = None,
+        on_done: Callable[[T], None] = lambda _: None,
+        on_failed: Callable[[Exception], None] | None = None,
     ) -> None:
-        """Work beside the window; its fault is told, unless ``failed`` does something else."""
-        self.context.background.run(work, done, failed or self.context.messages.fault, self)
+        """Work beside the window; its fault is told, unless ``on_failed`` does something else."""
+        self.context.background.run(work, on_done, on_failed or self.context.messages.show_fault, self)
 
-    def note_made(self, paths: Sequence[Path | str], sessions: Sequence[str]) -> None:
+    def register_exports(self, paths: Sequence[Path | str], sessions: Sequence[str]) -> None:
         """Files were made from sessions: they are named on the day these are erased."""
-        self.context.library.made([Path(path) for path in paths], "export", sessions)
+        self.context.library.register_output_files([Path(path) for path in paths], "export", sessions)
 
-    def tell_made(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
+    def announce_exports(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
         """The same, and said on a card."""
-        self.note_made(paths, sessions)
-        tell_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])
+        self.register_exports(paths, sessions)
+        show_files_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])
 
-    def ask_where_to_save(self, kind: Kind, name: str, title: str, kinds: str) -> Path | None:
+    def choose_save_path(self, kind: FolderKind, name: str, title: str, kinds: str) -> Path | None:
         """A file to write, None when the person changed their mind."""
-        return self.context.places.ask_where_to_save(self.context.shell, kind, name, title, kinds)
+        return self.context.recent_locations.choose_save_path(self.context.window, kind, name, title, kinds)
 
 
 class Navigator(QObject):
-    """The table of places, and the way between them: ``leaving`` with the new place before it is shown, ``arrived``
-    after. ``changed``: what is said over the screen that is shown is another. A screen is made when it is first gone
-    to or asked for, which ``made`` tells: a start would wait for all of them."""
+    """The table of places, and the way between them: ``screen_changing`` with the new place before it is shown,
+    ``screen_changed``
+    after. ``banner_changed``: what is said over the screen that is shown is another. A screen is made when it is
+    first gone
+    to or asked for, which ``screen_created`` tells: a start would wait for all of them."""
 
-    leaving = Signal(str)
-    arrived = Signal(str)
-    changed = Signal()
-    made = Signal()
+    screen_changing = Signal(str)
+    screen_changed = Signal(str)
+    banner_changed = Signal()
+    screen_created = Signal()
 
-    def __init__(self, shell: Shell, is_asked: Callable[[], bool], is_recording: Callable[[], bool]) -> None:
+    def __init__(self, shell: MainWindow, is_asked: Callable[[], bool], is_recording: Callable[[], bool]) -> None:
         super().__init__(shell)
-        self._shell, self._is_asked, self.is_recording = shell, is_asked, is_recording
-        self.makers: dict[str, Callable[[], Flow]] = {}
+        self._shell, self._is_question_open, self.is_recording = shell, is_asked, is_recording
+        self.factories: dict[str, Callable[[], Flow]] = {}
         """All screens that there are, by their places."""
         self.flows: dict[str, Flow] = {}
         """Those that are made."""
-        self._then: dict[str, list[Callable[[], object]]] = {}
-        self._research = True
-        self._place = "patients"
-        self._before_aside = "patients"
-        self._came: dict[str, str] = {}
-        self._stays_aside = False
+        self._on_created: dict[str, list[Callable[[], object]]] = {}
+        self._shows_research = True
+        self._screen_name = "patients"
+        self._under_overlay = "patients"
+        self._previous_screens: dict[str, str] = {}
+        self._keeps_overlay = False
 
     @property
-    def place(self) -> str:
+    def screen_name(self) -> str:
         """Where the person is."""
-        return self._place
+        return self._screen_name
 
     @property
-    def behind(self) -> str:
+    def underlying_screen(self) -> str:
         """Where the person is, or was before help or settings."""
-        return self._before_aside if self._place in ASIDE else self._place
+        return self._under_overlay if self._screen_name in OVERLAYS else self._screen_name
 
     @property
-    def here(self) -> Flow:
+    def current_flow(self) -> Flow:
         """The screen that is shown."""
-        return self.flows[self._place]
+        return self.flows[self._screen_name]
 
-    def put(self, flow: Flow) -> None:
+    def register(self, flow: Flow) -> None:
         """Enter a screen into the table."""
-        self.flows[flow.place] = flow
+        self.flows[flow.screen_name] = flow
 
-    def flow(self, place: str) -> Flow:
+    def flow(self, screen_name: str) -> Flow:
         """A screen, which is made where it is not yet."""
-        if place not in self.flows:
-            self.makers[place]().show_research(on=self._research)
-            for then in self._then.pop(place, []):
+        if screen_name not in self.flows:
+            self.factories[screen_name]().show_research(on=self._shows_research)
+            for then in self._on_created.pop(screen_name, []):
                 then()
-            self.made.emit()
-        return self.flows[place]
+            self.screen_created.emit()
+        return self.flows[screen_name]
 
-    def when_made(self, place: str, then: Callable[[], object]) -> None:
+    def run_when_created(self, screen_name: str, callback: Callable[[], object]) -> None:
         """What is to be done once a screen is there; now where it is."""
-        if place in self.flows:
-            then()
+        if screen_name in self.flows:
+            callback()
         else:
-            self._then.setdefault(place, []).append(then)
+            self._on_created.setdefault(screen_name, []).append(callback)
 
     def show_research(self, *, on: bool) -> None:
         """Show what only research needs, or fold it away, on every screen; no value changes by it."""
-        self._research = on
+        self._shows_research = on
         for flow in self.flows.values():
             flow.show_research(on=on)
 
-    def show(self, place: str, *given: object) -> None:
+    def open_screen(self, screen_name: str, *given: object) -> None:
         """Bring up a screen as it does it itself, with what it must be told."""
-        self.flow(place).show(*given)
+        self.flow(screen_name).open(*given)
 
-    def show_behind(self, place: str, *given: object) -> None:
+    def open_under_overlay(self, screen_name: str, *given: object) -> None:
         """As :meth:`show`; help and settings stay where they are open, and are left for that screen."""
-        self._stays_aside = self._place in ASIDE
+        self._keeps_overlay = self._screen_name in OVERLAYS
         try:
-            self.show(place, *given)
+            self.open_screen(screen_name, *given)
         finally:
-            self._stays_aside = False
+            self._keeps_overlay = False
 
-    def go(self, place: str) -> None:
+    def switch_screen(self, screen_name: str) -> None:
         """Change to a screen as it is; for its own flow."""
-        if self._stays_aside:
-            self._before_aside = place
+        if self._keeps_overlay:
+            self._under_overlay = screen_name
             return
-        old, new = self.flows.get(self._place), self.flow(place)
-        if old is not None and place != self._place and not (old.while_aside and place in ASIDE):
-            old.leave()
-        if place != self._place and self._place not in ASIDE:
-            self._came[place] = self._place
-        self._place = place
-        self.leaving.emit(place)
-        self._shell.show_screen(new.screen, new.first())
-        self.arrived.emit(place)
+        old, new = self.flows.get(self._screen_name), self.flow(screen_name)
+        if (
+            old is not None
+            and screen_name != self._screen_name
+            and not (old.runs_behind_overlay and screen_name in OVERLAYS)
+        ):
+            old.on_leave()
+        if screen_name != self._screen_name and self._screen_name not in OVERLAYS:
+            self._previous_screens[screen_name] = self._screen_name
+        self._screen_name = screen_name
+        self.screen_changing.emit(screen_name)
+        self._shell.show_screen(new.screen, new.initial_focus())
+        self.screen_changed.emit(screen_name)
 
-    def came_from(self, place: str) -> str:
+    def previous_screen(self, screen_name: str) -> str:
         """From where a place was last gone to, help and settings aside."""
-        return self._came.get(place, "patients")
+        return self._previous_screens.get(screen_name, "patients")
 
-    def may_aside(self) -> bool:
+    def can_open_overlay(self) -> bool:
         """Whether help and settings can be opened now: not from each other, a recording, or a question."""
-        return not (self._place in ASIDE or self.is_recording() or self._is_asked())
+        return not (self._screen_name in OVERLAYS or self.is_recording() or self._is_question_open())
 
-    def aside(self, place: str) -> None:
+    def open_overlay(self, screen_name: str) -> None:
         """Help or settings, from which one comes back; not over a running recording."""
-        if not self.may_aside():
+        if not self.can_open_overlay():
             return
-        self._before_aside = self._place
-        self.go(place)
+        self._under_overlay = self._screen_name
+        self.switch_screen(screen_name)
 
-    def back(self) -> None:
+    def navigate_back(self) -> None:
         """One step back; what covers the screen goes first, and nothing leaves a message. Of a running recording the
         screen asks whether it shall stop."""
-        if self._is_asked():
+        if self._is_question_open():
             return
-        sheets = [sheet for sheet in self._shell.findChildren(Sheet) if sheet.isVisible()]
+        sheets = [sheet for sheet in self._shell.findChildren(Dialog) if sheet.isVisible()]
         if sheets:
-            sheets[-1].leave()
-        elif self._place in ASIDE:
-            self.go(self._before_aside)
+            sheets[-1].dismiss()
+        elif self._screen_name in OVERLAYS:
+            self.switch_screen(self._under_overlay)
         else:
-            self.flows[self._place].up()
+            self.flows[self._screen_name].navigate_back()

@@ -13,7 +13,7 @@ DISPLAY_FROM_PX = 28
 REGULAR, MEDIUM, SEMIBOLD = 400, 500, 600
 
 
-_PROBED_PX = (*range(11, 25), 28, 32, 44)
+_CHECKED_SIZES_PX = (*range(11, 25), 28, 32, 44)
 _loaded: list[str] = []
 
 
@@ -21,7 +21,9 @@ def load_fonts() -> tuple[str, ...]:
     """Register the bundled faces with Qt; the families found. Needs a QGuiApplication; costs next to nothing twice, and
     does it again where Qt has forgotten them: it has been seen, after many minutes, to draw single sizes in the
     system's face and to keep to that. Registering drops what it keeps, so that it looks again."""
-    if _loaded and all(_answers(size_px, weight) for size_px in _PROBED_PX for weight in (REGULAR, MEDIUM, SEMIBOLD)):
+    if _loaded and all(
+        _is_available(size_px, weight) for size_px in _CHECKED_SIZES_PX for weight in (REGULAR, MEDIUM, SEMIBOLD)
+    ):
         return tuple(_loaded)
     families: set[str] = set()
     for entry in sorted(files("carpus.resources").joinpath("fonts").iterdir(), key=lambda item: item.name):
@@ -32,7 +34,7 @@ def load_fonts() -> tuple[str, ...]:
     return tuple(_loaded)
 
 
-def _answers(size_px: int, weight: int) -> bool:
+def _is_available(size_px: int, weight: int) -> bool:
     asked = font(size_px, weight)
     return QFontInfo(asked).family() == asked.family()
 

@@ -12,45 +12,46 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, QWidget
 
-from carpus.ui.controls.button import Tick
-from carpus.ui.controls.field import Choices, Combo, Labelled
-from carpus.ui.controls.layouts import in_line
+from carpus.ui.controls.button import CheckButton
+from carpus.ui.controls.field import ChoiceRow, Combo, LabelledField
+from carpus.ui.controls.layouts import row_layout
 from carpus.ui.theme import Theme
 
-Rule = Callable[[Any], str]
+Validator = Callable[[Any], str]
 """What is wrong with a value, in words; empty for nothing."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Field:
-    """``name`` is the attribute; ``beside`` stands behind the widget. One that ``follows`` stands in the line of the
-    one before, right behind its widget where it has no label; ``share`` of the line's room is its own."""
+    """``name`` is the attribute; ``trailing`` stands behind the widget. One that ``continues_row`` stands in the line
+    of the
+    one before, right behind its widget where it has no label; ``stretch`` of the line's room is its own."""
 
     name: str
     label: str
     widget: QWidget
-    rule: Rule = lambda _: ""
-    beside: Sequence[QWidget] = ()
-    follows: bool = False
-    share: int = 0
-    tells: str = ""
+    validator: Validator = lambda _: ""
+    trailing: Sequence[QWidget] = ()
+    continues_row: bool = False
+    stretch: int = 0
+    change_signal: str = ""
     """The signal of a change, where it is not that of its kind."""
 
 
-def choice_rule(words: str) -> Rule:
+def require_choice(message: str) -> Validator:
     """One of several, of which none is chosen by itself."""
-    return lambda value: words if value is None else ""
+    return lambda value: message if value is None else ""
 
 
-def length_rule(count: int, words: str) -> Rule:
-    """Nothing that is typed is ever cut; ``words`` name the ``{count}`` of letters that are too many."""
-    return lambda text: words.format(count=len(text) - count) if len(text) > count else ""
+def limit_length(max_length: int, message: str) -> Validator:
+    """Nothing that is typed is ever cut; ``message`` name the ``{max_length}`` of letters that are too many."""
+    return lambda text: message.format(count=len(text) - max_length) if len(text) > max_length else ""
 
 
-_KINDS: Sequence[tuple[type[QWidget], Callable[[Any], Any], Callable[[Any, Any], object], str]] = (
-    (Choices, Choices.value, Choices.choose, "chosen"),
+_WIDGET_ACCESS: Sequence[tuple[type[QWidget], Callable[[Any], Any], Callable[[Any, Any], object], str]] = (
+    (ChoiceRow, ChoiceRow.value, ChoiceRow.choose, "chosen"),
     (Combo, Combo.currentData, Combo.choose, "currentIndexChanged"),
-    (Tick, Tick.isChecked, Tick.setChecked, "toggled"),
+    (CheckButton, CheckButton.isChecked, CheckButton.setChecked, "toggled"),
     (QSpinBox, QSpinBox.value, QSpinBox.setValue, "valueChanged"),
     (QLineEdit, lambda line: " ".join(line.text().split()), QLineEdit.setText, "textChanged"),
     (QPlainTextEdit, lambda text: text.toPlainText().strip(), QPlainTextEdit.setPlainText, "textChanged"),
@@ -67,29 +68,31 @@ class Form(QObject):
     def __init__(self, theme: Theme, fields: Sequence[Field]) -> None:
         super().__init__()
         self._fields = {field.name: field for field in fields}
-        self._ways: dict[str, tuple[Callable[[], Any], Callable[[Any], object]]] = {}
-        self.parts: dict[str, Any] = {}
+        self._accessors: dict[str, tuple[Callable[[], Any], Callable[[Any], object]]] = {}
+        self.labelled_widgets: dict[str, Any] = {}
         """Each field under its label; the bare widget where it has none."""
         for number, field in enumerate(fields):
             widget = field.widget
-            read, show, tells = next(kind[1:] for kind in _KINDS if isinstance(widget, kind[0]))
+            read, show, tells = next(kind[1:] for kind in _WIDGET_ACCESS if isinstance(widget, kind[0]))
             read, show = getattr(type(widget), "value", read), getattr(type(widget), "set_value", show)
-            self._ways[field.name] = partial(read, widget), partial(show, widget)
-            getattr(widget, field.tells or tells).connect(lambda *_: self.changed.emit())
+            self._accessors[field.name] = partial(read, widget), partial(show, widget)
+            getattr(widget, field.change_signal or tells).connect(lambda *_: self.changed.emit())
             if field.label:
-                behind = takewhile(lambda one: one.follows and not one.label, fields[number + 1 :])
-                beside = [part for one in behind for part in (one.widget, *one.beside)]
-                self.parts[field.name] = Labelled(theme, field.label, field.widget, *field.beside, *beside)
-            elif not field.follows:
-                self.parts[field.name] = field.widget
+                behind = takewhile(lambda one: one.continues_row and not one.label, fields[number + 1 :])
+                beside = [part for one in behind for part in (one.widget, *one.trailing)]
+                self.labelled_widgets[field.name] = LabelledField(
+                    theme, field.label, field.widget, *field.trailing, *beside
+                )
+            elif not field.continues_row:
+                self.labelled_widgets[field.name] = field.widget
 
-    def lines(self) -> list[QHBoxLayout]:
+    def layout_rows(self) -> list[QHBoxLayout]:
         """All of it to be laid out from top to bottom."""
         lines: list[QHBoxLayout] = []
-        for name, part in self.parts.items():
-            if not self._fields[name].follows:
-                lines.append(in_line(gap=24))
-            lines[-1].addWidget(part, self._fields[name].share)
+        for name, part in self.labelled_widgets.items():
+            if not self._fields[name].continues_row:
+                lines.append(row_layout(gap=24))
+            lines[-1].addWidget(part, self._fields[name].stretch)
         for line in lines:
             if line.count() > 1 and not any(line.stretch(place) for place in range(line.count())):
                 line.addStretch(1)
@@ -101,16 +104,16 @@ class Form(QObject):
 
     def fill(self, value: object) -> None:
         """Show what the attributes of a value are; none of several choices where it is not among them."""
-        for name, (_, show) in self._ways.items():
+        for name, (_, show) in self._accessors.items():
             show(getattr(value, name))
 
     def values(self) -> dict[str, Any]:
         """What is typed and chosen, by the names of the fields."""
-        return {name: read() for name, (read, _) in self._ways.items()}
+        return {name: read() for name, (read, _) in self._accessors.items()}
 
-    def fault(self) -> tuple[QWidget | None, str]:
+    def find_error(self) -> tuple[QWidget | None, str]:
         """The first field that is wrong, and what is wrong with it; empty words where all is well."""
         for name, value in self.values().items():
-            if words := self._fields[name].rule(value):
+            if words := self._fields[name].validator(value):
                 return self[name], words
         return None, ""

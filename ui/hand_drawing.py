@@ -30,15 +30,17 @@ PALM = (
     (84, 297), (84, 262), (80, 244), (66, 214), (58, 196), (72, 168), (84, 150), (112, 143), (140, 150), (156, 166),
     (160, 196), (154, 228), (146, 256), (145, 297),
 )  # fmt: skip
-PLACES: dict[str, tuple[float, float]] = {"WRIST": (114, 254), "CMC1": (93, 236)}
-PLACES |= {f"{joint}{k}": FINGERS[k][n] for k in (2, 3, 4, 5) for n, joint in enumerate(("MCP", "PIP", "DIP", "TIP"))}
-PLACES |= {"MCP1": FINGERS[1][1], "IP1": FINGERS[1][2], "TIP1": FINGERS[1][3]}
+MARKER_POSITIONS: dict[str, tuple[float, float]] = {"WRIST": (114, 254), "CMC1": (93, 236)}
+MARKER_POSITIONS |= {
+    f"{joint}{k}": FINGERS[k][n] for k in (2, 3, 4, 5) for n, joint in enumerate(("MCP", "PIP", "DIP", "TIP"))
+}
+MARKER_POSITIONS |= {"MCP1": FINGERS[1][1], "IP1": FINGERS[1][2], "TIP1": FINGERS[1][3]}
 
 MarkerState = Literal["done", "next", "later", "proposed", "doubtful", "wrong"]
 
 
 @lru_cache(maxsize=1)
-def outline() -> QPainterPath:
+def hand_outline() -> QPainterPath:
     """Outline of the right hand in the drawing's unit."""
     hand = QPainterPath(QPointF(*PALM[0]))
     for point in PALM[1:]:
@@ -107,7 +109,7 @@ class HandDrawing(QWidget):
         painter.setClipPath(card)
         painter.setPen(QPen(theme.color("border"), 1.3))
         painter.setBrush(theme.color("sunken"))
-        painter.drawPath(to.map(outline()))
+        painter.drawPath(to.map(hand_outline()))
         painter.setClipping(False)
         painter.setPen(QPen(theme.color("line"), 1))
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -118,7 +120,7 @@ class HandDrawing(QWidget):
         flag = Qt.AlignmentFlag.AlignLeft if self._side == "right" else Qt.AlignmentFlag.AlignRight
         painter.drawText(frame.adjusted(16, 14, -16, 0), int(flag), words)
         for number, name in sorted(enumerate(self._order), key=lambda item: self._states[item[1]] == "next"):
-            self._paint_marker(painter, to.map(QPointF(*PLACES[name])), self._states[name], number + 1)
+            self._paint_marker(painter, to.map(QPointF(*MARKER_POSITIONS[name])), self._states[name], number + 1)
 
     def _paint_marker(self, painter: QPainter, at: QPointF, state: MarkerState, number: int) -> None:
         color = self._theme.color
@@ -134,12 +136,12 @@ class HandDrawing(QWidget):
             painter.setBrush(color("accent"))
             painter.setPen(QPen(color("surface"), 1.5))
             painter.drawEllipse(at, 12, 12)
-            self._number(painter, at, number, "on_accent", 14)
+            self._paint_number(painter, at, number, "on_accent", 14)
         elif state == "later":
             painter.setPen(QPen(color("border"), 1.3))
             painter.setBrush(color("surface"))
             painter.drawEllipse(at, 8.5, 8.5)
-            self._number(painter, at, number, "text2", 12)
+            self._paint_number(painter, at, number, "text2", 12)
         elif state in ("proposed", "doubtful"):
             shape, token = ("predicted", "accent") if state == "proposed" else ("warn", "warn")
             box = QRectF(at.x() - 9, at.y() - 9, 18, 18)
@@ -150,7 +152,7 @@ class HandDrawing(QWidget):
             painter.drawPolygon(octagon(at, 15))
             paint_state(painter, "bad", QRectF(at.x() - 10, at.y() - 10, 20, 20), color("bad"), color("surface"))
 
-    def _number(self, painter: QPainter, at: QPointF, number: int, token: str, size: int) -> None:
+    def _paint_number(self, painter: QPainter, at: QPointF, number: int, token: str, size: int) -> None:
         painter.setFont(font(size, SEMIBOLD))
         painter.setPen(self._theme.color(token))
         painter.drawText(QRectF(at.x() - 14, at.y() - 14, 28, 28), Qt.AlignmentFlag.AlignCenter, str(number))

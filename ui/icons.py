@@ -25,7 +25,7 @@ def _renderer(name: str, color: str) -> QSvgRenderer:
     return QSvgRenderer(QByteArray(text.encode()))
 
 
-def program_icon(size_px: int) -> QImage:
+def program_icon_image(size_px: int) -> QImage:
     """Carpus's own, square: of its windows, and of what the installers bring."""
     picture = QImage(size_px, size_px, QImage.Format.Format_ARGB32)
     picture.fill(Qt.GlobalColor.transparent)
@@ -93,7 +93,7 @@ def octagon(center: QPointF, radius: float) -> QPolygonF:
     return QPolygonF([center + QPointF(x, y) for x, y in corners])
 
 
-def paint_mark(painter: QPainter, box: QRectF, color: QColor) -> None:
+def paint_logo(painter: QPainter, box: QRectF, color: QColor) -> None:
     """The sign of Carpus: a wrist disc with five rays, drawn so that it stays clear at 20 px."""
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)

@@ -11,41 +11,41 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import MarkerProtocol, joint_discs
-from carpus.core.measures.fingers import possible_joints
+from carpus.core.hand.protocols import MarkerProtocol, markers_at_joint
+from carpus.core.measures.fingers import plausible_joints
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
-from carpus.ui.figures import FIGURES, Figure
+from carpus.ui.figures import FINGER_ANGLES, FingerAngle
 
 BoolArray = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
-class Mix:
+class AngleWeights:
     """How the figures (F,) come from the joint angles (J,) of every file and from the discs (M,) seen.
 
-    ``weight`` (F, J); ``variance_weight`` (F, J) for variances; ``inferred`` (F,) where no disc of its own can tell.
+    ``weight`` (F, J); ``variance_weight`` (F, J) for variances; ``is_inferred`` (F,) where no disc of its own can tell.
     """
 
     weight: FloatArray
     variance_weight: FloatArray
-    inferred: BoolArray
+    is_inferred: BoolArray
 
 
-def joints_of(protocol: MarkerProtocol, count: int) -> tuple[str, ...]:
+def joint_names(protocol: MarkerProtocol, count: int) -> tuple[str, ...]:
     """The names of so many joint angles as a protocol measures: with coupled end joints or with free ones."""
     coupled = protocol.joint_names()
     return coupled if len(coupled) == count else protocol.joint_names(dip_free=True)
 
 
 @lru_cache(maxsize=4)
-def mix(names: tuple[str, ...]) -> Mix:
+def angle_weights(names: tuple[str, ...]) -> AngleWeights:
     """For joint angles of those names; what they do not tell is NaN."""
-    weight = np.zeros((len(FIGURES), len(names)))
-    for row, figure in enumerate(FIGURES):
+    weight = np.zeros((len(FINGER_ANGLES), len(names)))
+    for row, figure in enumerate(FINGER_ANGLES):
         parts = [figure]
-        if figure.row == "tam":
-            parts = [Figure(figure.finger, part) for part in ("knuckle", "middle", "end") if figure.finger > 1]
-            parts = parts or [Figure(1, "knuckle"), Figure(1, "end")]
+        if figure.kind == "tam":
+            parts = [FingerAngle(figure.finger, part) for part in ("knuckle", "middle", "end") if figure.finger > 1]
+            parts = parts or [FingerAngle(1, "knuckle"), FingerAngle(1, "end")]
         for part in parts:
             if part.joint in names:
                 weight[row, names.index(part.joint)] += part.sign
@@ -54,47 +54,50 @@ def mix(names: tuple[str, ...]) -> Mix:
             else:
                 weight[row] = math.nan
     inferred = [
-        figure.row == "end"
+        figure.kind == "end"
         and figure.finger > 1
         and f"PIP{figure.finger}_flexion" in names
         and figure.joint not in names
-        for figure in FIGURES
+        for figure in FINGER_ANGLES
     ]
-    return Mix(weight, weight**2, np.array(inferred))
+    return AngleWeights(weight, weight**2, np.array(inferred))
 
 
 @lru_cache(maxsize=4)
-def _needed(protocol: MarkerProtocol) -> tuple[BoolArray, BoolArray]:
+def _marker_requirements(protocol: MarkerProtocol) -> tuple[BoolArray, BoolArray]:
     """Discs (F, M) a figure needs: of a joint the one over it and the next one outwards, as in every file's figures;
     and whether the protocol has them all (F,)."""
-    out, has = np.zeros((len(FIGURES), len(protocol.markers)), dtype=bool), np.ones(len(FIGURES), dtype=bool)
-    for row, figure in enumerate(FIGURES):
+    out, has = (
+        np.zeros((len(FINGER_ANGLES), len(protocol.markers)), dtype=bool),
+        np.ones(len(FINGER_ANGLES), dtype=bool),
+    )
+    for row, figure in enumerate(FINGER_ANGLES):
         joints = [figure.joint]
-        if figure.row == "tam":
+        if figure.kind == "tam":
             joints = ["MCP1_flexion", "IP1_flexion"] if figure.finger == 1 else []
             joints = joints or [f"MCP{figure.finger}_flexion", f"PIP{figure.finger}_flexion"]
-        discs = {disc for joint in joints for disc in joint_discs(joint)}
+        discs = {disc for joint in joints for disc in markers_at_joint(joint)}
         has[row] = discs <= set(protocol.markers)
         out[row, [protocol.markers.index(disc) for disc in discs if has[row]]] = True
     return out, has
 
 
-def measured_figures(protocol: MarkerProtocol, seen: BoolArray) -> BoolArray:
+def find_measured_angles(protocol: MarkerProtocol, is_visible: BoolArray) -> BoolArray:
     """Which figures (n, F) are seen where discs (n, M) are."""
-    needed, has = _needed(protocol)
-    return np.asarray(~(~seen[:, None] & needed).any(axis=2) & has, dtype=np.bool_)
+    needed, has = _marker_requirements(protocol)
+    return np.asarray(~(~is_visible[:, None] & needed).any(axis=2) & has, dtype=np.bool_)
 
 
-def figures_of(
+def estimate_finger_angles(
     protocol: MarkerProtocol, frames: Sequence[TrackedFrame]
 ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
     """Times (n,), values and standard deviations (n, F) in degrees, supported (n, F), discs seen (n, M)."""
-    names = joints_of(protocol, len(frames[-1].moment.joint_angles_rad))
-    mixed = mix(names)
-    angles = np.array([frame.moment.joint_angles_rad for frame in frames])
-    sds = np.array([frame.moment.joint_angles_sd_rad for frame in frames])
+    names = joint_names(protocol, len(frames[-1].kinematics.joint_angles_rad))
+    mixed = angle_weights(names)
+    angles = np.array([frame.kinematics.joint_angles_rad for frame in frames])
+    sds = np.array([frame.kinematics.joint_angles_sd_rad for frame in frames])
     seen = np.isfinite(np.array([frame.marker_measured_px for frame in frames])[..., 0])
-    impossible = ~possible_joints(names, angles)
+    impossible = ~plausible_joints(names, angles)
     value = np.degrees(np.where(impossible, 0.0, angles) @ mixed.weight.T)
     sd = np.degrees(np.sqrt(np.where(impossible, 0.0, sds) ** 2 @ mixed.variance_weight.T))
     of_it = impossible.astype(float) @ np.abs(mixed.weight.T) > 0.0
@@ -102,5 +105,5 @@ def figures_of(
     tracked = np.array([frame.status == TrackStatus.TRACKED for frame in frames])
     lost = np.array([frame.status == TrackStatus.LOST for frame in frames])
     value[lost] = sd[lost] = math.nan
-    measured = measured_figures(protocol, seen) & tracked[:, None] & np.isfinite(value)
+    measured = find_measured_angles(protocol, seen) & tracked[:, None] & np.isfinite(value)
     return np.array([frame.timestamp_s for frame in frames]), value, sd, measured, seen

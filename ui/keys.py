@@ -34,7 +34,7 @@ KEYS = {
 """While measuring only the space bar, a pedal's key and function keys: no keyboard layout or language matters."""
 
 
-def bind(
+def bind_key(
     host: QWidget,
     name: str,
     action: Callable[[], object],
@@ -48,11 +48,11 @@ def bind(
     return shortcut
 
 
-def bind_screen(host: QWidget, actions: Mapping[str, Callable[[], object]]) -> dict[str, QShortcut]:
+def bind_screen_keys(host: QWidget, actions: Mapping[str, Callable[[], object]]) -> dict[str, QShortcut]:
     """Keys of a screen that has the keyboard itself while none of its parts does, without a ring around it."""
     host.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     host.setProperty("shows_own_focus", True)
-    return {name: bind(host, name, action) for name, action in actions.items()}
+    return {name: bind_key(host, name, action) for name, action in actions.items()}
 
 
 def key_name(key: str) -> str:
@@ -64,7 +64,7 @@ def key_name(key: str) -> str:
     return "+".join(names.get(part, part) for part in key.split("+")) if len(key) > 1 else key
 
 
-def letter_key(text: str) -> str:
+def mnemonic_key(text: str) -> str:
     """``Alt+H`` of a button's text with a letter marked by &; empty without."""
     at = text.replace("&&", "  ").find("&")
     return f"Alt+{text[at + 1].upper()}" if 0 <= at < len(text) - 1 else ""

@@ -15,20 +15,21 @@ from xml.etree import ElementTree
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
 LANGUAGES = {"en": "English", "de": "Deutsch", "it": "Italiano"}
-"""Languages by their own names; a new one is a line here, one in ``_USUAL`` and its file in resources/translations."""
+"""Languages by their own names; a new one is a line here, one in ``_DEFAULT_LOCALES`` and its file in
+resources/translations."""
 
-_USUAL = {
+_DEFAULT_LOCALES = {
     "en": QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom),
     "de": QLocale(QLocale.Language.German, QLocale.Country.Germany),
     "it": QLocale(QLocale.Language.Italian, QLocale.Country.Italy),
 }
 
-Find = Callable[[str, str], str | None]
+TextLookup = Callable[[str, str], str | None]
 """The translation of a text in a context, None where there is none."""
 
 
-class _Spoken(threading.local):
-    """The language of this thread while :func:`speaking`; empty for the window's."""
+class _ThreadLanguage(threading.local):
+    """The language of this thread while :func:`use_language`; empty for the window's."""
 
     code = ""
 
@@ -38,31 +39,31 @@ class _Translator(QTranslator):
 
     def __init__(self) -> None:
         super().__init__()
-        self.finds: dict[str, Find] = {"en": lambda context, text: None}
-        self.locales: dict[str, QLocale] = dict(_USUAL)
-        self.window = ""
+        self.lookups: dict[str, TextLookup] = {"en": lambda context, text: None}
+        self.locales: dict[str, QLocale] = dict(_DEFAULT_LOCALES)
+        self.window_language = ""
 
     def translate(self, context: str, text: str, disambiguation: str | None = None, number: int = -1) -> str | None:
-        find = self.finds.get(_SPOKEN.code or self.window)
+        find = self.lookups.get(_THREAD_LANGUAGE.code or self.window_language)
         return find(context or "", text or "") if find is not None else None
 
     def isEmpty(self) -> bool:
         return False
 
 
-_SPOKEN = _Spoken()
+_THREAD_LANGUAGE = _ThreadLanguage()
 _TRANSLATOR: list[_Translator] = []
 
 
-def texts_of(code: str) -> dict[tuple[str, str], str]:
+def load_texts(code: str) -> dict[tuple[str, str], str]:
     """What the kept file of a language says, by context and English text; unfinished texts that are there count."""
-    return texts_in((resources.files("carpus.resources") / "translations" / f"carpus_{code}.ts").read_bytes())
+    return parse_texts((resources.files("carpus.resources") / "translations" / f"carpus_{code}.ts").read_bytes())
 
 
-def texts_in(file: bytes) -> dict[tuple[str, str], str]:
+def parse_texts(ts_file: bytes) -> dict[tuple[str, str], str]:
     """What a file of Qt Linguist says, as above."""
     found = {}
-    for context in ElementTree.fromstring(file).iter("context"):
+    for context in ElementTree.fromstring(ts_file).iter("context"):
         name = context.findtext("name") or ""
         for message in context.iter("message"):
             translation = message.find("translation")
@@ -73,45 +74,45 @@ def texts_in(file: bytes) -> dict[tuple[str, str], str]:
     return found
 
 
-def speak(code: str) -> None:
+def set_window_language(code: str) -> None:
     """From now on the window's language; ``system`` for the computer's. To be called in the window's thread, once
     there is an application."""
-    chosen = code if code in known() else of_the_system()
+    chosen = code if code in available_languages() else system_language()
     translator = _translator()
-    _prepare(translator, chosen)
-    translator.window = chosen
+    _load_language(translator, chosen)
+    translator.window_language = chosen
     QLocale.setDefault(translator.locales[chosen])
 
 
 @contextmanager
-def speaking(code: str) -> Iterator[None]:
+def use_language(code: str) -> Iterator[None]:
     """Meanwhile this thread speaks another language; empty for the window's. Work that is given to another thread
     through ``Background`` takes it along."""
     if code:
-        _prepare(_translator(), code)
-    before, _SPOKEN.code = _SPOKEN.code, code
+        _load_language(_translator(), code)
+    before, _THREAD_LANGUAGE.code = _THREAD_LANGUAGE.code, code
     try:
         yield
     finally:
-        _SPOKEN.code = before
+        _THREAD_LANGUAGE.code = before
 
 
-def spoken() -> str:
+def current_language() -> str:
     """The language spoken here and now."""
-    return _SPOKEN.code or (_TRANSLATOR[0].window if _TRANSLATOR else "") or "en"
+    return _THREAD_LANGUAGE.code or (_TRANSLATOR[0].window_language if _TRANSLATOR else "") or "en"
 
 
-def borrowed() -> str:
-    """The language of :func:`speaking`, empty outside of it."""
-    return _SPOKEN.code
+def thread_language() -> str:
+    """The language of :func:`use_language`, empty outside of it."""
+    return _THREAD_LANGUAGE.code
 
 
 def locale() -> QLocale:
     """How numbers and dates are written here and now."""
-    return _TRANSLATOR[0].locales[_SPOKEN.code] if _SPOKEN.code and _TRANSLATOR else QLocale()
+    return _TRANSLATOR[0].locales[_THREAD_LANGUAGE.code] if _THREAD_LANGUAGE.code and _TRANSLATOR else QLocale()
 
 
-def of_the_system() -> str:
+def system_language() -> str:
     """The first of the person's languages that Carpus speaks; English where it speaks none."""
     for name in QLocale.system().uiLanguages():
         code = name.replace("_", "-").split("-")[0].lower()
@@ -120,15 +121,15 @@ def of_the_system() -> str:
     return "en"
 
 
-def known() -> tuple[str, ...]:
+def available_languages() -> tuple[str, ...]:
     """All languages that can be spoken."""
     return tuple(_TRANSLATOR[0].locales) if _TRANSLATOR else tuple(LANGUAGES)
 
 
-def learn(code: str, find: Find, written_as: QLocale) -> None:
-    """Another language, whose texts ``find`` gives; numbers and dates ``written_as`` in it."""
+def register_language(code: str, lookup: TextLookup, number_locale: QLocale) -> None:
+    """Another language, whose texts ``lookup`` gives; numbers and dates ``number_locale`` in it."""
     translator = _translator()
-    translator.finds[code], translator.locales[code] = find, written_as
+    translator.lookups[code], translator.locales[code] = lookup, number_locale
 
 
 def _translator() -> _Translator:
@@ -139,26 +140,26 @@ def _translator() -> _Translator:
     return _TRANSLATOR[0]
 
 
-def _prepare(translator: _Translator, code: str) -> None:
+def _load_language(translator: _Translator, code: str) -> None:
     """Read a language when it is first spoken, and take the person's own country's locale where it is theirs."""
-    if code in translator.finds and code != "en":
+    if code in translator.lookups and code != "en":
         return
     own = QLocale.system()
-    if code in _USUAL and own.language() == _USUAL[code].language():
+    if code in _DEFAULT_LOCALES and own.language() == _DEFAULT_LOCALES[code].language():
         plain = QLocale(own.language(), own.territory())
         # A computer may speak one language and name its days in another: nothing is mixed here.
         translator.locales[code] = own if own.dayName(1) == plain.dayName(1) else plain
     if code != "en":
-        translator.finds[code] = _find_in(texts_of(code), code)
+        translator.lookups[code] = _make_lookup(load_texts(code), code)
 
 
-def _find_in(texts: dict[tuple[str, str], str], code: str) -> Find:
+def _make_lookup(texts: dict[tuple[str, str], str], code: str) -> TextLookup:
     """Carpus's own texts, then those of Qt's dialogs and buttons."""
     qt = QTranslator()
     qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath))
 
-    def find(context: str, text: str) -> str | None:
+    def lookup(context: str, text: str) -> str | None:
         own = texts.get((context, text))
         return own if own is not None else qt.translate(context, text) or None
 
-    return find
+    return lookup

@@ -11,88 +11,89 @@ from PySide6.QtGui import QGuiApplication, QScreen
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus.core.errors import CarpusFault
-from carpus.core.records.of_clinic import keep_place, last_place
+from carpus.core.records.of_clinic import read_last_place, save_place
 
-Kind = Literal["recordings", "reports", "exports"]
+FolderKind = Literal["recordings", "reports", "exports"]
 
 
-class LastPlaces:
+class RecentLocations:
     """A folder for each kind of thing, kept for this computer; only a convenience, so nothing here is a fault."""
 
     def __init__(self, data_folder: Path) -> None:
         self._data_folder = data_folder
 
-    def folder(self, kind: Kind) -> str:
+    def folder(self, kind: FolderKind) -> str:
         """Where to begin looking: the last place if it is still there, else documents, else home."""
-        for candidate in (self._kept(kind), documents()):
+        for candidate in (self._load(kind), documents_folder()):
             if candidate and Path(candidate).is_dir():
                 return candidate
         return str(Path.home())
 
-    def keep(self, kind: Kind, folder: str) -> None:
-        self._keep(kind, folder)
+    def save_folder(self, kind: FolderKind, folder: str) -> None:
+        self._save(kind, folder)
 
-    def ask_where_to_save(self, window: QWidget, kind: Kind, name: str, title: str, kinds: str) -> Path | None:
+    def choose_save_path(self, window: QWidget, kind: FolderKind, name: str, title: str, kinds: str) -> Path | None:
         """Ask for a file to write, beginning at the last place, and remember that; None when the person changed their
         mind. The system's own dialog asks whether an old file may go."""
         path, _ = QFileDialog.getSaveFileName(window, title, str(Path(self.folder(kind)) / name), kinds)
         if not path:
             return None
-        self.keep(kind, str(Path(path).parent))
+        self.save_folder(kind, str(Path(path).parent))
         return Path(path)
 
-    def window(self) -> str:
+    def window_geometry(self) -> str:
         """The window's place as it was kept, empty before the first time."""
-        return self._kept("window")
+        return self._load("window")
 
-    def keep_window(self, place: str) -> None:
-        self._keep("window", place)
+    def save_window_geometry(self, geometry: str) -> None:
+        self._save("window", geometry)
 
-    def _keep(self, name: str, value: str) -> None:
+    def _save(self, name: str, value: str) -> None:
         with suppress(CarpusFault):  # a full or read-only disk tells elsewhere
-            keep_place(self._data_folder, name, value)
+            save_place(self._data_folder, name, value)
 
-    def _kept(self, name: str) -> str:
+    def _load(self, name: str) -> str:
         with suppress(CarpusFault):
-            return last_place(self._data_folder, name)
+            return read_last_place(self._data_folder, name)
         return ""
 
 
-def documents() -> str:
+def documents_folder() -> str:
     """Where a person keeps papers."""
     return QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
 
 
-TITLE_PX = 40
+TITLE_BAR_PX = 40
 """Room for a title bar, whose height nobody knows before it is there."""
 
 
-def put_in_place(window: QWidget, kept: str) -> None:
-    """Give a window its place of last time (as :func:`place_of` told it), or its first size; larger than the screen it
+def restore_window(window: QWidget, geometry: str) -> None:
+    """Give a window its place of last time (as :func:`encode_geometry` told it), or its first size; larger than the
+    screen it
     fills the screen."""
-    if kept:
-        window.restoreGeometry(QByteArray.fromBase64(kept.encode("ascii", "ignore")))
+    if geometry:
+        window.restoreGeometry(QByteArray.fromBase64(geometry.encode("ascii", "ignore")))
     screen: QScreen | None = window.screen()  # none while a display comes or goes
     screen = screen if screen is not None else QGuiApplication.primaryScreen()
     if screen is None:
         return
     room = screen.availableGeometry()
     if not window.isMaximized():
-        fits, whole = fitted(window.geometry(), room)
+        fits, whole = fit_on_screen(window.geometry(), room)
         window.setGeometry(fits)
         if not whole:
             window.setWindowState(window.windowState() | Qt.WindowState.WindowMaximized)
 
 
-def fitted(place: QRect, room: QRect) -> tuple[QRect, bool]:
+def fit_on_screen(place: QRect, screen_area: QRect) -> tuple[QRect, bool]:
     """A place moved and shrunk into the room of a screen, below a title bar; whether it kept its size."""
-    inside = room.adjusted(0, TITLE_PX, 0, 0)
+    inside = screen_area.adjusted(0, TITLE_BAR_PX, 0, 0)
     width, height = min(place.width(), inside.width()), min(place.height(), inside.height())
     left = min(max(place.left(), inside.left()), inside.right() + 1 - width)
     top = min(max(place.top(), inside.top()), inside.bottom() + 1 - height)
     return QRect(left, top, width, height), (width, height) == (place.width(), place.height())
 
 
-def place_of(window: QWidget) -> str:
+def encode_geometry(window: QWidget) -> str:
     """The window's place as a text."""
     return bytes(window.saveGeometry().toBase64().data()).decode("ascii")

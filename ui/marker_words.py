@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from carpus.core import words
 from carpus.core.phrase import phrase
-from carpus.core.words import marker_in_words
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import tr, translate_phrase
 
 
-def marker_name(marker: str) -> str:
+def marker_title(marker: str) -> str:
     """``Thumb base`` for CMC1."""
-    name = marker_in_words(marker, say)
+    name = words.marker_name(marker, translate_phrase)
     return name[:1].upper() + name[1:]
 
 
@@ -21,26 +21,26 @@ _FINGERS = {
 
 
 def finger_name(finger: str) -> str:
-    """``Ring`` for 4."""
-    return say(_FINGERS[finger][0])
+    """``RingBuffer`` for 4."""
+    return translate_phrase(_FINGERS[finger][0])
 
 
 def long_finger_name(finger: str) -> str:
-    """``Ring finger`` for 4, ``Thumb`` for 1."""
-    return say(_FINGERS[finger][1])
+    """``RingBuffer finger`` for 4, ``Thumb`` for 1."""
+    return translate_phrase(_FINGERS[finger][1])
 
 
-def finger_of(marker: str) -> int:
+def finger_number(marker: str) -> int:
     """The finger that a disc lies on, 1 to 5; 0 for the wrist."""
     return int(marker[-1]) if marker[-1:].isdigit() else 0
 
 
 def click_instruction(marker: str) -> str:
     """``Click the ring knuckle``."""
-    return tr("Click the {marker}").format(marker=marker_in_words(marker, say))
+    return tr("Click the {marker}").format(marker=words.marker_name(marker, translate_phrase))
 
 
-def marker_place(marker: str) -> str:
+def marker_placement(marker: str) -> str:
     """Where exactly on the hand."""
     joint = marker.rstrip("12345")
     if marker == "WRIST":
@@ -56,7 +56,7 @@ def marker_place(marker: str) -> str:
     }.get(joint, "")
 
 
-def hidden_remedy(marker: str) -> str:
+def occlusion_remedy(marker: str) -> str:
     """How to bring one hidden marker back into view."""
     if marker == "WRIST":
         return tr("Clear the view of the wrist")

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import Patient
 from carpus.ui.ports import Calibrator
 from carpus.ui.translate import tr
 
 if TYPE_CHECKING:
-    from carpus.core.pipeline.measuring import SourceMeasuring
+    from carpus.core.pipeline.measuring import MeasurementController
 
 SourceKind = Literal["camera", "file", "practice"]
 
@@ -24,53 +24,54 @@ class SourceChoice:
 
     kind: SourceKind
     path: str = ""
-    registered: bool | None = None
+    is_depth_registered: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class OpenSource:
     """A source with its calibrator; ``measuring`` owns it and closes it.
 
-    ``asks_registration``: nothing says whether the depth of this recording lies on its colours.
-    ``rests``: whether the simulated hand lies still because its movement is not drawn yet.
+    ``is_registration_unknown``: nothing says whether the depth of this recording lies on its colours.
+    ``is_hand_resting``: whether the simulated hand lies still because its movement is not drawn yet.
     """
 
     calibrator: Calibrator
-    measuring: SourceMeasuring
-    asks_registration: bool = False
-    rests: Callable[[], bool] = lambda: False
+    measuring: MeasurementController
+    is_registration_unknown: bool = False
+    is_hand_resting: Callable[[], bool] = lambda: False
 
 
 @dataclass(slots=True, eq=False)
-class NowOpen:
-    """``choice`` is the source last asked for, ``source`` the one that runs, ``session_id`` the session looked at."""
+class CurrentSelection:
+    """``source_choice`` is the source last asked for, ``source`` the one that runs, ``session_id`` the session looked
+    at."""
 
     patient: Patient | None = None
-    set_up: SetUp | None = None
+    set_up: SessionSetup | None = None
     source: OpenSource | None = None
     session_id: str = ""
-    choice: SourceChoice = field(default_factory=lambda: SourceChoice("camera"))
+    source_choice: SourceChoice = field(default_factory=lambda: SourceChoice("camera"))
 
-    def close(self) -> None:
+    def clear(self) -> None:
         self.patient = self.set_up = None
         self.session_id = ""
 
     @property
-    def kind(self) -> SourceKind:
-        return self.choice.kind
+    def source_kind(self) -> SourceKind:
+        return self.source_choice.kind
 
     @property
     def is_practice(self) -> bool:
         return self.patient is not None and self.patient.patient_id == PRACTICE_PATIENT
 
     @property
-    def name(self) -> str:
+    def patient_name(self) -> str:
         """What the patient is called: the practice patient in the person's language, however the folder has it."""
         if self.is_practice:
-            return practice_name()
+            return practice_patient_name()
         return self.patient.pseudonym if self.patient is not None else ""
 
 
-def practice_name() -> str:
+def practice_patient_name() -> str:
     """What the practice patient is called."""
     return tr("Practice patient")

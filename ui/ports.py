@@ -17,7 +17,7 @@ from carpus.core.session.values import AngleOrder
 from carpus.core.types import ByteImage, FloatArray, Frame, Side
 
 # --- patients ---------------------------------------------------------------------------------------------
-Result = tuple[Measure, Comparison | None]
+MeasureWithChange = tuple[Measure, Comparison | None]
 """What the last session measured, and how it changed since the first one that compares."""
 
 
@@ -26,20 +26,20 @@ class PatientCard:
     """What the therapist must recall before the next session."""
 
     patient: Patient
-    results: Sequence[Result] = ()
-    last_set: str = ""
+    results: Sequence[MeasureWithChange] = ()
+    repetitions: str = ""
     note: str = ""
-    note_when: datetime | None = None
-    marker_picture_rgb: ByteImage | None = None
+    note_date: datetime | None = None
+    marker_photo_rgb: ByteImage | None = None
     warnings: Sequence[str] = ()
     """What must be known of the last session: simulated, doubtful, recovered, not to count."""
     has_sessions: bool = False
     """Whether there are sessions at all, also such as are not counted."""
-    about: str = ""
+    task_summary: str = ""
     """What a reach or a touch of finger tips came to, in place of ``results``; empty for other exercises."""
 
 
-MOST_ROWS = 500
+MAX_LISTED_PATIENTS = 500
 """Of patients that are shown at once; of more, searching finds the others."""
 
 
@@ -53,7 +53,7 @@ class FoundMarker:
 
 
 @dataclass(frozen=True, slots=True)
-class ProposedMarker:
+class LabelProposal:
     """A blob that the program takes for a marker; not ``is_sure`` where another name would do nearly as well."""
 
     pixel: FloatArray
@@ -62,17 +62,17 @@ class ProposedMarker:
 
 
 @dataclass(frozen=True, slots=True)
-class VerdictLimits:
+class CalibrationLimits:
     """What the calibration is judged by, shown beside each value."""
 
-    least_distance_m: float
-    most_tilt_deg: float
-    most_residual_mm: float
+    min_distance_m: float
+    max_tilt_deg: float
+    max_residual_mm: float
     hand_length_mm: tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Judged:
+class CalibrationAssessment:
     """A verdict, and the calibration unless something blocks it."""
 
     verdict: Verdict
@@ -80,7 +80,7 @@ class Judged:
 
 
 class Calibrator(Protocol):
-    """Clicks to calibration. ``judge`` may take a while and is called in the background."""
+    """Clicks to calibration. ``assess`` may take a while and is called in the background."""
 
     @property
     def side(self) -> Side: ...
@@ -89,10 +89,10 @@ class Calibrator(Protocol):
     def protocol(self) -> MarkerProtocol: ...
 
     @property
-    def limits(self) -> VerdictLimits: ...
+    def limits(self) -> CalibrationLimits: ...
 
     @property
-    def last_straight_fingers(self) -> tuple[bool, ...]:
+    def previous_straight_fingers(self) -> tuple[bool, ...]:
         """What was said of this hand last time, thumb to little: the same is proposed again."""
         ...
 
@@ -101,17 +101,17 @@ class Calibrator(Protocol):
         """Whether pictures keep coming and another one can be taken; a recording has its first picture only."""
         ...
 
-    def newest_frame(self) -> Frame | None: ...
+    def current_frame(self) -> Frame | None: ...
 
-    def hold(self) -> Frame:
+    def freeze_frame(self) -> Frame:
         """Fix the picture on which will be clicked."""
         ...
 
-    def discs_seen(self) -> int:
+    def count_candidates(self) -> int:
         """How many spots of the held picture look like discs of paper."""
         ...
 
-    def discs_px(self) -> FloatArray:
+    def candidate_px(self) -> FloatArray:
         """Places (D, 2) of all spots of the held picture that look like discs of paper."""
         ...
 
@@ -119,18 +119,18 @@ class Calibrator(Protocol):
         """Two corners (2, 2) of where the hand lies in the held picture, as far as that is easily known."""
         ...
 
-    def marker_at(self, pixel: FloatArray) -> FoundMarker | None:
+    def find_marker(self, pixel: FloatArray) -> FoundMarker | None:
         """The blob under or near a pixel (2,) of the held picture."""
         ...
 
-    def propose(self, named: Mapping[str, FloatArray]) -> Mapping[str, ProposedMarker]:
+    def propose_labels(self, named: Mapping[str, FloatArray]) -> Mapping[str, LabelProposal]:
         """Names for the blobs of the held picture beside those already ``named`` (pixels by marker); called in the
         background."""
         ...
 
-    def judge(self, clicks: Clicks, start_angles_rad: FloatArray) -> Judged: ...
+    def assess(self, clicks: Clicks, start_angles_rad: FloatArray) -> CalibrationAssessment: ...
 
-    def begin(self, calibration: Calibration) -> None:
+    def start_tracking(self, calibration: Calibration) -> None:
         """Start tracking from here."""
         ...
 

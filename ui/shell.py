@@ -19,70 +19,70 @@ from PySide6.QtWidgets import (
 from shiboken6 import isValid
 
 from carpus.ui.controls.card import Surface
-from carpus.ui.controls.layouts import host_of, in_column, in_line
-from carpus.ui.controls.text import MEDIUM, Sign, Text
+from carpus.ui.controls.layouts import column_layout, require_parent, row_layout
+from carpus.ui.controls.text import MEDIUM, Icon, Text
 from carpus.ui.keys import KEYS
 from carpus.ui.style import apply_style
 from carpus.ui.theme import FOCUS_OUTSIDE_PX, MARGIN_PX, Theme
 from carpus.ui.topbar import TopBar
 
-FIRST_SIZE_PX = (1280, 800)
-LEAST_SIZE_PX = (1024, 700)
+DEFAULT_SIZE_PX = (1280, 800)
+MIN_SIZE_PX = (1024, 700)
 
 
-class Shell(QWidget):
-    """``key`` carries the name of a shell-wide key that was pressed; what it does is the journey's affair."""
+class MainWindow(QWidget):
+    """``key_pressed`` carries the name of a shell-wide key that was pressed; what it does is the journey's affair."""
 
-    key = Signal(str)
+    key_pressed = Signal(str)
     closing = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.bar = TopBar(theme)
-        self.sign = AmberLine(theme)
-        self.stage = QStackedWidget()
-        in_column(self.bar, self.sign, (self.stage, 1), gap=0, margins=(0, 0, 0, 0), within=self)
-        self.ring = FocusRing(self)
+        self.top_bar = TopBar(theme)
+        self.banner = Banner(theme)
+        self.screen_stack = QStackedWidget()
+        column_layout(self.top_bar, self.banner, (self.screen_stack, 1), gap=0, margins=(0, 0, 0, 0), parent=self)
+        self.focus_ring = FocusRing(self)
         self.setWindowTitle("Carpus")
-        self.resize(*FIRST_SIZE_PX)
-        self.setMinimumSize(*LEAST_SIZE_PX)
-        self._surely = False
-        self.asks_before_closing: Callable[[], bool] = lambda: False
+        self.resize(*DEFAULT_SIZE_PX)
+        self.setMinimumSize(*MIN_SIZE_PX)
+        self._is_close_confirmed = False
+        self.prompt_before_close: Callable[[], bool] = lambda: False
         """Asks the person where something would end with the window; False where nothing does."""
-        theme.ground_changed.connect(self._take_theme)
-        self._take_theme()
+        theme.palette_changed.connect(self._apply_theme)
+        self._apply_theme()
 
     def bind_keys(self, names: Sequence[str]) -> None:
-        """Let keys work wherever the keyboard is; ``key`` carries the name of one that is pressed."""
+        """Let keys work wherever the keyboard is; ``key_pressed`` carries the name of one that is pressed."""
         for name in names:
-            QShortcut(QKeySequence(KEYS[name]), self).activated.connect(partial(self.key.emit, name))
+            QShortcut(QKeySequence(KEYS[name]), self).activated.connect(partial(self.key_pressed.emit, name))
 
-    def show_screen(self, screen: QWidget, first: QWidget | None = None) -> None:
-        if self.stage.indexOf(screen) < 0:
-            self.stage.addWidget(screen)
-        self.stage.setCurrentWidget(screen)
-        (first or screen).setFocus(Qt.FocusReason.OtherFocusReason)
+    def show_screen(self, screen: QWidget, focus: QWidget | None = None) -> None:
+        if self.screen_stack.indexOf(screen) < 0:
+            self.screen_stack.addWidget(screen)
+        self.screen_stack.setCurrentWidget(screen)
+        (focus or screen).setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _take_theme(self) -> None:
+    def _apply_theme(self) -> None:
         application = QApplication.instance()
         if isinstance(application, QApplication):
             apply_style(application, self._theme)
 
-    def close_surely(self) -> None:
+    def close_without_prompt(self) -> None:
         """Close without asking: the person has answered, or the system ends."""
-        self._surely = True
+        self._is_close_confirmed = True
         self.close()
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        if not self._surely and self.asks_before_closing():
+        if not self._is_close_confirmed and self.prompt_before_close():
             event.ignore()
             return
         self.closing.emit()
         event.accept()
 
 
-MARKS_ITSELF = (QLineEdit, QPlainTextEdit, QAbstractSpinBox)
+OWN_FOCUS_BORDER = (QLineEdit, QPlainTextEdit, QAbstractSpinBox)
 """Text fields show focus by their own border."""
 
 
@@ -92,33 +92,33 @@ class FocusRing(QWidget):
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
         self._target: QWidget | None = None
-        self._watched: list[QWidget] = []
+        self._watched_widgets: list[QWidget] = []
         for attribute in (Qt.WidgetAttribute.WA_TransparentForMouseEvents, Qt.WidgetAttribute.WA_StyledBackground):
             self.setAttribute(attribute)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.hide()
         application = QApplication.instance()
         assert isinstance(application, QApplication)
-        application.focusChanged.connect(self._follow)
+        application.focusChanged.connect(self._follow_focus)
 
-    def _follow(self, old: QWidget | None, new: QWidget | None) -> None:
-        for widget in self._watched:
+    def _follow_focus(self, old: QWidget | None, new: QWidget | None) -> None:
+        for widget in self._watched_widgets:
             if isValid(widget):
                 widget.removeEventFilter(self)
         wanted = (
             new is not None
-            and not isinstance(new, MARKS_ITSELF)
+            and not isinstance(new, OWN_FOCUS_BORDER)
             and new.focusPolicy() != Qt.FocusPolicy.NoFocus
             and not new.property("shows_own_focus")
-            and host_of(self).isAncestorOf(new)
+            and require_parent(self).isAncestorOf(new)
         )
         self._target = new if wanted else None
-        self._watched = self._with_what_holds_it()
-        for widget in self._watched:
+        self._watched_widgets = self._target_and_ancestors()
+        for widget in self._watched_widgets:
             widget.installEventFilter(self)
-        self._place()
+        self._update_geometry()
 
-    def _with_what_holds_it(self) -> list[QWidget]:
+    def _target_and_ancestors(self) -> list[QWidget]:
         """The target and all it lies in up to the window: any of them may move it, as scrolling does."""
         found, widget = [], self._target
         while widget is not None and widget is not self.parentWidget():
@@ -128,22 +128,22 @@ class FocusRing(QWidget):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() in (QEvent.Type.Move, QEvent.Type.Resize, QEvent.Type.Show, QEvent.Type.Hide):
-            self._place()
+            self._update_geometry()
         return False
 
-    def _place(self) -> None:
+    def _update_geometry(self) -> None:
         target = self._target
         if target is None or not isValid(target) or not target.isVisible():
             self.hide()
             return
-        corner = target.mapTo(host_of(self), QPoint(0, 0))
+        corner = target.mapTo(require_parent(self), QPoint(0, 0))
         grow = FOCUS_OUTSIDE_PX + 2
         place = QRect(corner, target.size()).adjusted(-grow, -grow, grow, grow)
         seen = place
-        for holder in self._watched[1:]:
+        for holder in self._watched_widgets[1:]:
             area = holder.parentWidget()
             if isinstance(area, QAbstractScrollArea) and area.viewport() is holder:
-                port = QRect(holder.mapTo(host_of(self), QPoint(0, 0)), holder.size())
+                port = QRect(holder.mapTo(require_parent(self), QPoint(0, 0)), holder.size())
                 seen = seen.intersected(port.adjusted(-grow, -grow, grow, grow))
         if min(seen.width(), seen.height()) <= 2 * grow:  # scrolled away
             self.hide()
@@ -157,13 +157,13 @@ class FocusRing(QWidget):
         self.raise_()
 
 
-class AmberLine(Surface):
+class Banner(Surface):
     """Amber, with a triangle; hidden while there is nothing to say."""
 
     def __init__(self, theme: Theme) -> None:
-        super().__init__(theme, "warn_soft", under="warn")
+        super().__init__(theme, "warn_soft", bottom_edge="warn")
         self._words = Text(theme, "", 14, MEDIUM, wrap=True)
-        in_line(Sign(theme, "warn"), (self._words, 1), gap=10, margins=(MARGIN_PX, 5, MARGIN_PX, 5), within=self)
+        row_layout(Icon(theme, "warn"), (self._words, 1), gap=10, margins=(MARGIN_PX, 5, MARGIN_PX, 5), parent=self)
         self.show_lines(())
 
     @property

@@ -61,7 +61,7 @@ MarkerRow:checked {{ background: {soft}; border-left-color: {accent}; }}
 Option QLabel#sentence, MarkerRow QLabel#value {{ color: {text2}; }}
 FocusRing {{ border: 2px solid {accent}; border-radius: {ring}px; }}
 """
-_OF_TOKEN = """
+_TOKEN_RULES = """
 Surface[fill="{name}"] {{ background: {value}; }}
 Surface[edge="{name}"] {{ border: 1px solid {value}; }}
 Surface[under="{name}"] {{ border-bottom: 1px solid {value}; }}
@@ -92,6 +92,6 @@ def apply_style(application: QApplication, theme: Theme) -> None:
         "ring": CONTROL_RADIUS_PX + FOCUS_OUTSIDE_PX, "badge": theme.px(34),
         "pill": theme.px(40) // 2, "dim": DIM_ALPHA[theme.name],
     }  # fmt: skip
-    surfaces = "".join(_OF_TOKEN.format(name=one.name, value=getattr(tokens, one.name)) for one in fields(tokens))
+    surfaces = "".join(_TOKEN_RULES.format(name=one.name, value=getattr(tokens, one.name)) for one in fields(tokens))
     with as_file(files("carpus.resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:
         application.setStyleSheet(surfaces + _SHEET.format(**colors, **sizes, chevron=chevron.as_posix()))

@@ -80,20 +80,20 @@ FOCUS_OUTSIDE_PX = 3
 DIM_ALPHA = {"light": 110, "dark": 170}
 """Of 255, of the black that lies over a screen under a sheet."""
 BAND_ALPHA = 95
-TIGHT_BELOW_PX = (1000, 620)
+MIN_ROOMY_SIZE_PX = (1000, 620)
 """A screen smaller than this in text-scaled pixels shows less, instead of everything cut."""
 
 
 class Theme(QObject):
     """The chosen tokens and text scale.
 
-    ``ground_changed`` comes first and is for the application's palette and style sheet, which would undo what a
+    ``palette_changed`` comes first and is for the application's palette and style sheet, which would undo what a
     widget sets for itself; ``changed`` then tells every widget to take its colours and sizes again.
     """
 
     line_px = 1
     """How wide a separator is."""
-    ground_changed = Signal()
+    palette_changed = Signal()
     changed = Signal()
 
     def __init__(self, name: ThemeName = "light", text_scale: float = 1.0) -> None:
@@ -113,14 +113,14 @@ class Theme(QObject):
         self.text_scale = text_scale or self.text_scale
         if (self.name, self.text_scale) == before:
             return
-        self.ground_changed.emit()
+        self.palette_changed.emit()
         self.changed.emit()
 
-    def follow(self, widget: QObject, take: Callable[[], None]) -> None:
+    def on_change(self, widget: QObject, callback: Callable[[], None]) -> None:
         """Do something for a widget now and after every change, until the widget is gone: a plain function that is
         connected would be called for a widget that is no more."""
-        take()
-        connection = self.changed.connect(take)
+        callback()
+        connection = self.changed.connect(callback)
         widget.destroyed.connect(lambda: QObject.disconnect(connection))
 
     def color(self, token: str, alpha: int = 255) -> QColor:
@@ -138,7 +138,7 @@ class Theme(QObject):
         return round(size * self.text_scale)
 
 
-class Sized(Protocol):
+class HasPixelSize(Protocol):
     """Anything with a size in pixels, such as a widget."""
 
     def width(self) -> int: ...
@@ -146,7 +146,7 @@ class Sized(Protocol):
     def height(self) -> int: ...
 
 
-def is_tight(screen: Sized, theme: Theme) -> bool:
+def is_tight(screen: HasPixelSize, theme: Theme) -> bool:
     """Whether the text is too large for everything to fit."""
-    width, height = TIGHT_BELOW_PX
+    width, height = MIN_ROOMY_SIZE_PX
     return screen.width() < width * theme.text_scale or screen.height() < height * theme.text_scale

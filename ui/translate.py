@@ -17,7 +17,7 @@ def tr(text: str) -> str:
     return QCoreApplication.translate("", text)
 
 
-def inside(words: str) -> str:
+def to_mid_sentence(words: str) -> str:
     """The words as they stand inside a sentence: with a small first letter where the language has it so. English and
     Italian have it for all words, German for a few that its translation lists; abbreviations keep theirs.
 
@@ -31,20 +31,20 @@ def inside(words: str) -> str:
     return words[:1].lower() + words[1:]
 
 
-def say(text: str) -> str:
+def translate_phrase(text: str) -> str:
     """A phrase of core in the person's language, its facts in their places; any other text as it is."""
     if not isinstance(text, Phrase):
         return text
     template = QCoreApplication.translate("", text.template)
     if not text.facts:
         return template
-    return template.format(**{name: _fact(fact) for name, fact in text.facts.items()})
+    return template.format(**{name: _format_fact(fact) for name, fact in text.facts.items()})
 
 
-def _fact(fact: object) -> object:
+def _format_fact(fact: object) -> object:
     """A fact as it stands in the sentence: a phrase said, a number with the language's decimal sign."""
     if isinstance(fact, Phrase):
-        return say(fact)
+        return translate_phrase(fact)
     if isinstance(fact, str) and _DECIMAL.fullmatch(fact):
         return fact.replace(".", language.locale().decimalPoint())
     return fact

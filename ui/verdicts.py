@@ -8,7 +8,7 @@ from datetime import datetime
 from carpus.core.measures.change import RetestStudy
 from carpus.core.phrase import Phrase, phrase
 from carpus.ui import numbers
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import tr, translate_phrase
 
 
 def verdict_token(verdict: str) -> str:
@@ -46,15 +46,15 @@ _REASONS: Mapping[str, Phrase] = {
 
 def verdict_word(verdict: str) -> str:
     """The verdict as the table says it."""
-    return say(_VERDICTS.get(verdict, ""))
+    return translate_phrase(_VERDICTS.get(verdict, ""))
 
 
 def reason_words(reasons: Sequence[str]) -> str:
     """Why two sessions are not judged, or one is left out, in a few words; empty for no reason."""
-    return ", ".join(dict.fromkeys(say(_REASONS[reason]) for reason in reasons))
+    return ", ".join(dict.fromkeys(translate_phrase(_REASONS[reason]) for reason in reasons))
 
 
-def counted_once_words(earlier_results: int) -> str:
+def duplicate_result_words(earlier_results: int) -> str:
     """That a recording counts once, where one was tracked again; else empty."""
     if not earlier_results:
         return ""
@@ -64,13 +64,13 @@ def counted_once_words(earlier_results: int) -> str:
     return words.format(count=earlier_results)
 
 
-def limit_words(study: RetestStudy | None = None) -> str:
+def error_limit_words(study: RetestStudy | None = None) -> str:
     """Whose the error limits are, beside every judgement; ``study`` the clinic's own."""
     if study is not None:
         return tr(
             "“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where "
             "it has none of its own, experts’ choice for Carpus. For the same protocol, side and set-up."
-        ).format(date=numbers.day_of_year(datetime.fromisoformat(study.made)), count=study.people)
+        ).format(date=numbers.format_date(datetime.fromisoformat(study.made)), count=study.people)
     return tr(
         "“Error” is the smallest difference called a change: experts’ choice for Carpus, not published figures; of an "
         "arc, which has two ends, √2 as much. For the same protocol, side and set-up, until the clinic has measured "
@@ -78,9 +78,9 @@ def limit_words(study: RetestStudy | None = None) -> str:
     )
 
 
-def difference(change_deg: float) -> str:
+def difference_words(change_deg: float) -> str:
     """``23° more`` or ``3° less``; ``0°`` when it rounds to nothing."""
-    size = numbers.degrees(change_deg)
+    size = numbers.format_degrees(change_deg)
     if size == "0°":
         return size
     return (tr("{size} more") if change_deg > 0 else tr("{size} less")).format(size=size)
@@ -89,13 +89,13 @@ def difference(change_deg: float) -> str:
 def change_since_first(verdict: str, change_deg: float) -> str:
     """The short form on the patient's card."""
     if verdict in ("improved", "worse"):
-        return tr("{difference} since the first").format(difference=difference(change_deg))
+        return tr("{difference} since the first").format(difference=difference_words(change_deg))
     if verdict == "no_change":
         return no_change_words()
     return ""
 
 
-def change_short(verdict: str, change_deg: float, limit_deg: float) -> str:
+def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
     """``2° more, within error (10°)``, for paper."""
     if verdict == "not_judged" or change_deg != change_deg:
         return tr("not judged") if verdict == "not_judged" else ""
@@ -104,10 +104,10 @@ def change_short(verdict: str, change_deg: float, limit_deg: float) -> str:
         if verdict == "no_change"
         else tr("{difference}, beyond error ({limit})")
     )
-    return pattern.format(difference=difference(change_deg), limit=numbers.degrees(limit_deg))
+    return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))
 
 
-def change_with_limit(verdict: str, change_deg: float, limit_deg: float) -> str:
+def long_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
     """``2° more: within measurement error (10°)``, the long form of tables."""
     if verdict == "not_judged" or change_deg != change_deg:
         return ""
@@ -116,4 +116,4 @@ def change_with_limit(verdict: str, change_deg: float, limit_deg: float) -> str:
         if verdict == "no_change"
         else tr("{difference}: beyond measurement error ({limit})")
     )
-    return pattern.format(difference=difference(change_deg), limit=numbers.degrees(limit_deg))
+    return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))

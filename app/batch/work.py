@@ -12,30 +12,30 @@ from typing import Literal
 from threadpoolctl import threadpool_limits
 
 from carpus.app.settings import load_settings
-from carpus.app.sources import TrackingInput, open_recording, tell_assumed
+from carpus.app.sources import TrackingInput, open_recording, warn_assumed_intrinsics
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict, finding_sentence
-from carpus.core.capture.source import Recorded
+from carpus.core.capture.source import RecordingDate
 from carpus.core.durable import write_fault
 from carpus.core.errors import CarpusFault, OutputExists
-from carpus.core.pipeline.told_settings import differences
+from carpus.core.pipeline.told_settings import list_differences
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
-from carpus.core.research.papers.track import settings_told
-from carpus.core.results.figures import session_figures
-from carpus.core.results.measures_table import SessionFigure, measure_rows
+from carpus.core.research.papers.track import settings_from_json
+from carpus.core.results.figures import compute_session_results
+from carpus.core.results.measures_table import MeasureRow, build_measure_rows
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
 from carpus.core.version import __version__
-from carpus.core.words import one_sentence
+from carpus.core.words import format_fault_line
 
 Result = Literal["tracked", "kept", "fault"]
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
+class TrackingTask:
     """What is to be done with one recording."""
 
-    place: TrackingInput
+    tracking_input: TrackingInput
     settings: TrackSettings
     subject_id: str = ""
     exercise: str = ""
@@ -45,44 +45,46 @@ class Task:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
-    """What came of it: shares 0 to 1 of ``frames``, NaN after a fault; ``said`` the fault, or what is doubtful;
+class TrackingOutcome:
+    """What came of it: shares 0 to 1 of ``frames``, NaN after a fault; ``messages`` the fault, or what is doubtful;
     ``measures`` of the session."""
 
-    place: TrackingInput
+    tracking_input: TrackingInput
     result: Result
-    said: tuple[str, ...] = ()
+    messages: tuple[str, ...] = ()
     frames: int = 0
     tracked: float = float("nan")
     lost: float = float("nan")
-    measures: tuple[SessionFigure, ...] = ()
-    may_pass: bool = False
+    measures: tuple[MeasureRow, ...] = ()
+    is_retryable: bool = False
     """Of a fault: whether it may be gone when tried again."""
 
 
-def work(task: Task) -> Outcome:
+def execute_task(task: TrackingTask) -> TrackingOutcome:
     """Do one task; whatever goes wrong is part of the outcome."""
     if task.software_version != __version__:
-        return fault_of(task.place, f"the worker has Carpus {__version__}, and {task.software_version} was asked for")
+        return fault_outcome(
+            task.tracking_input, f"the worker has Carpus {__version__}, and {task.software_version} was asked for"
+        )
     try:
         with threadpool_limits(1):  # the same numbers wherever it runs
-            return _worked(task)
+            return _track_and_measure(task)
     except CarpusFault as fault:
-        return fault_of(task.place, one_sentence(fault))
+        return fault_outcome(task.tracking_input, format_fault_line(fault))
     except OSError as cause:
         sentence = f"the system refuses {cause.filename or ''} ({cause.strerror or cause})"
-        return fault_of(task.place, sentence, may_pass=True)
+        return fault_outcome(task.tracking_input, sentence, is_retryable=True)
     except Exception as cause:
-        return fault_of(task.place, f"something unforeseen happened ({type(cause).__name__}: {cause})")
+        return fault_outcome(task.tracking_input, f"something unforeseen happened ({type(cause).__name__}: {cause})")
 
 
-def fault_of(place: TrackingInput, sentence: str, *, may_pass: bool = False) -> Outcome:
+def fault_outcome(tracking_input: TrackingInput, sentence: str, *, is_retryable: bool = False) -> TrackingOutcome:
     """The outcome of a recording that could not be tracked."""
-    return Outcome(place, "fault", (sentence,), may_pass=may_pass)
+    return TrackingOutcome(tracking_input, "fault", (sentence,), is_retryable=is_retryable)
 
 
-def _worked(task: Task) -> Outcome:
-    place, said = task.place, list[str]()
+def _track_and_measure(task: TrackingTask) -> TrackingOutcome:
+    place, said = task.tracking_input, list[str]()
     result: Result = "kept"
     try:
         place.session.parent.mkdir(parents=True, exist_ok=True)
@@ -90,50 +92,50 @@ def _worked(task: Task) -> Outcome:
         raise write_fault(place.session.parent, cause) from cause
     if not place.session.exists():
         with suppress(OutputExists):  # another run of the same batch was faster
-            _tracked(task, said)
+            _track(task, said)
             result = "tracked"
     session = read_session(place.session)
-    told = settings_told(session.header.parameters)
-    if result == "kept" and (told is None or differences(told.settings, task.settings)):
+    told = settings_from_json(session.header.parameters)
+    if result == "kept" and (told is None or list_differences(told.settings, task.settings)):
         said.append("tracked before with other settings, left as it is")
     shares = [float((session.status == status).mean()) if len(session) else float("nan") for status in TrackStatus]
-    return Outcome(
+    return TrackingOutcome(
         place,
         result,
         tuple(said),
         len(session),
         shares[TrackStatus.TRACKED],
         shares[TrackStatus.LOST],
-        measure_rows(session_figures(session), place.name),
+        build_measure_rows(compute_session_results(session), place.name),
     )
 
 
-def _tracked(task: Task, said: list[str]) -> None:
-    place = task.place
+def _track(task: TrackingTask, messages: list[str]) -> None:
+    place = task.tracking_input
 
-    def doubt(verdict: Verdict) -> None:
-        said.extend(finding_sentence(finding) for finding in verdict.findings if not finding.blocks)
+    def add_findings(verdict: Verdict) -> None:
+        messages.extend(finding_sentence(finding) for finding in verdict.findings if not finding.blocks)
 
-    def doubtful_date(recorded: Recorded | None) -> None:
-        if recorded is None or recorded.said_by == "file":
-            said.append("the recording does not say when the hand moved")
+    def add_date_message(recorded: RecordingDate | None) -> None:
+        if recorded is None or recorded.source == "file":
+            messages.append("the recording does not say when the hand moved")
 
     if place.clicks is None:
-        retrack_session(place.recording, place.session, task.settings, on_verdict=doubt)
+        retrack_session(place.recording, place.session, task.settings, on_verdict=add_findings)
         return
 
-    def tell(fault: CarpusFault) -> None:
-        said.append(one_sentence(fault))
+    def add_fault(fault: CarpusFault) -> None:
+        messages.append(format_fault_line(fault))
 
     source = open_recording(
         place.recording,
         leave_out_damaged=task.leave_out_damaged,
         data_folder=load_settings().data_folder,
-        notice=tell,
+        notice=add_fault,
     )
     try:
         camera = source.info.camera
-        tell_assumed(source, place.recording, tell)
+        warn_assumed_intrinsics(source, place.recording, add_fault)
         track_recording(
             source,
             read_clicks(place.clicks, camera.width_px, camera.height_px),
@@ -141,9 +143,9 @@ def _tracked(task: Task, said: list[str]) -> None:
             task.settings,
             subject_id=task.subject_id,
             exercise=task.exercise,
-            on_verdict=doubt,
+            on_verdict=add_findings,
             path=place.recording,
-            on_date=doubtful_date,
+            on_date=add_date_message,
         )
     finally:
         source.close()

@@ -7,11 +7,11 @@ import os
 from datetime import datetime
 from pathlib import Path
 
-from carpus.app.command_line import bar, tell
-from carpus.app.of_file import copy_of_server, initials, open_store
-from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
+from carpus.app.command_line import print_fault, progress_bar
+from carpus.app.of_file import make_server_copier, open_store, user_initials
+from carpus.app.settings import load_valid_settings, sessions_folder, settings_folder
 from carpus.core.errors import BackupMissing, CarpusFault
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 
 EXAMPLE = """carpus backup /media/backup
 carpus backup /media/backup --list"""
@@ -25,46 +25,48 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.core.records.backup import back_up, backups, compare, thin_out
-    from carpus.core.records.log import Log
-    from carpus.core.records.of_clinic import note_backup
+    from carpus.core.records.backup import create_backup, list_backups, prune_backups, verify_backup
+    from carpus.core.records.log import AuditLogWriter
+    from carpus.core.records.of_clinic import save_backup_record
 
     place: Path = arguments.place
-    settings, _ = load_sound_settings()
-    there = backups(place)
+    settings, _ = load_valid_settings()
+    there = list_backups(place)
     if (arguments.list or arguments.compare) and not there:
         raise BackupMissing(place)
     if arguments.list:
         for one in there:
             print(
-                f"{one.name}  {one.sessions} sessions, {written(one.size_bytes / 1e6, 1)} MB, "
+                f"{one.name}  {one.session_count} sessions, {format_rounded(one.size_bytes / 1e6, 1)} MB, "
                 f"Carpus {one.software_version}"
             )
         return 0
     if arguments.compare:
-        with bar("reading", "file") as progress:
-            compare(place, there[0], progress)
+        with progress_bar("reading", "file") as progress:
+            verify_backup(place, there[0], progress)
         print(f"{there[0].name}: {len(there[0].files)} files read and compared: all equal.")
         return 0
     folder: Path = arguments.data_folder or settings.data_folder
     share = sessions_folder(settings) if folder == settings.data_folder else None
     os.nice(5) if hasattr(os, "nice") else None
-    with bar("backing up", "byte") as progress:
-        made = back_up(
+    with progress_bar("backing up", "byte") as progress:
+        made = create_backup(
             folder,
             place,
-            sessions=share,
-            copy=copy_of_server(folder),
+            sessions_folder=share,
+            copy_store=make_server_copier(folder),
             settings_folder=settings_folder(),
             progress=progress,
         )
     try:
         with open_store(folder) as store:
-            note_backup(store, made.made, str(place), made.sessions, made.size_bytes)
-            Log(store, "command", initials).note("backed_up", "everything", sessions=made.sessions)
+            save_backup_record(store, made.made, str(place), made.session_count, made.size_bytes)
+            AuditLogWriter(store, "command", user_initials).write_entry(
+                "backed_up", "everything", sessions=made.session_count
+            )
     except CarpusFault as fault:  # of a folder that can only be read: the back-up is made all the same
-        tell(fault)
-    size = written(made.size_bytes / 1e6, 1)
-    print(f"{made.name}: {made.sessions} sessions, {size} MB, read back and compared: all equal.")
-    thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
+        print_fault(fault)
+    size = format_rounded(made.size_bytes / 1e6, 1)
+    print(f"{made.name}: {made.session_count} sessions, {size} MB, read back and compared: all equal.")
+    prune_backups(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
     return 0

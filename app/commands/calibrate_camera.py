@@ -1,4 +1,4 @@
-"""``carpus calibrate-camera``: prints the board, and measures from it how a camera sees."""
+"""``carpus calibrate_hand-camera``: prints the board, and measures from it how a camera sees."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import bar, misused, number, say, tell
+from carpus.app.command_line import number_type, print_fault, print_message, progress_bar, report_usage_error
 
 if TYPE_CHECKING:
     from carpus.core.calibration.camera.board import Board
-    from carpus.core.calibration.camera.views import Gathering
+    from carpus.core.calibration.camera.views import ViewCollector
     from carpus.core.capture.source import FrameSource
 
 EXAMPLE = """carpus calibrate-camera --board board.pdf
@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--square-mm",
-        type=number(*SQUARES_MM, "mm"),
+        type=number_type(*SQUARES_MM, "mm"),
         metavar="MM",
         help="measured side of a square, where a print is not at 100 %%",
     )
@@ -49,13 +49,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if arguments.board is not None:
         if arguments.recording is not None or arguments.output is not None:
-            return misused("calibrate-camera", "--board only prints; leave out the recording and --output.")
+            return report_usage_error("calibrate-camera", "--board only prints; leave out the recording and --output.")
         return _print_board(arguments)
     return _calibrate(arguments)
 
 
 def _print_board(arguments: argparse.Namespace) -> int:
-    from carpus.core.calibration.camera.board import BOARDS, board_sheet
+    from carpus.core.calibration.camera.board import BOARDS, create_board_sheet
     from carpus.core.errors import OutputExists
 
     if arguments.board.exists():
@@ -63,7 +63,7 @@ def _print_board(arguments: argparse.Namespace) -> int:
     board = BOARDS[arguments.pattern or "chessboard"]
     from carpus.ui.report.pdf import write_sheets
 
-    write_sheets(arguments.board, [board_sheet(board, arguments.paper)], "Carpus camera board")
+    write_sheets(arguments.board, [create_board_sheet(board, arguments.paper)], "Carpus camera board")
     print(f"Board: {arguments.board} ({board.name()})")
     print("Print it at 100 %, check its ruler (100 mm), and glue it flat onto something stiff.")
     return 0
@@ -72,42 +72,44 @@ def _print_board(arguments: argparse.Namespace) -> int:
 def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.app.sources import open_board
-    from carpus.core.calibration.camera.calibrate import calibrate_camera, calibration_lines
-    from carpus.core.calibration.camera.keep import keep_calibration, stored_of, write_calibration
-    from carpus.core.calibration.camera.views import Gathering
-    from carpus.core.capture.calibrated import keep_name
+    from carpus.core.calibration.camera.calibrate import calibrate_camera, format_calibration
+    from carpus.core.calibration.camera.keep import save_calibration, to_stored_calibration, write_calibration
+    from carpus.core.calibration.camera.views import ViewCollector
+    from carpus.core.capture.calibrated import save_camera_name
     from carpus.core.dates import is_moment
     from carpus.core.errors import OutputExists
 
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
-    source = open_board(arguments.recording, tell)
-    gathering = Gathering(source.info.camera, _boards(arguments))
+    source = open_board(arguments.recording, print_fault)
+    gathering = ViewCollector(source.info.camera, _boards(arguments))
     try:
-        _gather(source, gathering, is_live=arguments.recording is None)
+        _collect_views(source, gathering, is_live=arguments.recording is None)
     finally:
         source.close()
     info = source.info
     subject = str(arguments.recording or info.name)
     made = calibrate_camera(gathering.views, info.camera, subject)
-    for line in calibration_lines(made):
+    for line in format_calibration(made):
         print(line)
     if made.depth is not None and not made.depth.is_registered:
-        say("warning: depth does not lie on colour; switch registration on, or depths are read beside the markers.")
+        print_message(
+            "warning: depth does not lie on colour; switch registration on, or depths are read beside the markers."
+        )
     when = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else datetime.now().astimezone()
     serial = arguments.serial or info.serial
-    stored = stored_of(made, serial, when, info.settings)
+    stored = to_stored_calibration(made, serial, when, info.settings)
     if arguments.output is not None:
         print(f"Written: {write_calibration(arguments.output, made, stored)}")
     if serial:
         folder = load_settings().data_folder
         if arguments.recording is None and arguments.serial and info.is_nameless:
-            serial = keep_name(folder, info.name, serial)
+            serial = save_camera_name(folder, info.name, serial)
             stored = replace(stored, serial=serial)
-        path = keep_calibration(folder, made, stored)
+        path = save_calibration(folder, made, stored)
         print(f"Kept for camera {serial}: {path}")
     elif arguments.output is None:
-        say("nobody says which camera this was, so it is not kept; name it with --serial, or use --output.")
+        print_message("nobody says which camera this was, so it is not kept; name it with --serial, or use --output.")
         return 1
     return 0
 
@@ -122,23 +124,26 @@ def _boards(arguments: argparse.Namespace) -> list[Board]:
     return [replace(board, square_m=side_m, code_m=board.code_m * side_m / board.square_m) for board in boards]
 
 
-def _gather(source: FrameSource, gathering: Gathering, *, is_live: bool) -> None:
+def _collect_views(source: FrameSource, gathering: ViewCollector, *, is_live: bool) -> None:
     """Look at the frames: all of a recording; of a camera until it is enough, or until Ctrl+C."""
-    from carpus.core.calibration.camera.views import ASKED_VIEWS
+    from carpus.core.calibration.camera.views import WANTED_VIEWS
 
     said = ""
     if is_live:
         print("Hold the board in the picture, still for a moment in each place. Ctrl+C ends.", file=sys.stderr)
-    with bar("looking for the board") as show, suppress(KeyboardInterrupt):
+    with progress_bar("looking for the board") as show, suppress(KeyboardInterrupt):
         for count, frame in enumerate(source.frames(), start=1):
             kept = gathering.add(frame)
             show(count, source.info.frame_count)
             if not is_live or not kept:
                 continue
-            judgement = gathering.judgement
-            step = judgement.next_step(ASKED_VIEWS[gathering.views[0].found.board.pattern])
+            judgement = gathering.coverage
+            step = judgement.next_instruction(WANTED_VIEWS[gathering.views[0].detected.board.pattern])
             if step is None:
                 break
             if step != said:
                 said = step
-                print(f"{judgement.views} pictures, {judgement.fields} of 24 fields. {said}.", file=sys.stderr)
+                print(
+                    f"{judgement.view_count} pictures, {judgement.covered_fields} of 24 fields. {said}.",
+                    file=sys.stderr,
+                )

@@ -7,8 +7,8 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import bar, misused, say, tell
-from carpus.core.rounding import written
+from carpus.app.command_line import print_fault, print_message, progress_bar, report_usage_error
+from carpus.core.rounding import format_rounded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if arguments.card is not None:
         if arguments.recording is not None:
-            return misused("check-card", "--card only prints; leave out the recording.")
+            return report_usage_error("check-card", "--card only prints; leave out the recording.")
         from carpus.core.errors import OutputExists
 
         if arguments.card.exists():
@@ -48,64 +48,64 @@ def run(arguments: argparse.Namespace) -> int:
         write_sheets(arguments.card, card_sheets(arguments.paper), "Carpus check card")
         print(f"Card: {arguments.card} (two pages: print at 100 % and check the rulers)")
         return 0
-    return _check(arguments)
+    return _check_camera(arguments)
 
 
-def _check(arguments: argparse.Namespace) -> int:
+def _check_camera(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.app.sources import open_card
     from carpus.core.calibration.card.card import verdict_sentence
     from carpus.core.calibration.card.checks import CardCheck, add_check, checks_path, read_checks
     from carpus.core.calibration.card.measure import measure_card
-    from carpus.core.capture.calibrated import keep_name
-    from carpus.core.dates import is_moment, iso
+    from carpus.core.capture.calibrated import save_camera_name
+    from carpus.core.dates import is_moment, to_iso
 
     settings = load_settings()
     data_folder = settings.data_folder
-    source = open_card(arguments.recording, settings, tell)
+    source = open_card(arguments.recording, settings, print_fault)
     info = source.info
     try:
-        reading = measure_card(_shown(source), info.camera, str(arguments.recording or info.name))
+        reading = measure_card(_count_frames(source), info.camera, str(arguments.recording or info.name))
     finally:
         source.close()
-    when = info.recorded if is_moment(info.recorded) else iso(datetime.now().astimezone())
+    when = info.recorded if is_moment(info.recorded) else to_iso(datetime.now().astimezone())
     serial = arguments.serial or info.serial
     if arguments.recording is None and arguments.serial and info.is_nameless:
-        serial = keep_name(data_folder, info.name, serial)
+        serial = save_camera_name(data_folder, info.name, serial)
     path = checks_path(data_folder, serial)
     _print_figures(reading)
     print(verdict_sentence(reading))
-    if not reading.holds:
-        say(
+    if not reading.is_within_tolerance:
+        print_message(
             "warning: check once more (card flat, 60 cm, its ruler 100 mm), then calibrate the camera; still "
             "out: do not measure with it."
         )
-    if serial and any(one.when == when for one in read_checks(path)):
+    if serial and any(one.checked_at == when for one in read_checks(path)):
         print(f"Kept for camera {serial} already: {path}")
     elif serial:
         add_check(path, CardCheck(when, serial, reading, info.settings.get("calibrated", "")))
         print(f"Kept for camera {serial}: {path}")
     else:
-        say("nobody says which camera this was, so the check is not kept; --serial names it.")
-    return 0 if reading.holds else 1
+        print_message("nobody says which camera this was, so the check is not kept; --serial names it.")
+    return 0 if reading.is_within_tolerance else 1
 
 
 def _print_figures(reading: CardReading) -> None:
-    from carpus.core.calibration.card.card import FIGURES
+    from carpus.core.calibration.card.card import DIMENSIONS
 
-    for figure, measured, sd, off in zip(FIGURES, reading.measured, reading.sd, reading.errors, strict=True):
+    for figure, measured, sd, off in zip(DIMENSIONS, reading.measured, reading.sd, reading.errors, strict=True):
         unit = "°" if figure.kind == "angle" else " mm"
-        print(f"{figure.name:<20} {measured:7.2f} ± {written(sd, 2)}{unit}, off by {off:+.2f}{unit}")
+        print(f"{figure.name:<20} {measured:7.2f} ± {format_rounded(sd, 2)}{unit}, off by {off:+.2f}{unit}")
     share = 100.0 * (reading.scale - 1.0)
     print(
-        f"{'All distances':<20} {share:+.2f} %; {reading.pictures} pictures, "
-        f"{written(reading.distance_m * 100)} cm away"
+        f"{'All distances':<20} {share:+.2f} %; {reading.frames_used} pictures, "
+        f"{format_rounded(reading.distance_m * 100)} cm away"
     )
 
 
-def _shown(source: FrameSource) -> Iterator[Frame]:
+def _count_frames(source: FrameSource) -> Iterator[Frame]:
     """The frames, counted for the person who waits."""
-    with bar("looking at the card") as show:
+    with progress_bar("looking at the card") as show:
         for count, frame in enumerate(source.frames(), start=1):
             show(count, source.info.frame_count)
             yield frame

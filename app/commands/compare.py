@@ -8,16 +8,16 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.command_line import add_region, misused, number
-from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S
+from carpus.app.command_line import add_region_option, number_type, report_usage_error
+from carpus.core.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S
 from carpus.core.hand.protocols import SITES
-from carpus.core.names import known_names
+from carpus.core.names import describe_known_names
 
 MAX_LIMIT_DEG = 90.0
 EXAMPLE = "carpus compare session.h5 reference.c3d --output out/agreement"
 
 
-def mapping(text: str) -> dict[str, str]:
+def parse_mapping(text: str) -> dict[str, str]:
     """``NAME=VALUE,...``; anything else is wrong usage."""
     pairs = [part.split("=", 1) for part in text.split(",") if part.strip()]
     if not pairs or any(len(pair) != 2 or not pair[0].strip() or not pair[1].strip() for pair in pairs):
@@ -25,12 +25,12 @@ def mapping(text: str) -> dict[str, str]:
     return {name.strip(): value.strip() for name, value in pairs}
 
 
-def marker_mapping(text: str) -> dict[str, str]:
-    """As :func:`mapping`, of discs."""
-    found = {name.upper(): value for name, value in mapping(text).items()}
+def parse_marker_mapping(text: str) -> dict[str, str]:
+    """As :func:`parse_mapping`, of discs."""
+    found = {name.upper(): value for name, value in parse_mapping(text).items()}
     unknown = [name for name in found if name not in SITES]
     if unknown:
-        raise argparse.ArgumentTypeError(f"no disc is called “{unknown[0]}”; {known_names(unknown[0], SITES)}")
+        raise argparse.ArgumentTypeError(f"no disc is called “{unknown[0]}”; {describe_known_names(unknown[0], SITES)}")
     return found
 
 
@@ -49,47 +49,52 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "are needed columns, markers, unit, lag_s, drift_percent",
     )  # fmt: skip
     parser.add_argument("--output", type=Path, metavar="FOLDER", help="tables and plots; nothing in it is overwritten")
-    add_region(parser)
+    add_region_option(parser)
     parser.add_argument(
         "--columns",
-        type=mapping,
+        type=parse_mapping,
         default={},
         metavar="ANGLE=COLUMN,...",
         help="which column is which angle (deviation, flexion, pronosupination, joints) or time; -COLUMN: other sign",
     )
     parser.add_argument(
-        "--markers", type=marker_mapping, default={}, metavar="DISC=MARKER,...", help="which marker is which disc"
+        "--markers", type=parse_marker_mapping, default={}, metavar="DISC=MARKER,...", help="which marker is which disc"
     )
     parser.add_argument("--unit", choices=("deg", "rad"), help="of the reference's angles, where it does not say")
     parser.add_argument("--smoothed", action="store_true", help="compare the smoother's results, not the filter's")
     parser.add_argument(
-        "--max-shift", type=number(0.0, FURTHEST_SHIFT_S, "seconds"), default=MOST_SHIFT_S, metavar="SECONDS",
+        "--max-shift", type=number_type(0.0, MAX_SHIFT_S, "seconds"), default=DEFAULT_MAX_SHIFT_S, metavar="SECONDS",
         help="furthest that the clocks are apart",
     )  # fmt: skip
     parser.add_argument(
         "--lag",
-        type=number(-FURTHEST_SHIFT_S, FURTHEST_SHIFT_S, "seconds"),
+        type=number_type(-MAX_SHIFT_S, MAX_SHIFT_S, "seconds"),
         default=math.nan,
         metavar="SECONDS",
         help="how much later things happen on the reference's clock, where it is known: no shift is looked for",
     )
     parser.add_argument(
-        "--drift", type=number(-LARGEST_DRIFT_PERCENT, LARGEST_DRIFT_PERCENT, "percent"), default=0.0,
+        "--drift", type=number_type(-MAX_DRIFT_PERCENT, MAX_DRIFT_PERCENT, "percent"), default=0.0,
         metavar="PERCENT", help="by how much the reference's clock runs fast, to be taken out",
     )  # fmt: skip
     parser.add_argument(
-        "--limit", type=number(0.0, MAX_LIMIT_DEG, "degrees"), default=0.0, metavar="DEGREES",
+        "--limit", type=number_type(0.0, MAX_LIMIT_DEG, "degrees"), default=0.0, metavar="DEGREES",
         help="what the two may differ by, set before comparing: each angle is judged by it, and the plots show it",
     )  # fmt: skip
 
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.study is not None:
-        return _study(arguments)
+        return _compare_study(arguments)
     if arguments.reference is None:
-        return misused("compare", "a session and its reference are needed, or --study TABLE.csv.")
+        return report_usage_error("compare", "a session and its reference are needed, or --study TABLE.csv.")
     from carpus.app.of_file import read_choices
-    from carpus.core.agreement.compared_files import compare_files, limit_lines, lines, write_files
+    from carpus.core.agreement.compared_files import (
+        compare_files,
+        format_comparison,
+        format_limit_verdicts,
+        write_comparison,
+    )
 
     radians: bool | None = None if arguments.unit is None else arguments.unit == "rad"
     columns: Mapping[str, str] = arguments.columns
@@ -100,49 +105,54 @@ def run(arguments: argparse.Namespace) -> int:
         markers=arguments.markers,
         radians=radians,
         smoothed=arguments.smoothed,
-        most_shift_s=arguments.max_shift,
+        max_shift_s=arguments.max_shift,
         lag_s=arguments.lag,
         drift=0.01 * arguments.drift,
         choices=read_choices(arguments.session),
     )
-    for line in [*lines(result.compared), *limit_lines(result.compared.pairs, arguments.limit)]:
+    for line in [
+        *format_comparison(result.comparison),
+        *format_limit_verdicts(result.comparison.pairs, arguments.limit),
+    ]:
         print(line)
     if arguments.output is not None:
-        for path in write_files(result, arguments.output, arguments.form):
+        for path in write_comparison(result, arguments.output, arguments.form):
             print(f"Written: {path}")
         from carpus.ui.report.agreement_plot import write_plots
 
-        for path in write_plots(result.compared, arguments.output, result.stem, arguments.limit):
+        for path in write_plots(result.comparison, arguments.output, result.stem, arguments.limit):
             print(f"Written: {path}")
     return 0
 
 
-def _study(arguments: argparse.Namespace) -> int:
-    from carpus.app.command_line import bar
+def _compare_study(arguments: argparse.Namespace) -> int:
+    from carpus.app.command_line import progress_bar
     from carpus.app.of_file import read_choices
-    from carpus.core.agreement.compared_files import limit_lines
-    from carpus.core.agreement.study import read_table, study_lines, study_of, write_study
+    from carpus.core.agreement.compared_files import format_limit_verdicts
+    from carpus.core.agreement.study import format_study, read_study_table, run_study, write_agreement_study
 
     of_one: dict[str, object] = {"columns": {}, "markers": {}, "unit": None, "session": None}
     given = [name for name, usual in of_one.items() if getattr(arguments, name) != usual]
     if given or math.isfinite(arguments.lag) or arguments.drift:
-        return misused("compare", "in a study the table says session, columns, markers, unit, lag and drift.")
-    with bar("comparing", "session") as progress:
-        lines = read_table(arguments.study, mapping)
-        study = study_of(
-            arguments.study, lines, smoothed=arguments.smoothed, most_shift_s=arguments.max_shift,
-            choices_of=read_choices, progress=progress,
+        return report_usage_error(
+            "compare", "in a study the table says session, columns, markers, unit, lag and drift."
+        )
+    with progress_bar("comparing", "session") as progress:
+        lines = read_study_table(arguments.study, parse_mapping)
+        study = run_study(
+            arguments.study, lines, smoothed=arguments.smoothed, max_shift_s=arguments.max_shift,
+            load_choices=read_choices, progress=progress,
         )  # fmt: skip
-    known = [one.pairs for one in study.angles if math.isfinite(one.pairs.figures_deg.bias)]
-    for line in [*study_lines(study), *limit_lines(known, arguments.limit)]:
+    known = [one.pairs for one in study.pooled_angles if math.isfinite(one.pairs.agreement_deg.bias)]
+    for line in [*format_study(study), *format_limit_verdicts(known, arguments.limit)]:
         print(line)
     if arguments.output is not None:
         from carpus.ui.report.agreement_plot import write_plots
 
-        files = write_study(study, arguments.output, arguments.form)
-        picture = replace(study.as_compared(), pairs=tuple(known))
+        files = write_agreement_study(study, arguments.output, arguments.form)
+        picture = replace(study.to_comparison(), pairs=tuple(known))
         if known:
             files += write_plots(picture, arguments.output, arguments.study.stem, arguments.limit)
         for path in files:
             print(f"Written: {path}")
-    return 1 if study.left_out else 0
+    return 1 if study.excluded else 0

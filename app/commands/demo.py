@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import bar
+from carpus.app.command_line import progress_bar
 from carpus.app.commands import desktop
 from carpus.app.settings import load_settings, with_data_folder
-from carpus.core.durable import make_private
+from carpus.core.durable import make_private_folder
 
 EXAMPLE = "carpus demo --data-folder out/practice"
 
@@ -23,14 +23,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if desktop.has_display() and not arguments.unattended:
         return desktop.open_window(arguments.data_folder, is_demo=True)
-    from carpus.app.desktop.log import write_log
-    from carpus.app.unattended import walk
+    from carpus.app.desktop.log import start_log
+    from carpus.app.unattended import run_demo
 
-    write_log()
+    start_log()
     settings = with_data_folder(load_settings(), arguments.data_folder)
-    make_private(settings.data_folder)
-    with bar("the whole way", "repetition") as progress:
-        result = walk(settings, progress)
+    make_private_folder(settings.data_folder)
+    with progress_bar("the whole way", "repetition") as progress:
+        result = run_demo(settings, progress)
     print(f"Session: {result.session}")
     print(f"Report:  {result.report}")
     for line in result.lines:

@@ -7,13 +7,13 @@ from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
 
-from carpus.app.command_line import CAMERA_HELP, camera_address
+from carpus.app.command_line import CAMERA_HELP, parse_camera_address
 from carpus.app.settings import Settings, load_settings
 from carpus.core.calibration.card.checks import examine_cameras
 from carpus.core.capture.doctor import examine
 from carpus.core.errors import CarpusFault
 from carpus.core.version import __version__
-from carpus.core.words import one_sentence
+from carpus.core.words import format_fault_line
 
 EXAMPLE = "carpus doctor --camera realsense"
 _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}
@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the one in the settings")
     parser.add_argument(
         "--camera",
-        type=camera_address,
+        type=parse_camera_address,
         metavar="KIND[:WHICH]",
         help=f"the one to open: {CAMERA_HELP}; else the first that is plugged in",
     )
@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         settings = load_settings()
     except CarpusFault as fault:
-        print(f"{_MARK['bad']}  Settings: {one_sentence(fault)}")
+        print(f"{_MARK['bad']}  Settings: {format_fault_line(fault)}")
         worst = 1
     folder = arguments.data_folder or settings.data_folder
     said = (lambda text: without_folders(text, folder)) if arguments.for_support else str
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"Carpus {__version__}, {datetime.now(UTC):%Y-%m-%d}")
     wanted = settings.camera.uri if arguments.camera is None else arguments.camera
     for finding in chain(examine(folder, camera_uri=wanted or None), examine_cameras(folder, datetime.now(UTC))):
-        print(f"{_MARK[finding.state]}  {finding.name}: {said(finding.found)}")
+        print(f"{_MARK[finding.state]}  {finding.name}: {said(finding.observation)}")
         if finding.remedy:
             print(f"         {said(finding.remedy)}")
         worst = max(worst, finding.state == "bad")

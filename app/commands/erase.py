@@ -6,15 +6,15 @@ import argparse
 from contextlib import closing
 from pathlib import Path
 
-from carpus.app.command_line import say
-from carpus.app.of_file import data_folder_of, library_of, look_for_store
-from carpus.app.settings import load_sound_settings
+from carpus.app.command_line import print_message
+from carpus.app.of_file import find_data_folder, open_library, require_store
+from carpus.app.settings import load_valid_settings
 from carpus.core.errors import PatientUnknown, RecordingMissing
-from carpus.core.names import folded, known_names
+from carpus.core.names import describe_known_names, fold_name
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.keeping import Records
+from carpus.core.records.keeping import RecordRetention
 from carpus.core.records.library import Library
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 from carpus.core.session.reader import read_outline
 
 EXAMPLE = """carpus erase "Fern 12"
@@ -29,53 +29,55 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     path = Path(arguments.what)
-    settings, _ = load_sound_settings()
-    folder = data_folder_of(path) if path.is_file() else arguments.data_folder or settings.data_folder
+    settings, _ = load_valid_settings()
+    folder = find_data_folder(path) if path.is_file() else arguments.data_folder or settings.data_folder
     if folder is None:
-        say(f"{path} lies in no data folder, so Carpus keeps nothing else of it; delete the file itself.")
+        print_message(f"{path} lies in no data folder, so Carpus keeps nothing else of it; delete the file itself.")
         return 1
-    look_for_store(folder)
+    require_store(folder)
     is_file = path.is_file()
-    with closing(library_of(folder)) as library:
-        if folded(arguments.what) in library.gone or (is_file and not path.exists()):
+    with closing(open_library(folder)) as library:
+        if fold_name(arguments.what) in library.erased_pseudonyms or (is_file and not path.exists()):
             print(f"The erasing of {arguments.what} that was begun before is finished: nothing of it is left here.")
-            return _told()
+            return _print_erased()
         return _erase(library, arguments.what, path, arguments.for_good)
 
 
 def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> int:
-    records = Records(library)
+    records = RecordRetention(library)
     if path.is_file():
         plan = records.plan_session(read_outline(path).header.session_id)
     else:
-        patient_id = library.patients.called(what)
+        patient_id = library.patients.id_of_pseudonym(what)
         if not patient_id:
             if path.suffix == ".h5":
                 raise RecordingMissing(path)
-            pseudonyms = [one.pseudonym for one in library.patients.listed(archived=True)]
-            raise PatientUnknown(what, known_names(what, pseudonyms))
+            pseudonyms = [one.pseudonym for one in library.patients.search(include_archived=True)]
+            raise PatientUnknown(what, describe_known_names(what, pseudonyms))
         plan = records.plan_patient(patient_id)
     pseudonym = plan.pseudonym
-    _say(plan)
+    _print_plan(plan)
     if confirmed is None:
         print(f"Nothing has been deleted. To erase it, say --for-good “{pseudonym}”; the archive is the milder way.")
         return 0
     if confirmed.casefold() != pseudonym.casefold():
-        say(f"{confirmed} is not whose it is; nothing has been deleted.")
+        print_message(f"{confirmed} is not whose it is; nothing has been deleted.")
         return 1
     records.erase(plan)
-    return _told()
+    return _print_erased()
 
 
-def _told() -> int:
+def _print_erased() -> int:
     print("Erased. The log keeps that it was erased, no name.")
     return 0
 
 
-def _say(plan: ErasurePlan) -> None:
-    print(f"This goes: {plan.sessions} sessions, {len(plan.files)} files, {written(plan.size_bytes / 1e6, 1)} MB")
-    for path in plan.made:
+def _print_plan(plan: ErasurePlan) -> None:
+    print(
+        f"This goes: {plan.recording_count} sessions, {len(plan.files)} files, {format_rounded(plan.size_bytes / 1e6, 1)} MB"  # noqa: E501
+    )
+    for path in plan.output_files:
         print(f"This stays, delete it yourself: {path}")
-    for path in plan.outside:
+    for path in plan.unassigned_files:
         print(f"This stays, look at it yourself, it lies in no patient's folder: {path}")
     print("This stays: back-ups and files copied elsewhere; Carpus cannot reach them.")

@@ -5,23 +5,23 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import add_region, bar, tell
-from carpus.app.of_file import note_exported
+from carpus.app.command_line import add_region_option, print_fault, progress_bar
+from carpus.app.of_file import log_export
 from carpus.core.errors import SessionsMissing
 from carpus.core.formats.formats import FORMATS
-from carpus.core.names import known_names
+from carpus.core.names import describe_known_names
 
 EXAMPLE = "carpus export session.h5 --format csv,c3d --output out/export"
 ALL = "all"
 
 
-def some_formats(text: str) -> tuple[str, ...]:
+def parse_formats(text: str) -> tuple[str, ...]:
     """Names of formats, separated by commas; an unknown one is wrong usage."""
     names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",") if name.strip()))
     unknown = [name for name in names if name not in (*FORMATS, ALL)]
     if unknown or not names:
         word = next(iter(unknown), text)
-        raise argparse.ArgumentTypeError(f"no format is called “{word}”; {known_names(word, (*FORMATS, ALL))}")
+        raise argparse.ArgumentTypeError(f"no format is called “{word}”; {describe_known_names(word, (*FORMATS, ALL))}")
     return tuple(FORMATS) if ALL in names else names
 
 
@@ -29,13 +29,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5", help="or a folder of them")
     parser.add_argument(
         "--format",
-        type=some_formats,
+        type=parse_formats,
         default=("csv",),
         metavar="FORMAT,...",
-        help="; ".join(f"{name}: {kind.words}" for name, kind in FORMATS.items()) + f"; {ALL} of them",
+        help="; ".join(f"{name}: {kind.description}" for name, kind in FORMATS.items()) + f"; {ALL} of them",
     )
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="files in it are not overwritten")
-    add_region(parser)
+    add_region_option(parser)
     parser.add_argument(
         "--deidentified",
         action="store_true",
@@ -45,21 +45,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.of_file import read_choices
-    from carpus.core.formats.formats import Wanted, export_sessions
+    from carpus.core.formats.formats import ExportRequest, export_sessions
 
-    paths = session_files(arguments.sessions)
-    with bar("exporting", "file") as progress:
+    paths = find_sessions(arguments.sessions)
+    with progress_bar("exporting", "file") as progress:
         done = export_sessions(
-            [Wanted.stored(path, read_choices) for path in paths],
+            [ExportRequest.from_file(path, read_choices) for path in paths],
             arguments.output,
             arguments.format,
             deidentified=arguments.deidentified,
-            form=arguments.form,
+            dialect=arguments.form,
             progress=progress,
         )
     for refused in done.refused:
-        tell(refused.fault)
-    note_exported(done, deidentified=arguments.deidentified)
+        print_fault(refused.fault)
+    log_export(done, deidentified=arguments.deidentified)
     for path in done.files if len(paths) == 1 else ():
         print(f"Written: {path}")
     count = len(done.files)
@@ -68,10 +68,10 @@ def run(arguments: argparse.Namespace) -> int:
     return 1 if done.refused else 0
 
 
-def session_files(named: list[Path]) -> list[Path]:
+def find_sessions(paths: list[Path]) -> list[Path]:
     """The sessions named, of folders all that lie in them; each once. Raises :class:`SessionsMissing`."""
     out: list[Path] = []
-    for path in named:
+    for path in paths:
         found = sorted(path.rglob("*.h5")) if path.is_dir() else [path]
         if not found:
             raise SessionsMissing(path)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import tell
-from carpus.app.of_file import note, read_choices
+from carpus.app.command_line import print_fault
+from carpus.app.of_file import log_session_action, read_choices
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import RecordingMissing
 from carpus.core.results.session_lines import recording_summary, session_summary, source_summary
@@ -28,12 +28,12 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingMissing(path)
     if path.suffix in {".h5", ".part"}:
         session = read_session(path)
-        note("opened", path, session.header.session_id)
+        log_session_action("opened", path, session.header.session_id)
         lines = [session.header.parameters] if arguments.json else session_summary(session, read_choices(path))
     else:
         from carpus.app.sources import open_recording
 
-        source = open_recording(path, need_depth=False, leave_out_damaged=True, notice=tell)
+        source = open_recording(path, need_depth=False, leave_out_damaged=True, notice=print_fault)
         try:
             if isinstance(source, TumFolder):
                 lines = recording_summary(path, source)

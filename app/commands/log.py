@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import say, tell
+from carpus.app.command_line import print_fault, print_message
 from carpus.app.of_file import open_store
-from carpus.app.settings import load_sound_settings
-from carpus.core.errors import CarpusFault, OutputExists, RegisterDamaged
+from carpus.app.settings import load_valid_settings
+from carpus.core.errors import CarpusFault, OutputExists, PatientListDamaged
 
 EXAMPLE = "carpus log --output log.csv"
 HEAD = ("number", "when", "who", "by", "did", "kind", "subject", "facts")
@@ -20,30 +20,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.core.formats.new_output import look_for_folder, new_table
+    from carpus.core.formats.new_output import require_folder, write_new_table
     from carpus.core.records.log import read_log
 
-    settings, _ = load_sound_settings()
+    settings, _ = load_valid_settings()
     folder: Path = arguments.data_folder or settings.data_folder
     if arguments.output is not None:
         if arguments.output.exists():
             raise OutputExists(arguments.output)
-        look_for_folder(arguments.output)
+        require_folder(arguments.output)
     faults: list[CarpusFault] = []
-    with open_store(folder, only_reads=True, told=faults.append) as store:
+    with open_store(folder, read_only=True, on_fault=faults.append) as store:
         deeds = read_log(store)
     for fault in faults:
-        if not isinstance(fault, RegisterDamaged):
-            tell(fault)
+        if not isinstance(fault, PatientListDamaged):
+            print_fault(fault)
         else:
-            say(f"a line is damaged and left out ({fault.detail}).")
+            print_message(f"a line is damaged and left out ({fault.detail}).")
     rows = []
     for deed in deeds:
         facts = " ".join(f"{name}={value}" for name, value in deed.facts.items())
         when = deed.when.astimezone().isoformat(timespec="seconds")
-        rows.append((f"{deed.number}", when, deed.who, deed.by, deed.did, deed.kind, deed.subject, facts))
+        rows.append((f"{deed.number}", when, deed.initials, deed.source, deed.action, deed.kind, deed.subject, facts))
     if arguments.output is not None:
-        new_table(arguments.output, HEAD, rows)
+        write_new_table(arguments.output, HEAD, rows)
         print(f"Written: {arguments.output}")
         return 0
     for number, when, who, by, did, kind, subject, facts in rows:

@@ -10,17 +10,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import add_region, misused, tell
+from carpus.app.command_line import add_region_option, print_fault, report_usage_error
 from carpus.core.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.measures.change import ErrorLimits
-from carpus.core.names import folded, known_names
+from carpus.core.names import describe_known_names, fold_name
 
 if TYPE_CHECKING:
-    from carpus.core.results.figures import SessionFigures
+    from carpus.core.results.figures import SessionResults
 
 EXAMPLE = """carpus progress "Fern 12"
 carpus progress all --output measures.csv"""
-EVERYBODY = "all"
+ALL_PATIENTS = "all"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,37 +40,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help=".csv or .parquet: the table; .pdf: the progress report; may be given more than once; else CSV on stdout",
     )
-    add_region(parser)
+    add_region_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.agreement.limits_file import read_limits
-    from carpus.core.formats.measures_files import HEAD, csv_rows, write_measures
-    from carpus.core.results.measures_table import measure_rows
-    from carpus.core.results.progress import newest_results
+    from carpus.core.formats.measures_files import MEASURES_HEADER, to_csv_rows, write_measures
+    from carpus.core.results.measures_table import build_measure_rows
+    from carpus.core.results.progress import select_latest_versions
 
     for path in arguments.output:
         if path.exists():
             raise OutputExists(path)
-        if path.suffix.lower() == ".pdf" and arguments.subject == EVERYBODY:
-            return misused("progress", "a report is of one patient; name the pseudonym.")
+        if path.suffix.lower() == ".pdf" and arguments.subject == ALL_PATIENTS:
+            return report_usage_error("progress", "a report is of one patient; name the pseudonym.")
     settings = load_settings()
     places = arguments.sessions or [settings.data_folder]
-    found = _of(arguments.subject, places, read_limits(settings.data_folder))
-    figures = newest_results([one for _, one in found])
+    found = _find_figures(arguments.subject, places, read_limits(settings.data_folder))
+    figures = select_latest_versions([one for _, one in found])
     names = {id(one): path.stem for path, one in found}
-    rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
+    rows = [row for one in figures for row in build_measure_rows(one, names[id(one)])]
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
-            from carpus.app.of_file import form_of
+            from carpus.app.of_file import read_report_form
             from carpus.ui.report.gather import write_progress_report
             from carpus.ui.report.pdf import ensure_application
 
             application = ensure_application()
             write_progress_report(
                 figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
-                form=form_of(settings.data_folder),
+                form=read_report_form(settings.data_folder),
             )  # fmt: skip
             del application
         else:
@@ -78,69 +78,71 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"Written: {path}")
     if not arguments.output:
         table = csv.writer(sys.stdout, lineterminator="\n")
-        table.writerow(HEAD)
-        table.writerows(csv_rows(rows))
+        table.writerow(MEASURES_HEADER)
+        table.writerows(to_csv_rows(rows))
     return 0
 
 
-def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list[tuple[Path, SessionFigures]]:
+def _find_figures(subject: str, places: list[Path], limits: ErrorLimits) -> list[tuple[Path, SessionResults]]:
     """Sessions of a patient that can be read, with their figures: of a data folder those that the list of patients has
     as this patient's and not in the archive, of any other the files that carry the pseudonym. Raises
     :class:`PatientUnknown` or :class:`SessionsMissing` for none."""
     from carpus.app.of_file import has_store
 
-    out: list[tuple[Path, SessionFigures]] = []
+    out: list[tuple[Path, SessionResults]] = []
     known: list[str] = []
     for place in places:
         has_list = place.is_dir() and has_store(place)
-        found, names = _listed(subject, place) if has_list else _carrying(subject, place, limits)
+        found, names = _figures_in_library(subject, place) if has_list else _figures_in_files(subject, place, limits)
         out += found
         known += names
     if not out:
-        if subject == EVERYBODY or folded(subject) in map(folded, known):
+        if subject == ALL_PATIENTS or fold_name(subject) in map(fold_name, known):
             raise SessionsMissing(places[0])
-        raise PatientUnknown(subject, known_names(subject, sorted({one for one in known if one})))
+        raise PatientUnknown(subject, describe_known_names(subject, sorted({one for one in known if one})))
     return out
 
 
-def _listed(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionFigures]], list[str]]:
+def _figures_in_library(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionResults]], list[str]]:
     """Of a data folder; and the pseudonyms of its patients."""
-    from carpus.app.of_file import library_of
-    from carpus.core.records.session_list import FilesOfSessions
+    from carpus.app.of_file import open_library
+    from carpus.core.records.session_list import SessionFileScanner
 
-    with closing(library_of(folder, only_reads=True)) as library:
-        FilesOfSessions(library.store).take_in(tells=False)  # also what was copied in since the last look
-        people = {one.patient_id: one.pseudonym for one in library.patients.listed(archived=True)}
-        if subject == EVERYBODY:
-            wanted = ["", *(one.patient_id for one in library.patients.listed())]
+    with closing(open_library(folder, read_only=True)) as library:
+        SessionFileScanner(library.store).scan(reports_faults=False)  # also what was copied in since the last look
+        people = {one.patient_id: one.pseudonym for one in library.patients.search(include_archived=True)}
+        if subject == ALL_PATIENTS:
+            wanted = ["", *(one.patient_id for one in library.patients.search())]
         else:
-            wanted = [one for one in people if one == library.patients.called(subject)]
+            wanted = [one for one in people if one == library.patients.id_of_pseudonym(subject)]
         out = []
         for patient_id in wanted:
             for entry in library.sessions(patient_id):
                 try:
-                    figures = library.figures(entry)
+                    figures = library.results(entry)
                 except CarpusFault as fault:
-                    tell(fault)
+                    print_fault(fault)
                 else:
                     out.append((entry.path, replace(figures, subject_id=people.get(patient_id, figures.subject_id))))
         return out, list(people.values())
 
 
-def _carrying(subject: str, place: Path, limits: ErrorLimits) -> tuple[list[tuple[Path, SessionFigures]], list[str]]:
+def _figures_in_files(
+    subject: str, place: Path, limits: ErrorLimits
+) -> tuple[list[tuple[Path, SessionResults]], list[str]]:
     """Of files that lie in no data folder, or are named one by one; and every pseudonym that they carry."""
-    from carpus.app.of_file import read_choices, sessions_in
-    from carpus.core.results.figures import session_figures
+    from carpus.app.of_file import find_session_files, read_choices
+    from carpus.core.results.figures import compute_session_results
     from carpus.core.session.reader import read_outline, read_session
 
     out = []
     known: list[str] = []
-    for path in sessions_in([place]):
+    for path in find_session_files([place]):
         try:
             said = read_outline(path).header.subject_id
             known.append(said)
-            if subject == EVERYBODY or said.casefold() == subject.strip().casefold():
-                out.append((path, session_figures(read_session(path), read_choices(path), limits)))
+            if subject == ALL_PATIENTS or said.casefold() == subject.strip().casefold():
+                out.append((path, compute_session_results(read_session(path), read_choices(path), limits)))
         except CarpusFault as fault:
-            tell(fault)
+            print_fault(fault)
     return out, known

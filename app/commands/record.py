@@ -10,28 +10,38 @@ from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
-from carpus.app.command_line import CAMERA_HELP, bar, camera_address, misused, number, tell
+from carpus.app.command_line import (
+    CAMERA_HELP,
+    number_type,
+    parse_camera_address,
+    print_fault,
+    progress_bar,
+    report_usage_error,
+)
 from carpus.app.settings import load_settings
 from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
-from carpus.core.capture.source import FrameSource, recorded_at
-from carpus.core.dates import iso
+from carpus.core.capture.source import FrameSource, find_recording_date
+from carpus.core.dates import to_iso
 from carpus.core.errors import CarpusFault, OutputExists
 from carpus.core.pipeline.recorder import Recorder
 from carpus.core.types import Frame
 
 EXAMPLE = "carpus record --output out/hand.carpusraw --seconds 30"
-LONGEST_S = 86400.0
-WAITING_FRAMES = 90
+MAX_RECORDING_S = 86400.0
+MAX_WAITING_FRAMES = 90
 """Three seconds of pictures may wait for a slow disk."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--output", type=Path, required=True, metavar="RECORDING", help="file (raw) or folder (tum)")
     parser.add_argument(
-        "--seconds", type=number(0.1, LONGEST_S), metavar="SECONDS", help="stop after this long; else with Ctrl+C"
+        "--seconds",
+        type=number_type(0.1, MAX_RECORDING_S),
+        metavar="SECONDS",
+        help="stop after this long; else with Ctrl+C",
     )
     parser.add_argument("--format", choices=("raw", "tum"), default="raw", help="default: raw")
     parser.add_argument(
@@ -42,7 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--camera",
-        type=camera_address,
+        type=parse_camera_address,
         metavar="KIND[:WHICH]",
         help=f"one of several cameras: {CAMERA_HELP}; else that of the settings, or the first that is plugged in",
     )
@@ -50,17 +60,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.lossless and arguments.format != "raw":
-        return misused("record", "--lossless is for --format raw; a TUM folder is without loss already.")
+        return report_usage_error("record", "--lossless is for --format raw; a TUM folder is without loss already.")
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     if arguments.origin is not None:
         from carpus.app.sources import open_recording
 
-        source = open_recording(arguments.origin, notice=tell)
+        source = open_recording(arguments.origin, notice=print_fault)
     else:
         settings = load_settings()
         wanted = settings.camera.uri if arguments.camera is None else arguments.camera
-        source = with_given_name(open_camera(wanted, notice=tell), settings.data_folder)
+        source = with_given_name(open_camera(wanted, notice=print_fault), settings.data_folder)
         print(f"Camera: {source.info.name}")
         if arguments.format == "tum":
             # A folder of pictures cannot say which camera it came from; a raw recording can, and stays as it came.
@@ -72,42 +82,42 @@ def run(arguments: argparse.Namespace) -> int:
         return TumWriter(arguments.output, said)
 
     live = arguments.origin is None
-    when = recorded_at(source.info, float("nan"), arguments.origin)
-    said = replace(source.info, recorded=when.when if when else "")
+    when = find_recording_date(source.info, float("nan"), arguments.origin)
+    said = replace(source.info, recorded=when.time if when else "")
     if live:
-        said = replace(source.info, recorded=iso(datetime.now().astimezone()), recording_id=str(uuid.uuid4()))
+        said = replace(source.info, recorded=to_iso(datetime.now().astimezone()), recording_id=str(uuid.uuid4()))
 
     # The disk has a thread of its own: a slow moment of it must not hold up the camera.
-    recorder = Recorder("pictures", open_writer, _store, WAITING_FRAMES, _fault_told)
+    recorder = Recorder("pictures", open_writer, _write_frame, MAX_WAITING_FRAMES, _ignore_fault)
     total = None if arguments.seconds is None else max(1, round(arguments.seconds * source.info.nominal_fps))
     try:
         recorder.start()
-        count, missed = _recorded(source, recorder, total, live=live)
+        count, missed = _record_frames(source, recorder, total, live=live)
     finally:
         source.close()
         try:
             recorder.finish()
         except CarpusFault:
-            if recorder.written and arguments.output.exists():
+            if recorder.write_count and arguments.output.exists():
                 print(f"Cut short: {arguments.output}; what was recorded before can be read.")
             raise
     print(f"Recording: {arguments.output}\nFrames: {count}, missing {missed}")
     return 0
 
 
-def _recorded(
+def _record_frames(
     source: FrameSource, recorder: Recorder[RawWriter | TumWriter, Frame], total: int | None, *, live: bool
 ) -> tuple[int, int]:
     """Hand the pictures to the recorder until they end, are enough or somebody stops; how many, and how many were
     missing between them."""
     count, missed = 0, 0
-    with bar("recording") as show, contextlib.suppress(KeyboardInterrupt):
+    with progress_bar("recording") as show, contextlib.suppress(KeyboardInterrupt):
         for frame in source.frames():
-            while not live and recorder.waiting >= WAITING_FRAMES - 1 and recorder.fault is None:
+            while not live and recorder.queue_length >= MAX_WAITING_FRAMES - 1 and recorder.fault is None:
                 time.sleep(0.002)  # a file can wait for the disk
             if recorder.fault is not None:
                 break
-            recorder.put(frame)
+            recorder.submit(frame)
             count, missed = count + 1, missed + frame.dropped_before
             show(count, total)
             if total is not None and count >= total:
@@ -115,9 +125,9 @@ def _recorded(
     return count, missed
 
 
-def _store(writer: RawWriter | TumWriter, frame: Frame) -> None:
+def _write_frame(writer: RawWriter | TumWriter, frame: Frame) -> None:
     writer.append_frame(frame)
 
 
-def _fault_told(_fault: Exception) -> None:
+def _ignore_fault(_fault: Exception) -> None:
     """Nothing to do at once: finishing the recording raises it."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import tell
-from carpus.app.of_file import note
+from carpus.app.command_line import print_fault
+from carpus.app.of_file import log_session_action
 from carpus.core.errors import FolderMissing
-from carpus.core.records.recordings import recordings_folder, recover_recordings
+from carpus.core.records.recordings import recover_recordings, spool_folder
 from carpus.core.session.reader import read_outline
 
 EXAMPLE = "carpus recover sessions"
@@ -25,20 +25,20 @@ def run(arguments: argparse.Namespace) -> int:
         raise FolderMissing(arguments.folder)
     # A recording lies on this computer's own disk until its data folder has it; the folder given may be the one with
     # the sessions inside the data folder.
-    own = [recordings_folder(one) for one in (arguments.folder.absolute(), arguments.folder.absolute().parent)]
+    own = [spool_folder(one) for one in (arguments.folder.absolute(), arguments.folder.absolute().parent)]
     results = [recover_recordings(one) for one in (arguments.folder, *own) if one.is_dir()]
     for found in results:
         for path in found.recovered:
             print(f"Recovered: {path}")
-            note("recovered", path, read_outline(path).header.session_id)
+            log_session_action("recovered", path, read_outline(path).header.session_id)
             if any(path.is_relative_to(one) for one in own):
                 print("It is moved into the data folder when Carpus is started.")
-        for path in found.busy:
+        for path in found.in_progress:
             print(f"Still being recorded, left alone: {path}")
         for path in found.empty:
             print(f"Ended before its first frame was stored, nothing to recover: {path}")
         for fault in found.faults:
-            tell(fault)
-    if not any(found.recovered or found.busy or found.faults or found.empty for found in results):
+            print_fault(fault)
+    if not any(found.recovered or found.in_progress or found.faults or found.empty for found in results):
         print("No interrupted session here.")
     return 1 if any(found.faults for found in results) else 0

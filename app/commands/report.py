@@ -6,11 +6,11 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.command_line import say
-from carpus.app.of_file import made
+from carpus.app.command_line import print_message
+from carpus.app.of_file import log_created_files
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.errors import OutputExists
-from carpus.core.results.ranges import in_order
+from carpus.core.results.ranges import with_angle_order
 from carpus.core.results.report_form import PAPERS
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
@@ -37,20 +37,20 @@ def run(arguments: argparse.Namespace) -> int:
     order = arguments.angle_order or settings.report.angle_order
     named: dict[str, Session] = {}
     for path in arguments.sessions:
-        session = in_order(read_session(path), order)
+        session = with_angle_order(read_session(path), order)
         if named.setdefault(session.header.session_id, session) is not session:
-            say(f"{path} is left out: it holds a session that was named before.")
+            print_message(f"{path} is left out: it holds a session that was named before.")
     sessions = list(named.values())
-    from carpus.app.of_file import form_of, read_choices, read_comment
+    from carpus.app.of_file import read_choices, read_comment, read_report_form
 
-    form = form_of(settings.data_folder)
+    form = read_report_form(settings.data_folder)
     if arguments.paper:
         form = replace(form, paper=arguments.paper)
     look = {"form": form, "language": arguments.language, "therapist": settings.report.therapist}
     # Qt is loaded only now: a wrong file is told without it.
     from carpus.core.agreement.limits_file import read_limits
-    from carpus.core.results.figures import session_figures
-    from carpus.core.results.progress import newest_results
+    from carpus.core.results.figures import compute_session_results
+    from carpus.core.results.progress import select_latest_versions
     from carpus.ui.report.gather import write_progress_report, write_session_report
     from carpus.ui.report.pdf import ensure_application
 
@@ -66,11 +66,11 @@ def run(arguments: argparse.Namespace) -> int:
         )
     else:
         limits = read_limits(settings.data_folder)
-        figures = [session_figures(*one, limits) for one in zip(sessions, choices, strict=True)]
-        for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
-            say(f"session {older} is left out: a newer result of its recording counts.")
+        figures = [compute_session_results(*one, limits) for one in zip(sessions, choices, strict=True)]
+        for older in {one.session_id for one in figures} - {one.session_id for one in select_latest_versions(figures)}:
+            print_message(f"session {older} is left out: a newer result of its recording counts.")
         write_progress_report(figures, arguments.output, **look)
     del application
-    made([(one.path, one.header.session_id) for one in sessions], [arguments.output], "report")
+    log_created_files([(one.path, one.header.session_id) for one in sessions], [arguments.output], "report")
     print(f"Report: {arguments.output}")
     return 0

@@ -8,14 +8,14 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import bar, misused, say, tell
-from carpus.app.of_file import note_in
-from carpus.app.settings import load_sound_settings, settings_folder
+from carpus.app.command_line import print_fault, print_message, progress_bar, report_usage_error
+from carpus.app.of_file import log_folder_action
+from carpus.app.settings import load_valid_settings, settings_folder
 from carpus.core.errors import BackupMissing, CarpusFault
-from carpus.core.names import known_names
+from carpus.core.names import describe_known_names
 
 if TYPE_CHECKING:
-    from carpus.core.records.restoring import Past
+    from carpus.core.records.restoring import LogHistory
 
 EXAMPLE = "carpus restore /media/backup --into carpus-data"
 
@@ -31,49 +31,51 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.into is None and arguments.against is None:
-        return misused("restore", "say where to, with --into FOLDER, or what to compare with, --against FOLDER.")
-    from carpus.core.records.backup import backups
-    from carpus.core.records.restoring import plan_restore, put_in_place, restore
+        return report_usage_error(
+            "restore", "say where to, with --into FOLDER, or what to compare with, --against FOLDER."
+        )
+    from carpus.core.records.backup import list_backups
+    from carpus.core.records.restoring import activate_restored, plan_restore, restore
 
-    place, there = arguments.place, {one.name: one for one in backups(arguments.place)}
+    place, there = arguments.place, {one.name: one for one in list_backups(arguments.place)}
     if not there:
         raise BackupMissing(place)
     name = arguments.name or next(iter(there))
     if name not in there:
-        say(f"no back-up in {place} is called “{name}”; {known_names(name, there)}.")
+        print_message(f"no back-up in {place} is called “{name}”; {describe_known_names(name, there)}.")
         return 1
     backup = there[name]
-    own = Path(backup.data_folder) if backup.data_folder else load_sound_settings()[0].data_folder
-    past = _past(place, arguments.against or own)
+    own = Path(backup.data_folder) if backup.data_folder else load_valid_settings()[0].data_folder
+    past = _read_past(place, arguments.against or own)
     if arguments.against is not None:
         plan = plan_restore(backup, place, arguments.against, past)
-        for words, paths in (("comes", plan.added), ("changes", plan.replaced), ("goes", plan.lost)):
+        for words, paths in (("comes", plan.added), ("changes", plan.replaced), ("goes", plan.removed)):
             for path in paths:
                 print(f"{words}: {path}")
-        added, changed, gone = len(plan.added), len(plan.replaced), len(plan.lost)
+        added, changed, gone = len(plan.added), len(plan.replaced), len(plan.removed)
         print(f"Sessions added: {added}, changed: {changed}, taken away: {gone}. Nothing was done.")
     if arguments.into is None:
         return 0
-    with bar("restoring", "byte") as progress:
+    with progress_bar("restoring", "byte") as progress:
         gone = restore(backup, place, arguments.into, past, settings_folder=settings_folder(), progress=progress)
-    put_in_place(arguments.into, datetime.now())
-    note_in(arguments.into, "restored", "everything", sessions=backup.sessions)
-    print(f"Restored: {backup.sessions} sessions of {backup.name} into {arguments.into}, each content checked.")
+    activate_restored(arguments.into, datetime.now())
+    log_folder_action(arguments.into, "restored", "everything", sessions=backup.session_count)
+    print(f"Restored: {backup.session_count} sessions of {backup.name} into {arguments.into}, each content checked.")
     if gone:
         print(f"Erased since that backup, and so erased again: {gone} patients and sessions.")
     return 0
 
 
-def _past(place: Path, folder: Path) -> Past:
+def _read_past(place: Path, folder: Path) -> LogHistory:
     """What was done since, as the data folder that was backed up knows it, if it is there, and the newest backup."""
-    from carpus.app.of_file import library_of
-    from carpus.core.records.restoring import read_past
-    from carpus.core.records.store import is_kept_in
+    from carpus.app.of_file import open_library
+    from carpus.core.records.restoring import read_history
+    from carpus.core.records.store import has_store
 
     try:
-        if is_kept_in(folder):
-            with closing(library_of(folder, only_reads=True)) as library:
-                return read_past(place, library.store)
+        if has_store(folder):
+            with closing(open_library(folder, read_only=True)) as library:
+                return read_history(place, library.store)
     except CarpusFault as fault:
-        tell(fault)
-    return read_past(place, None)
+        print_fault(fault)
+    return read_history(place, None)

@@ -10,16 +10,16 @@ from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import add_region, tell
+from carpus.app.command_line import add_region_option, print_fault
 from carpus.app.of_file import read_figures
 from carpus.core.errors import ReferenceUnreadable, StudyUnsuited
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 
 if TYPE_CHECKING:
     pass
 
 EXAMPLE = "carpus retest sessions --output retest.csv"
-_WHY = {
+_REASONS = {
     "once": "person measured once",
     "too_late": "more than 14 days after the first time",
     "few_repetitions_after": "fewer than 3 repetitions",
@@ -46,40 +46,42 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="put the limits into force in progress and reports of the data folder, with today's date",
     )
-    add_region(parser)
+    add_region_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.agreement.limits_file import store_limits
-    from carpus.core.agreement.retest import studies, write_study
+    from carpus.core.agreement.limits_file import save_limits
+    from carpus.core.agreement.retest import analyse_retests, write_retests
 
-    figures, raters = read_figures(arguments.sessions, tell, _raters(arguments.raters))
-    found = studies(figures, raters)
+    figures, raters = read_figures(arguments.sessions, print_fault, _read_raters(arguments.raters))
+    found = analyse_retests(figures, raters)
     for one in found:
         who = f", {one.raters} raters" if one.raters else ""
         print(f"{one.exercise or 'free movement'}, {one.protocol}: {one.people} people, {one.sessions} sessions{who}")
-        if one.left_out:
-            reasons = Counter(_WHY.get(left.reason, left.reason) for left in one.left_out)
+        if one.excluded:
+            reasons = Counter(_REASONS.get(left.reason, left.reason) for left in one.excluded)
             print(f"  left out: {', '.join(f'{count} ({reason})' for reason, count in reasons.items())}")
-        if one.found:
+        if one.results:
             print(
                 f"  {'degrees':26} {'n':>3}    SEM   MDC95 (95 % interval)    {'ICC(2,1) (interval)':20}   "
                 f"{'ICC(3,1) (interval)':20}   last - first   SEM of one rater"
             )
-        for (of, movement), f in one.found.items():
-            mdc = f"{f.mdc95:5.1f} ({written(f.mdc95_interval[0], 1)} to {written(f.mdc95_interval[1], 1)})"
+        for (of, movement), f in one.results.items():
+            mdc = (
+                f"{f.mdc95:5.1f} ({format_rounded(f.mdc95_interval[0], 1)} to {format_rounded(f.mdc95_interval[1], 1)})"
+            )
             iccs = [
-                f"{written(icc, 2)} ({written(low, 2)} to {written(high, 2)})"
+                f"{format_rounded(icc, 2)} ({format_rounded(low, 2)} to {format_rounded(high, 2)})"
                 for icc, (low, high) in ((f.icc, f.icc_interval), (f.icc_3_1, f.icc_3_1_interval))
             ]
-            own = written(f.sem_same_rater, 2) if math.isfinite(f.sem_same_rater) else "-"
+            own = format_rounded(f.intra_rater_sem, 2) if math.isfinite(f.intra_rater_sem) else "-"
             print(
                 f"  {f'{of} {movement}':26} {f.people:3d}  {f.sem:5.2f}   {mdc:22}   {iccs[0]:20}   {iccs[1]:20}   "
-                f"{f.step:12.2f}   {own}"
+                f"{f.systematic_change:12.2f}   {own}"
             )
     if arguments.output is not None:
-        print(f"Written: {write_study(found, arguments.output, arguments.form)}")
+        print(f"Written: {write_retests(found, arguments.output, arguments.form)}")
     usable = [one for one in found if one.is_usable]
     if not any(one.people > 1 for one in found):
         raise StudyUnsuited(arguments.sessions[0], "nobody was measured twice, or fewer than two people were")
@@ -89,12 +91,12 @@ def run(arguments: argparse.Namespace) -> int:
         most = max(one.people for one in found)
         why = "of a simulated hand" if any(one.simulated for one in found) else f"{most} people"
         raise StudyUnsuited(arguments.sessions[0], why)
-    path = store_limits(load_settings().data_folder, [one.study(date.today().isoformat()) for one in usable])
+    path = save_limits(load_settings().data_folder, [one.to_study(date.today().isoformat()) for one in usable])
     print(f"In force: {', '.join(one.exercise or 'free movement' for one in usable)} ({path})")
     return 0
 
 
-def _raters(path: Path | None) -> dict[str, str]:
+def _read_raters(path: Path | None) -> dict[str, str]:
     if path is None:
         return {}
     from carpus.core.formats.table_read import read_table

@@ -8,82 +8,92 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from carpus.app.command_line import bar, count, number
+from carpus.app.command_line import count_type, number_type, progress_bar
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.protocols import protocol_names
-from carpus.core.names import known_names
+from carpus.core.names import describe_known_names
 from carpus.core.simulation.motions import MOTIONS
-from carpus.core.simulation.spec import HABITS, NONE, WORN, RecordingSpec
+from carpus.core.simulation.spec import HABITS, NONE, WORN_ITEMS, RecordingSpec
 
 
-def number_or_drawn(text: str) -> float | None:
+def parse_number_or_drawn(text: str) -> float | None:
     """A number, or None for ``drawn``: each person's own."""
     if text == "drawn":
         return None
     try:
-        return number()(text)
+        return number_type()(text)
     except argparse.ArgumentTypeError as cause:
         raise argparse.ArgumentTypeError(f"{cause}, and not “drawn”") from None
 
 
-_UNITS = {"mm": "MM", "deg": "DEGREES", "m": "METRES", "px": "PIXELS", "hz": "HZ", "share": "SHARE"}
+_METAVARS = {"mm": "MM", "deg": "DEGREES", "m": "METRES", "px": "PIXELS", "hz": "HZ", "share": "SHARE"}
 """What stands for a value, by the last word of an option; N where none fits."""
 
 
-def joined(known: Collection[str]) -> Callable[[str], str]:
+def names_type(known: Collection[str]) -> Callable[[str], str]:
     """Reads names with + between; an unknown one is wrong usage."""
 
     def read(text: str) -> str:
         for name in filter(None, text.split("+")):
             if name not in known:
-                raise argparse.ArgumentTypeError(f"no “{name}” is known; {known_names(name, known)}")
+                raise argparse.ArgumentTypeError(f"no “{name}” is known; {describe_known_names(name, known)}")
         return text
 
     return read
 
 
-whole = count(-(2**31), 2**31 - 1)
+whole_number = count_type(-(2**31), 2**31 - 1)
 EXAMPLE = "carpus simulate --output out/demo --protocol wrist6"
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("protocol", {"choices": protocol_names(), "help": "6 discs on the palm or 21 on the hand"}),
     ("motion", {"choices": tuple(sorted(MOTIONS)), "help": "the exercise"}),
     ("hand", {"choices": ("right", "left"), "help": "which hand"}),
-    ("seed", {"type": whole, "help": "another seed is another patient, room and day"}),
-    ("seconds", {"type": number(), "metavar": "SECONDS", "help": "how long"}),
-    ("fps", {"type": number(), "help": "pictures a second"}),
-    ("speed-hz", {"type": number(), "help": "repetitions a second"}),
-    ("range-share", {"type": number(), "help": "share of the exercise's full range"}),
-    ("repetitions", {"type": whole, "help": "stop moving after so many"}),
-    ("tremor-deg", {"type": number(), "help": "how far the hand trembles"}),
+    ("seed", {"type": whole_number, "help": "another seed is another patient, room and day"}),
+    ("seconds", {"type": number_type(), "metavar": "SECONDS", "help": "how long"}),
+    ("fps", {"type": number_type(), "help": "pictures a second"}),
+    ("speed-hz", {"type": number_type(), "help": "repetitions a second"}),
+    ("range-share", {"type": number_type(), "help": "share of the exercise's full range"}),
+    ("repetitions", {"type": whole_number, "help": "stop moving after so many"}),
+    ("tremor-deg", {"type": number_type(), "help": "how far the hand trembles"}),
     ("dip", {"choices": ("coupled", "free"), "help": "end joints bound to the middle joints, or free"}),
-    ("hand-length-mm", {"type": number(), "help": "130 a child, 200 a tall man"}),
-    ("skin-glide-mm", {"type": number_or_drawn, "help": "how far skin glides over a knuckle bent by 90, or drawn"}),
+    ("hand-length-mm", {"type": number_type(), "help": "130 a child, 200 a tall man"}),
+    (
+        "skin-glide-mm",
+        {"type": parse_number_or_drawn, "help": "how far skin glides over a knuckle bent by 90, or drawn"},
+    ),
     (
         "cupping",
-        {"type": number_or_drawn, "help": "how far ring and little metacarpal flex in a grip, 0 to 1, or drawn"},
+        {"type": parse_number_or_drawn, "help": "how far ring and little metacarpal flex in a grip, 0 to 1, or drawn"},
     ),
     (
         "habit",
-        {"type": joined((NONE, *HABITS)), "metavar": "HABIT+...", "help": f"with + between: {', '.join(HABITS)}"},
+        {"type": names_type((NONE, *HABITS)), "metavar": "HABIT+...", "help": f"with + between: {', '.join(HABITS)}"},
     ),
     ("anatomy", {"choices": ("usual", "wide"), "help": "wide: other disc heights, palms, discs stuck off"}),
-    ("worn", {"type": joined((NONE, *WORN)), "metavar": "WORN+...", "help": f"with + between: {', '.join(WORN)}"}),
-    ("pen-marks", {"type": whole, "help": "blue dots of a pen on the skin"}),
-    ("skin-tone", {"type": whole, "help": "0 light to 5 dark"}),
-    ("skin-movement-mm", {"type": number(), "help": "how far the WRIST disc slides on the bone"}),
+    (
+        "worn",
+        {
+            "type": names_type((NONE, *WORN_ITEMS)),
+            "metavar": "WORN+...",
+            "help": f"with + between: {', '.join(WORN_ITEMS)}",
+        },
+    ),
+    ("pen-marks", {"type": whole_number, "help": "blue dots of a pen on the skin"}),
+    ("skin-tone", {"type": whole_number, "help": "0 light to 5 dark"}),
+    ("skin-movement-mm", {"type": number_type(), "help": "how far the WRIST disc slides on the bone"}),
     ("light", {"choices": ("drawn", "bright", "normal", "dim"), "help": "of the room"}),
     ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue", "jeans"), "help": "of the clothes"}),
-    ("distance-m", {"type": number(), "help": "camera to hand"}),
-    ("yaw-deg", {"type": number(), "help": "how far the hand is turned in the picture"}),
-    ("tilt-deg", {"type": number(), "help": "how far the hand is tilted to the camera"}),
-    ("tilt-heading-deg", {"type": number(), "help": "0: a side of the hand nearer, -90: its tips"}),
-    ("false-blobs", {"type": number(), "help": "false blue blobs in each picture, on average"}),
-    ("hidden-share", {"type": number(), "help": "share of the time each disc is covered"}),
-    ("dropped-share", {"type": number(), "help": "share of the frames that is missing"}),
-    ("click-error-px", {"type": number(), "help": "how far clicks are off their discs"}),
+    ("distance-m", {"type": number_type(), "help": "camera to hand"}),
+    ("yaw-deg", {"type": number_type(), "help": "how far the hand is turned in the picture"}),
+    ("tilt-deg", {"type": number_type(), "help": "how far the hand is tilted to the camera"}),
+    ("tilt-heading-deg", {"type": number_type(), "help": "0: a side of the hand nearer, -90: its tips"}),
+    ("false-blobs", {"type": number_type(), "help": "false blue blobs in each picture, on average"}),
+    ("hidden-share", {"type": number_type(), "help": "share of the time each disc is covered"}),
+    ("dropped-share", {"type": number_type(), "help": "share of the frames that is missing"}),
+    ("click-error-px", {"type": number_type(), "help": "how far clicks are off their discs"}),
     ("sensor", {"choices": tuple(SENSORS), "help": "whose depth it is"}),
-    ("depth-scale-error", {"type": number(), "help": "largest scale error of the depth"}),
+    ("depth-scale-error", {"type": number_type(), "help": "largest scale error of the depth"}),
 )
 _SWITCHES = {
     "pain-limited": "strokes stop short",
@@ -102,13 +112,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         shown = f"{words} (default {default})".strip() if default is not None else words
         told = {**options, "help": shown}
         if "choices" not in options:
-            told.setdefault("metavar", _UNITS.get(name.rpartition("-")[2], "N"))
+            told.setdefault("metavar", _METAVARS.get(name.rpartition("-")[2], "N"))
         parser.add_argument(f"--{name}", default=default, **told)
     for name, words in _SWITCHES.items():
         parser.add_argument(f"--{name}", action="store_true", help=words)
 
 
-def spec_from(arguments: argparse.Namespace) -> RecordingSpec:
+def build_spec(arguments: argparse.Namespace) -> RecordingSpec:
     """The recording that the options describe."""
     values = {name.replace("-", "_"): getattr(arguments, name.replace("-", "_")) for name, _ in _OPTIONS}
     return RecordingSpec(
@@ -123,7 +133,7 @@ def spec_from(arguments: argparse.Namespace) -> RecordingSpec:
 def run(arguments: argparse.Namespace) -> int:
     from carpus.core.simulation.recording import simulate
 
-    with bar("rendering") as progress:
-        simulate(spec_from(arguments), arguments.output, progress)
+    with progress_bar("rendering") as progress:
+        simulate(build_spec(arguments), arguments.output, progress)
     print(f"Recording: {arguments.output}")
     return 0

@@ -10,39 +10,46 @@ from typing import get_args
 
 import numpy as np
 
-from carpus.app.command_line import bar, count, misused, number, say, tell
-from carpus.app.of_file import note
+from carpus.app.command_line import (
+    count_type,
+    number_type,
+    print_fault,
+    print_message,
+    progress_bar,
+    report_usage_error,
+)
+from carpus.app.of_file import log_session_action
 from carpus.app.settings import load_settings
-from carpus.app.sources import is_many, open_recording, tell_assumed
+from carpus.app.sources import is_batch, open_recording, warn_assumed_intrinsics
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
 from carpus.core.capture.paced import PacedSource
-from carpus.core.capture.source import Recorded
-from carpus.core.dates import iso
+from carpus.core.capture.source import RecordingDate
+from carpus.core.dates import to_iso
 from carpus.core.errors import NameUnsuited, RecordingMissing
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.names import name_of
+from carpus.core.names import normalize_name
 from carpus.core.pipeline.live import Listener
-from carpus.core.pipeline.told_settings import Told, differences
+from carpus.core.pipeline.told_settings import StoredSettings, list_differences
 from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
 from carpus.core.research.papers.chain import PaperSettings
-from carpus.core.research.papers.track import PaperTrackSettings, settings_told
+from carpus.core.research.papers.track import PaperTrackSettings, settings_from_json
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.tracking.settings import Profile
 from carpus.core.version import __version__
 
 EXAMPLE = """carpus track out/demo --calibration out/demo/calibration.json --output out/demo.h5
 carpus track recordings --output sessions"""
-LARGEST_START_DEG = 120.0
-LISTENER_PATIENCE_S = 20.0
+MAX_START_DEG = 120.0
+LISTENER_TIMEOUT_S = 20.0
 EXERCISE_NAMES = tuple(exercise.id for exercise in EXERCISES)
 
 
-def a_pseudonym(text: str) -> str:
+def parse_pseudonym(text: str) -> str:
     """A name that can stand in a list; anything else is wrong usage."""
     try:
-        name = name_of(text)
+        name = normalize_name(text)
     except NameUnsuited:
         name = ""
     if not name:
@@ -50,10 +57,10 @@ def a_pseudonym(text: str) -> str:
     return name
 
 
-def a_moment(text: str) -> str:
+def parse_moment(text: str) -> str:
     """A date, or a date and time, here where no zone is given; anything else is wrong usage."""
     try:
-        return iso(datetime.fromisoformat(text))
+        return to_iso(datetime.fromisoformat(text))
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text} is not a date such as 2023-04-05 or 2023-04-05T14:30") from None
 
@@ -81,19 +88,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="SESSION.h5",
         help="the file to write, never overwritten; of many recordings the folder for their sessions and tables",
     )
-    _add_of_many(parser)
-    _add_method(parser)
-    _add_of_recording(parser)
+    _add_batch_options(parser)
+    _add_method_options(parser)
+    _add_recording_options(parser)
     parser.epilog = (
         "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml,\n"
         "unless an option says otherwise."
     )
 
 
-def _add_of_many(parser: argparse.ArgumentParser) -> None:
+def _add_batch_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--jobs",
-        type=count(1, 1000),
+        type=count_type(1, 1000),
         metavar="N",
         help="of many recordings so many at a time (default: one for each core)",
     )
@@ -106,7 +113,7 @@ def _add_of_many(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--time-limit",
-        type=number(0.1, 45000.0, "minutes"),
+        type=number_type(0.1, 45000.0, "minutes"),
         metavar="MINUTES",
         help="of many recordings: one that takes longer is given up, and told (default: 120)",
     )
@@ -118,7 +125,7 @@ def _add_of_many(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_method(parser: argparse.ArgumentParser) -> None:
+def _add_method_options(parser: argparse.ArgumentParser) -> None:
     """How it is tracked."""
     parser.add_argument(
         "--filter",
@@ -156,17 +163,19 @@ def _add_method(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_of_recording(parser: argparse.ArgumentParser) -> None:
+def _add_recording_options(parser: argparse.ArgumentParser) -> None:
     """What the recording does not say, and whether it is streamed."""
     parser.add_argument(
         "--start-angles",
-        type=number(-LARGEST_START_DEG, LARGEST_START_DEG, "degrees"),
+        type=number_type(-MAX_START_DEG, MAX_START_DEG, "degrees"),
         nargs=3,
         metavar=("DEVIATION", "FLEXION", "PRONOSUPINATION"),
         help="degrees at the first frame, for a hand that cannot lie neutral, the third from palm "
         "down (thumb up is + 90); added to all angles and marked as given",
     )
-    parser.add_argument("--subject", type=a_pseudonym, metavar="PSEUDONYM", help="stored in the session; never a name")
+    parser.add_argument(
+        "--subject", type=parse_pseudonym, metavar="PSEUDONYM", help="stored in the session; never a name"
+    )
     parser.add_argument(
         "--exercise",
         choices=EXERCISE_NAMES,
@@ -176,7 +185,7 @@ def _add_of_recording(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--recorded",
-        type=a_moment,
+        type=parse_moment,
         metavar="DATE",
         help="when the hand moved, as 2023-04-05 or 2023-04-05T14:30, for a recording that does not say",
     )
@@ -188,17 +197,17 @@ def _add_of_recording(parser: argparse.ArgumentParser) -> None:
     )
 
 
-_OF_RECORDINGS = ("calibration", "start_angles", "subject", "exercise", "recorded")
+_RECORDING_OPTIONS = ("calibration", "start_angles", "subject", "exercise", "recorded")
 """Options that a session answers itself."""
-COLOR_ALONE = (
+COLOR_ONLY_WARNING = (
     "Without depth a palm tilted towards the camera looks almost like one tilted away, its mirror image; "
     "check the signs of flexion and pro/supination, or track with depth."
 )
-HAND_COLOR_ALONE = (
+HAND_COLOR_ONLY_WARNING = (
     "Tracking 21 markers without depth is experimental: the picture hardly shows how far a finger that is almost "
     "straight is bent, or to which side; do not rely on these joint angles."
 )
-_NOT_OF_THE_PAPERS = {
+_OPTIONS_WITHOUT_PAPER_FILTER = {
     "--depth": ("depth", True),
     "--dip free": ("dip", "free"),
     "--discs on-skin": ("discs", "on-skin"),
@@ -207,7 +216,7 @@ _NOT_OF_THE_PAPERS = {
 """Options that ask for what the papers' method has not."""
 
 
-def settings_from(arguments: argparse.Namespace, base: TrackSettings) -> TrackSettings:
+def apply_options(arguments: argparse.Namespace, base: TrackSettings) -> TrackSettings:
     """``base`` with what the options say over it; an option that was not given leaves it as it is."""
     tracker = base.tracker
     told = {"profile": arguments.profile, "use_depth": arguments.depth, "dip": arguments.dip}
@@ -217,21 +226,23 @@ def settings_from(arguments: argparse.Namespace, base: TrackSettings) -> TrackSe
     smooth = base.smooth if arguments.smooth is None else arguments.smooth
     paper = base.paper if isinstance(base, PaperTrackSettings) and arguments.filter is None else None
     if arguments.filter == "paper" or (paper is not None and arguments.profile is not None):
-        paper = PaperSettings.for_profile(arguments.profile or "standard")
+        paper = PaperSettings.from_profile(arguments.profile or "standard")
     chosen = TrackSettings(base.detection, base.calibration, tracker, smooth)
-    return chosen if paper is None else PaperTrackSettings.over(chosen, paper)
+    return chosen if paper is None else PaperTrackSettings.from_base(chosen, paper)
 
 
-def not_of_the_papers(arguments: argparse.Namespace) -> list[str]:
+def find_options_without_paper_filter(arguments: argparse.Namespace) -> list[str]:
     """Options given that the papers' method could only pass over."""
-    return [option for option, (name, value) in _NOT_OF_THE_PAPERS.items() if getattr(arguments, name) == value]
+    return [
+        option for option, (name, value) in _OPTIONS_WITHOUT_PAPER_FILTER.items() if getattr(arguments, name) == value
+    ]
 
 
-def _refused(arguments: argparse.Namespace, settings: TrackSettings) -> bool:
+def _has_conflict(arguments: argparse.Namespace, settings: TrackSettings) -> bool:
     """Whether the options contradict each other, told on stderr."""
-    told = not_of_the_papers(arguments) if isinstance(settings, PaperTrackSettings) else []
+    told = find_options_without_paper_filter(arguments) if isinstance(settings, PaperTrackSettings) else []
     if told:
-        misused(
+        report_usage_error(
             "track",
             f"the papers' method works by colour alone on the papers' chain and does not look back; "
             f"leave out {' and '.join(told)}.",
@@ -241,45 +252,45 @@ def _refused(arguments: argparse.Namespace, settings: TrackSettings) -> bool:
 
 def run(arguments: argparse.Namespace) -> int:
     named = arguments.recording
-    if is_many(named, arguments.output):
+    if is_batch(named, arguments.output):
         if arguments.stream:
-            return misused("track", "--stream is for one recording; leave it out.")
-        return _many(named, arguments)
+            return report_usage_error("track", "--stream is for one recording; leave it out.")
+        return _track_many(named, arguments)
     of_many = [name for name in ("jobs", "scheduler", "table", "time_limit") if getattr(arguments, name) is not None]
     if of_many:
-        return misused("track", f"--{of_many[0].replace('_', '-')} is for many recordings; leave it out.")
+        return report_usage_error("track", f"--{of_many[0].replace('_', '-')} is for many recordings; leave it out.")
     arguments.recording = named[0]
     is_session = arguments.recording.suffix == ".h5" and arguments.recording.is_file()
-    settings = settings_from(arguments, TrackSettings() if is_session else load_settings().track)
+    settings = apply_options(arguments, TrackSettings() if is_session else load_settings().track)
     if not settings.uses_depth:
-        say(COLOR_ALONE)
+        print_message(COLOR_ONLY_WARNING)
     if not arguments.recording.exists():
         raise RecordingMissing(arguments.recording)
     if is_session:
-        return _again(arguments, was_told=not settings.uses_depth)
+        return _retrack_session(arguments, was_warned=not settings.uses_depth)
     if arguments.calibration is None:
-        return misused("track", "a recording needs --calibration CLICKS.json.")
-    return 2 if _refused(arguments, settings) else _recording(arguments, settings)
+        return report_usage_error("track", "a recording needs --calibration CLICKS.json.")
+    return 2 if _has_conflict(arguments, settings) else _track_recording(arguments, settings)
 
 
-def _recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
+def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
     """One recording, from its first picture to its last."""
     source = open_recording(
         arguments.recording,
         leave_out_damaged=arguments.leave_out_damaged,
         data_folder=load_settings().data_folder,
-        notice=tell,
+        notice=print_fault,
     )
     if arguments.stream:
         source = PacedSource(source)
     try:
         camera = source.info.camera
-        tell_assumed(source, arguments.recording, tell)
+        warn_assumed_intrinsics(source, arguments.recording, print_fault)
         clicks = read_clicks(arguments.calibration, camera.width_px, camera.height_px)
         warn_of_experiment(settings, clicks.protocol)
-        listener = _stream(clicks, source.info.nominal_fps, settings) if arguments.stream else None
+        listener = _open_stream(clicks, source.info.nominal_fps, settings) if arguments.stream else None
         start = None if arguments.start_angles is None else np.radians(arguments.start_angles)
-        with bar("tracking") as progress:
+        with progress_bar("tracking") as progress:
             report = track_recording(
                 source,
                 clicks,
@@ -289,10 +300,10 @@ def _recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
                 exercise=arguments.exercise,
                 start_angles_rad=start,
                 progress=progress,
-                on_verdict=warn,
-                recorded=Recorded(arguments.recorded, "asked") if arguments.recorded else None,
+                on_verdict=warn_of_findings,
+                recorded=RecordingDate(arguments.recorded, "asked") if arguments.recorded else None,
                 path=arguments.recording,
-                on_date=say_doubtful_date,
+                on_date=warn_of_date,
                 listener=listener,
             )
     finally:
@@ -301,64 +312,64 @@ def _recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
     return 0
 
 
-def _stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener:
+def _open_stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener:
     """The open stream of a hand, once somebody listens, though not waited for without end."""
-    from carpus.core.pipeline.stream import SampleStream, library
+    from carpus.core.pipeline.stream import SampleStream, import_pylsl
 
     begun_s: list[float] = []
-    stream = SampleStream.of_hand(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
-    if not stream.wait_for_listener(LISTENER_PATIENCE_S):
-        say("nobody listens to the stream; it goes on.")
-    begun_s.append(library().local_clock())
+    stream = SampleStream.open(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
+    if not stream.has_listener(LISTENER_TIMEOUT_S):
+        print_message("nobody listens to the stream; it goes on.")
+    begun_s.append(import_pylsl().local_clock())
     return stream
 
 
-def _many(named: list[Path], arguments: argparse.Namespace) -> int:
+def _track_many(named: list[Path], arguments: argparse.Namespace) -> int:
     """All that is named, into a folder."""
     usual = load_settings().track
-    chosen = settings_from(arguments, usual)
-    if _refused(arguments, chosen):
+    chosen = apply_options(arguments, usual)
+    if _has_conflict(arguments, chosen):
         return 2
     if not chosen.uses_depth:
-        say(COLOR_ALONE)
+        print_message(COLOR_ONLY_WARNING)
     from carpus.app.commands.track_many import run_many
 
-    return run_many(named, arguments.output, arguments, usual, lambda base: settings_from(arguments, base))
+    return run_many(named, arguments.output, arguments, usual, lambda base: apply_options(arguments, base))
 
 
-def _again(arguments: argparse.Namespace, *, was_told: bool) -> int:
+def _retrack_session(arguments: argparse.Namespace, *, was_warned: bool) -> int:
     """A session tracked again: as it was, and what differs is said."""
-    given = [f"--{name.replace('_', '-')}" for name in _OF_RECORDINGS if getattr(arguments, name)]
+    given = [f"--{name.replace('_', '-')}" for name in _RECORDING_OPTIONS if getattr(arguments, name)]
     if given:
-        return misused("track", f"a session brings its own; leave out {' and '.join(given)}.")
+        return report_usage_error("track", f"a session brings its own; leave out {' and '.join(given)}.")
     header = read_outline(arguments.recording).header
-    before = settings_told(header.parameters)
-    settings = settings_from(arguments, before.settings if before else load_settings().track)
-    if _refused(arguments, settings):
+    before = settings_from_json(header.parameters)
+    settings = apply_options(arguments, before.settings if before else load_settings().track)
+    if _has_conflict(arguments, settings):
         return 2
-    if not settings.uses_depth and not was_told:
-        say(COLOR_ALONE)
+    if not settings.uses_depth and not was_warned:
+        print_message(COLOR_ONLY_WARNING)
     warn_of_experiment(settings, header.protocol)
-    with bar("tracking again") as progress:
+    with progress_bar("tracking again") as progress:
         report = retrack_session(
             arguments.recording,
             arguments.output,
             settings,
             progress=progress,
-            on_verdict=warn,
+            on_verdict=warn_of_findings,
         )
-    note("tracked_again", arguments.recording, header.session_id)
+    log_session_action("tracked_again", arguments.recording, header.session_id)
     print_report(report)
     print(f"Origin: session {header.session_id}, of recording {header.recording_id}")
-    for line in _what_differs(before, settings, header.software_version):
+    for line in _describe_differences(before, settings, header.software_version):
         print(line)
     return 0
 
 
-def _what_differs(before: Told | None, settings: TrackSettings, version: str) -> list[str]:
+def _describe_differences(before: StoredSettings | None, settings: TrackSettings, version: str) -> list[str]:
     if before is None:
         return ["Settings: the session does not say with which it was tracked; your own were used"]
-    changed = differences(before.settings, settings)
+    changed = list_differences(before.settings, settings)
     if version != __version__:
         changed.append(f"software {__version__} (was {version})")
     if before.unknown:
@@ -366,30 +377,30 @@ def _what_differs(before: Told | None, settings: TrackSettings, version: str) ->
     return [f"Differs: {change}" for change in changed] or ["Differs: nothing, same settings as before"]
 
 
-def say_doubtful_date(recorded: Recorded | None) -> None:
+def warn_of_date(recorded: RecordingDate | None) -> None:
     """Say on stderr where a session's date is only that of a file."""
-    if recorded is None or recorded.said_by == "file":
-        day = "unknown" if recorded is None else f"taken from its file ({recorded.when[:10]})"
-        say(f"the recording does not say when the hand moved: {day}; --recorded DATE says it.")
+    if recorded is None or recorded.source == "file":
+        day = "unknown" if recorded is None else f"taken from its file ({recorded.time[:10]})"
+        print_message(f"the recording does not say when the hand moved: {day}; --recorded DATE says it.")
 
 
 def warn_of_experiment(settings: TrackSettings, protocol: MarkerProtocol) -> None:
     """Say on stderr that fingers by colour alone are an experiment."""
     if protocol.has_fingers and not settings.uses_depth:
-        say(HAND_COLOR_ALONE)
+        print_message(HAND_COLOR_ONLY_WARNING)
 
 
-def warn(verdict: Verdict) -> None:
+def warn_of_findings(verdict: Verdict) -> None:
     """Say on stderr what is doubtful about a calibration."""
     for finding in verdict.findings:
         if finding.blocks:
             continue  # this ends the command, and is said there
-        say(f"warning: {finding_sentence(finding)}")
+        print_message(f"warning: {finding_sentence(finding)}")
 
 
 def print_report(report: TrackReport) -> None:
     """Where the session is and its main figures."""
-    from carpus.core.results.figures import session_figures  # all measures: nobody waits for them at the start
+    from carpus.core.results.figures import compute_session_results  # all measures: nobody waits for them at the start
     from carpus.core.results.session_lines import range_lines
 
     print(f"Session: {report.output}")
@@ -398,5 +409,5 @@ def print_report(report: TrackReport) -> None:
         f"Frames: {report.frames}, tracked {report.tracked}, predicted {report.predicted}, lost {report.lost}{doubtful}"
     )
     session = read_session(report.output)
-    for line in range_lines(session, session_figures(session)):
+    for line in range_lines(session, compute_session_results(session)):
         print(line.strip())

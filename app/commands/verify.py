@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import bar, tell
-from carpus.app.of_file import data_folder_of, note
-from carpus.core.errors import CarpusFault, PicturesLost, RecordingDamaged, RecordingMissing
+from carpus.app.command_line import print_fault, progress_bar
+from carpus.app.of_file import find_data_folder, log_session_action
+from carpus.core.errors import CarpusFault, DamagedFramesExcluded, RecordingDamaged, RecordingMissing
 from carpus.core.session.reader import read_outline, verify
 
 EXAMPLE = "carpus verify session.h5"
@@ -25,17 +25,17 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingMissing(path)
     if path.suffix in {".h5", ".part"}:
         found = verify(path)
-        if data_folder_of(path) is not None:
-            note("opened", path, read_outline(path).header.session_id)
-        if found.sealed:
+        if find_data_folder(path) is not None:
+            log_session_action("opened", path, read_outline(path).header.session_id)
+        if found.has_checksum:
             print(f"Whole and unchanged since it was finished: {path} ({found.frames} frames).")
         else:
             print(f"Whole: {path} ({found.frames} frames). It has no seal, so whether it was changed is not known.")
         return 0
-    return _recording(path)
+    return _verify_recording(path)
 
 
-def _recording(path: Path) -> int:
+def _verify_recording(path: Path) -> int:
     """Decode every picture; a recording has check sums of its own at most, and no seal."""
     from carpus.app.sources import open_recording
 
@@ -43,15 +43,15 @@ def _recording(path: Path) -> int:
     source = open_recording(path, need_depth=False, notice=told.append)
     frames = 0
     try:
-        with bar("reading") as progress:
+        with progress_bar("reading") as progress:
             for frame in source.frames():
                 frames = frame.index + 1
                 progress(frames, source.info.frame_count)
     finally:
         source.close()
-    damage = [fault for fault in told if isinstance(fault, (PicturesLost, RecordingDamaged))]
+    damage = [fault for fault in told if isinstance(fault, (DamagedFramesExcluded, RecordingDamaged))]
     for fault in damage:
-        tell(fault)
+        print_fault(fault)
     if damage:
         return 1
     if source.info.settings.get("complete", "").startswith("no"):

@@ -11,11 +11,11 @@ from PySide6.QtCore import QLockFile
 from PySide6.QtNetwork import QLocalServer, QLocalSocket
 
 LOCK_FILE = "carpus.lock"
-PATIENCE_MS = 500
+TIMEOUT_MS = 500
 
 
-class Alone:
-    """Holds a data folder for this process until :meth:`let_go`."""
+class SingleInstance:
+    """Holds a data folder for this process until :meth:`release`."""
 
     def __init__(self, folder: Path) -> None:
         self._name = "carpus-" + hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:16]
@@ -23,26 +23,26 @@ class Alone:
         self._lock.setStaleLockTime(0)  # held as long as its process lives, however long that is
         self._server: QLocalServer | None = None
 
-    def take(self) -> bool:
+    def acquire(self) -> bool:
         """Whether no other Carpus has the folder. Where no lock can be written, what opens the folder tells why."""
         return self._lock.tryLock(0) or self._lock.error() != QLockFile.LockError.LockFailedError
 
-    def listen(self, called: Callable[[Path | None], None]) -> None:
-        """From now on a second Carpus that calls makes ``called`` happen, with the file that it was to open."""
+    def listen(self, on_request: Callable[[Path | None], None]) -> None:
+        """From now on a second Carpus that calls makes ``on_request`` happen, with the file that it was to open."""
         QLocalServer.removeServer(self._name)  # of a process that was ended by force
         self._server = QLocalServer()
         self._server.setSocketOptions(QLocalServer.SocketOption.UserAccessOption)
-        self._server.newConnection.connect(lambda: self._answer(called))
+        self._server.newConnection.connect(lambda: self._accept_connections(on_request))
         self._server.listen(self._name)
 
-    def _answer(self, called: Callable[[Path | None], None]) -> None:
+    def _accept_connections(self, on_request: Callable[[Path | None], None]) -> None:
         assert self._server is not None
         while (caller := self._server.nextPendingConnection()) is not None:
-            caller.readyRead.connect(lambda caller=caller: self._hear(caller, called))
+            caller.readyRead.connect(lambda caller=caller: self._read_request(caller, on_request))
             caller.disconnected.connect(caller.deleteLater)
-            self._hear(caller, called)  # what came before anybody listened
+            self._read_request(caller, on_request)  # what came before anybody listened
 
-    def _hear(self, caller: QLocalSocket, called: Callable[[Path | None], None]) -> None:
+    def _read_request(self, caller: QLocalSocket, on_request: Callable[[Path | None], None]) -> None:
         """One line: the path, or nothing."""
         if not caller.canReadLine():
             return
@@ -50,20 +50,20 @@ class Alone:
         caller.write(b"here")
         caller.flush()
         caller.disconnectFromServer()
-        called(Path(path) if path else None)
+        on_request(Path(path) if path else None)
 
-    def call_first(self, session: Path | None = None) -> bool:
+    def notify_running_instance(self, session: Path | None = None) -> bool:
         """Ask the Carpus that has the folder to come to the front and to open a file; whether it answered."""
         socket = QLocalSocket()
         socket.connectToServer(self._name)
-        answered = socket.waitForConnected(PATIENCE_MS)
+        answered = socket.waitForConnected(TIMEOUT_MS)
         if answered:
             socket.write((b"" if session is None else os.fsencode(session)) + b"\n")
-            answered = socket.waitForReadyRead(PATIENCE_MS)
+            answered = socket.waitForReadyRead(TIMEOUT_MS)
         socket.abort()
         return bool(answered)
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """May be called twice."""
         if self._server is not None:
             self._server.close()

@@ -7,31 +7,32 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate, compared_with_last_time
-from carpus.core.calibration.candidates import disc_at, marker_candidates, snapped
-from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand, check_hand_length
+from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, nearest_blob
+from carpus.core.calibration.naming import propose_labels
 from carpus.core.calibration.result import ALL_STRAIGHT, Calibration, Clicks
 from carpus.core.camera import Camera
-from carpus.core.detection.appearance import expected_radius_px
+from carpus.core.detection.appearance import estimate_radius_px
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.types import Detections, FloatArray, Frame, Side
-from carpus.ui.ports import FoundMarker, Judged, ProposedMarker, VerdictLimits
+from carpus.ui.ports import CalibrationAssessment, CalibrationLimits, FoundMarker, LabelProposal
 
-SAME_DISC_PX = 3.0
+SAME_MARKER_PX = 3.0
 """Nearer than this two places are the same disc."""
 
-Begin = Callable[[CalibrationOutcome, Sequence[Frame]], None]
+BeginTracking = Callable[[CalibrationOutcome, Sequence[Frame]], None]
 """Called with the chosen outcome and the pictures it was made from, the clicked one first."""
 
 
 @dataclass(frozen=True, slots=True)
-class Pictures:
-    """Where the calibration's pictures come from; ``still``: the picture to click on, then its neighbours in time."""
+class CalibrationFrames:
+    """Where the calibration's pictures come from; ``still_frames``: the picture to click on, then its neighbours in
+    time."""
 
     is_live: bool
-    newest: Callable[[], Frame | None]
-    still: Callable[[], Sequence[Frame]]
+    current_frame: Callable[[], Frame | None]
+    still_frames: Callable[[], Sequence[Frame]]
 
 
 class HandCalibrator:
@@ -42,19 +43,19 @@ class HandCalibrator:
 
     def __init__(
         self,
-        pictures: Pictures,
+        frames: CalibrationFrames,
         camera: Camera,
         side: Side,
         protocol: MarkerProtocol,
         settings: TrackSettings,
-        begin: Begin,
+        begin_tracking: BeginTracking,
         last_length_mm: float = float("nan"),
         last_straight_fingers: tuple[bool, ...] = ALL_STRAIGHT,
     ) -> None:
         self._last_straight_fingers = last_straight_fingers
-        self._pictures, self._camera, self._settings, self._begin = pictures, camera, settings, begin
+        self._frames, self._camera, self._settings, self._begin_tracking = frames, camera, settings, begin_tracking
         self._side, self._protocol, self._last_length_mm = side, protocol, last_length_mm
-        self._held: Sequence[Frame] = ()
+        self._held_frames: Sequence[Frame] = ()
         self._candidates = Detections.none()
         self._outcomes: list[tuple[CalibrationOutcome, Sequence[Frame]]] = []
 
@@ -67,36 +68,36 @@ class HandCalibrator:
         return self._protocol
 
     @property
-    def limits(self) -> VerdictLimits:
+    def limits(self) -> CalibrationLimits:
         limits = self._settings.calibration
-        return VerdictLimits(
+        return CalibrationLimits(
             limits.least_distance_m, limits.most_tilt_deg, limits.most_residual_mm, limits.hand_length_mm
         )
 
     @property
-    def last_straight_fingers(self) -> tuple[bool, ...]:
+    def previous_straight_fingers(self) -> tuple[bool, ...]:
         """What was said of this hand last time, thumb to little."""
         return self._last_straight_fingers
 
     @property
     def is_live(self) -> bool:
-        return self._pictures.is_live
+        return self._frames.is_live
 
-    def newest_frame(self) -> Frame | None:
-        return self._pictures.newest()
+    def current_frame(self) -> Frame | None:
+        return self._frames.current_frame()
 
-    def hold(self) -> Frame:
+    def freeze_frame(self) -> Frame:
         """Fix the picture, and find all blue discs on it, so that clicks snap at once."""
-        self._held = tuple(self._pictures.still())
+        self._held_frames = tuple(self._frames.still_frames())
         settings = self._settings
-        self._candidates = marker_candidates(self._held[0], self._camera, settings.detection)
-        return self._held[0]
+        self._candidates = find_marker_candidates(self._held_frames[0], self._camera, settings.detection)
+        return self._held_frames[0]
 
-    def discs_seen(self) -> int:
+    def count_candidates(self) -> int:
         """How many spots of the held picture look like discs of paper."""
         return len(self._candidates)
 
-    def discs_px(self) -> FloatArray:
+    def candidate_px(self) -> FloatArray:
         return self._candidates.pixel
 
     def hand_area(self) -> FloatArray | None:
@@ -105,45 +106,45 @@ class HandCalibrator:
             return None
         return np.stack((self._candidates.pixel.min(axis=0), self._candidates.pixel.max(axis=0)))
 
-    def marker_at(self, pixel: FloatArray) -> FoundMarker | None:
-        if not self._held:
+    def find_marker(self, pixel: FloatArray) -> FoundMarker | None:
+        if not self._held_frames:
             return None
-        frame, detection = self._held[0], self._settings.detection
-        radius_px = expected_radius_px(frame, pixel, self._camera, detection)
-        found = snapped(self._candidates, pixel, radius_px, detection)
+        frame, detection = self._held_frames[0], self._settings.detection
+        radius_px = estimate_radius_px(frame, pixel, self._camera, detection)
+        found = nearest_blob(self._candidates, pixel, radius_px, detection)
         if not len(found):
-            found = disc_at(frame, pixel, self._camera, detection)
+            found = find_marker_at_click(frame, pixel, self._camera, detection)
         if not len(found):
             return None
         return FoundMarker(found.pixel[0], _width_px(found, 0))
 
-    def propose(self, named: Mapping[str, FloatArray]) -> Mapping[str, ProposedMarker]:
+    def propose_labels(self, named: Mapping[str, FloatArray]) -> Mapping[str, LabelProposal]:
         """Names for the discs found when the picture was held."""
         blobs, markers = self._candidates, self._protocol.markers
         known: dict[int, int] = {}
         for name, pixel in named.items():
             distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
-            if distance.size and distance.min() < SAME_DISC_PX:
+            if distance.size and distance.min() < SAME_MARKER_PX:
                 known[markers.index(name)] = int(distance.argmin())
-        found = propose_names(blobs, self._camera, self._side, self._protocol, known)
+        found = propose_labels(blobs, self._camera, self._side, self._protocol, known)
         return {
-            name: ProposedMarker(blobs.pixel[blob], _width_px(blobs, blob), bool(is_sure))
+            name: LabelProposal(blobs.pixel[blob], _width_px(blobs, blob), bool(is_sure))
             for name, blob, is_sure in zip(markers, found.blob.tolist(), found.is_sure, strict=True)
             if blob >= 0 and name not in named
         }
 
-    def judge(self, clicks: Clicks, start_angles_rad: FloatArray) -> Judged:
+    def assess(self, clicks: Clicks, start_angles_rad: FloatArray) -> CalibrationAssessment:
         """Measure and judge; called in the background."""
-        held, settings = self._held, self._settings
-        outcome = calibrate(clicks, held, self._camera, settings.calibration, settings.detection, start_angles_rad)
-        outcome = compared_with_last_time(outcome, self._last_length_mm)
+        held, settings = self._held_frames, self._settings
+        outcome = calibrate_hand(clicks, held, self._camera, settings.calibration, settings.detection, start_angles_rad)
+        outcome = check_hand_length(outcome, self._last_length_mm)
         self._outcomes.append((outcome, held))
-        return Judged(outcome.verdict, outcome.calibration)
+        return CalibrationAssessment(outcome.verdict, outcome.calibration)
 
-    def begin(self, calibration: Calibration) -> None:
+    def start_tracking(self, calibration: Calibration) -> None:
         """Start tracking from one of the calibrations judged here."""
         outcome, held = next(pair for pair in reversed(self._outcomes) if pair[0].calibration is calibration)
-        self._begin(outcome, held)
+        self._begin_tracking(outcome, held)
 
 
 def _width_px(blobs: Detections, number: int) -> float:

@@ -12,7 +12,7 @@ from types import TracebackType
 
 import platformdirs
 
-from carpus.core.durable import make_private
+from carpus.core.durable import make_private_folder
 from carpus.core.errors import CarpusFault
 
 SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
@@ -20,47 +20,47 @@ SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
 LOG_FILE, LOG_BYTES = "carpus.log", 1_000_000
 
 
-class NobodysLines(logging.Formatter):
+class RedactingFormatter(logging.Formatter):
     """Lines of the log without pseudonyms: the names of patients' folders and files are cut out of every path."""
 
     def __init__(self) -> None:
         super().__init__("%(asctime)s %(name)s %(levelname)s %(message)s")
-        self.names: Callable[[], Sequence[str]] = lambda: ()
+        self.find_pseudonyms: Callable[[], Sequence[str]] = lambda: ()
         """What else must not be in the log: asked for each line, of which there are few."""
 
     def format(self, record: logging.LogRecord) -> str:
         text = SESSION_PATH.sub("…", super().format(record))
-        for name in self.names():
+        for name in self.find_pseudonyms():
             text = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", "…", text, flags=re.IGNORECASE)
         return text
 
 
-LINES = NobodysLines()
+LOG_FORMATTER = RedactingFormatter()
 
 
-def write_log() -> None:
+def start_log() -> None:
     """Log into the user's own folder; where that cannot be written there is no log."""
     folder = Path(platformdirs.user_log_dir("carpus", appauthor=False))
     handler: logging.Handler
     try:
-        make_private(folder)
+        make_private_folder(folder)
         for old in folder.glob(f"{LOG_FILE}*"):
             old.chmod(0o600)
         handler = RotatingFileHandler(folder / LOG_FILE, maxBytes=LOG_BYTES, backupCount=2, encoding="utf-8")
     except (OSError, CarpusFault):
         handler = logging.NullHandler()
     logging.raiseExceptions = False  # a full disk costs lines of the log, and nothing else
-    handler.setFormatter(LINES)
+    handler.setFormatter(LOG_FORMATTER)
     logging.basicConfig(level=logging.INFO, handlers=[handler])
     logging.getLogger("alembic").setLevel(logging.WARNING)  # how the store is set up says nothing to a person
 
 
-def speak_in_the_window(tell: Callable[[Exception], None]) -> None:
+def show_uncaught_errors(show_error: Callable[[Exception], None]) -> None:
     """From now on what nobody caught becomes a message and a line in the log, never a traceback."""
 
     def hook(kind: type[BaseException], value: BaseException, trace: TracebackType | None) -> None:
         logging.getLogger("carpus").error("uncaught", exc_info=(kind, value, trace))
         if isinstance(value, Exception):
-            tell(value)
+            show_error(value)
 
     sys.excepthook = hook

@@ -10,27 +10,27 @@ from carpus.app.settings import Settings
 from carpus.core.version import __version__
 from carpus.ui import language
 from carpus.ui.fonts import load_fonts
-from carpus.ui.icons import program_icon
+from carpus.ui.icons import program_icon_image
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme, ThemeName
 
 
-def application(arguments: list[str]) -> QApplication:
+def create_application(arguments: list[str]) -> QApplication:
     """The Qt application, with the bundled typeface and the plain style under the design."""
     running = QApplication.instance()
     qt = running if isinstance(running, QApplication) else QApplication(arguments)
     qt.setApplicationName("Carpus")
     qt.setDesktopFileName("carpus")
     qt.setApplicationVersion(__version__)
-    qt.setWindowIcon(QPixmap.fromImage(program_icon(256)))
+    qt.setWindowIcon(QPixmap.fromImage(program_icon_image(256)))
     qt.setStyle("Fusion")
     load_fonts()
     return qt
 
 
-def dressed(qt: QApplication, settings: Settings) -> Theme:
+def apply_appearance(qt: QApplication, settings: Settings) -> Theme:
     """Language, theme and style as chosen."""
-    language.speak(settings.screen.language)
+    language.set_window_language(settings.screen.language)
     theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
     apply_style(qt, theme)
     return theme

@@ -6,38 +6,40 @@ from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QObject, Signal
 
-from carpus.app.desktop.journey import Journey
+from carpus.app.desktop.journey import MainController
 from carpus.core.records.library import Library
 
 
-class OpeningsLogged(QObject):
+class AccessLogger(QObject):
     """Watches the journey; changes nothing of it."""
 
-    log_lost = Signal(object)
+    log_failed = Signal(object)
     """Something could not be written into the log, from whatever thread."""
 
-    def __init__(self, journey: Journey, library: Library) -> None:
+    def __init__(self, journey: MainController, library: Library) -> None:
         super().__init__(journey)
-        self._now_beside: Callable[[], Sequence[str]] = lambda: sorted(journey.beside.screen.ids)
-        self._now, self._library = journey.now, library
-        self._seen = ("", "")
-        self.log_lost.connect(journey.messages.fault)
-        library.log_fault = self.log_lost.emit
-        journey.way.arrived.connect(self._arrived)
+        self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(journey.beside.screen.session_ids)
+        self._current, self._library = journey.current, library
+        self._last_access = ("", "")
+        self.log_failed.connect(journey.messages.show_fault)
+        library.on_fault = self.log_failed.emit
+        journey.navigator.screen_changed.connect(self._log_access)
 
-    def _arrived(self, place: str) -> None:
-        patient = self._now.patient
-        if place == "review" and self._is_new(place, self._now.session_id):
-            self._library.notes.session("opened", self._now.session_id)
+    def _log_access(self, place: str) -> None:
+        patient = self._current.patient
+        if place == "review" and self._is_new_access(place, self._current.session_id):
+            self._library.audit_log.log_session("opened", self._current.session_id)
         elif place == "beside":
-            for session_id in self._now_beside() if self._is_new(place, " ".join(self._now_beside())) else ():
-                self._library.notes.session("opened", session_id)
-        elif place == "progress" and patient is not None and self._is_new(place, patient.patient_id):
-            self._library.notes.patient("opened", patient.patient_id)
+            for session_id in (
+                self._find_compared_ids() if self._is_new_access(place, " ".join(self._find_compared_ids())) else ()
+            ):
+                self._library.audit_log.log_session("opened", session_id)
+        elif place == "progress" and patient is not None and self._is_new_access(place, patient.patient_id):
+            self._library.audit_log.log_patient("opened", patient.patient_id)
         elif place == "patients":
-            self._seen = ("", "")
+            self._last_access = ("", "")
 
-    def _is_new(self, place: str, identity: str) -> bool:
+    def _is_new_access(self, place: str, identity: str) -> bool:
         """Not only back from the help."""
-        before, self._seen = self._seen, (place, identity)
-        return before != self._seen
+        before, self._last_access = self._last_access, (place, identity)
+        return before != self._last_access

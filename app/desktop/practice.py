@@ -14,13 +14,13 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import FrameSource
 from carpus.core.errors import CarpusFault
-from carpus.core.records.set_up import PRACTICE_REPETITIONS, SetUp
+from carpus.core.records.set_up import PRACTICE_REPETITIONS, SessionSetup
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.ui.opening import NobodyWaitsError, Progress
+from carpus.ui.opening import OpeningCancelledError, Progress
 
 _SPEED_HZ, _RANGE_SHARE, _SECONDS = 0.4, 0.8, 9.0
-_OTHERWISE: dict[str, dict[str, Any]] = {
+_MOTION_OVERRIDES: dict[str, dict[str, Any]] = {
     "opposition": {"seconds": 11.5, "repetitions": 4, "range_share": 1.0},
     "reach_grasp": {"speed_hz": 0.3, "repetitions": 2, "range_share": 0.6},
 }
@@ -32,14 +32,14 @@ _TILT_DEG, _HAND_TILT_DEG = 4.0, {"right": 11.0, "left": 8.0}
 _READ_AHEAD = 8
 
 
-def practice_spec(set_up: SetUp) -> RecordingSpec:
+def practice_spec(set_up: SessionSetup) -> RecordingSpec:
     """A short take: three repetitions, now and then a hidden marker, a false blue spot."""
     exercise = set_up.exercise
     usual = RecordingSpec(
         seed=5,
         hand=set_up.side,
         protocol=set_up.protocol.name,
-        motion=exercise.motion,
+        motion=exercise.simulated_motion,
         seconds=_SECONDS,
         fps=_FPS,
         speed_hz=_SPEED_HZ,
@@ -54,79 +54,79 @@ def practice_spec(set_up: SetUp) -> RecordingSpec:
         tilt_deg=_HAND_TILT_DEG[set_up.side] if set_up.protocol.has_fingers else _TILT_DEG,
         hidden_share=0.02,
     )
-    return replace(usual, **_OTHERWISE.get(exercise.motion, {}))
+    return replace(usual, **_MOTION_OVERRIDES.get(exercise.simulated_motion, {}))
 
 
-def practice_times(set_up: SetUp) -> int:
+def practice_play_count(set_up: SessionSetup) -> int:
     """How often the take is played until the patient has done what is asked."""
     return max(1, math.ceil(set_up.repetitions / (practice_spec(set_up).repetitions or 1)))
 
 
-def practice_take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
+def render_practice(set_up: SessionSetup, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
     """The take as a source, and how long it is still at its start."""
-    from carpus.core.simulation.recording import cached_recording
+    from carpus.core.simulation.recording import render_cached
 
-    folder = cached_recording(practice_spec(set_up), progress, workers=os.cpu_count() or 1)
+    folder = render_cached(practice_spec(set_up), progress, workers=os.cpu_count() or 1)
     return TumFolder(folder, read_ahead=_READ_AHEAD), STILL_S - 1.0 / _FPS
 
 
-def practice_beginning(set_up: SetUp) -> tuple[FrameSource, float] | None:
+def render_practice_start(set_up: SessionSetup) -> tuple[FrameSource, float] | None:
     """The same hand in the same place, as long as it is still; None where the whole take was drawn before."""
-    from carpus.core.simulation.recording import FirstPictures, is_cached
+    from carpus.core.simulation.recording import SimulatedSource, is_cached
 
     if is_cached(practice_spec(set_up)):
         return None
-    return FirstPictures(practice_spec(set_up), STILL_S), STILL_S - 1.0 / _FPS
+    return SimulatedSource(practice_spec(set_up), STILL_S), STILL_S - 1.0 / _FPS
 
 
-class TakesDrawn:
+class PracticeRenderer:
     """Draws the practice patient's takes one after the other, in a thread of its own that ends with the patient."""
 
     def __init__(
         self,
         patient: PracticeSource,
-        draw: Callable[[SetUp, Progress], tuple[FrameSource, float]],
-        set_ups: Mapping[str, SetUp],
-        drawn: Mapping[str, FrameSource],
+        render: Callable[[SessionSetup, Progress], tuple[FrameSource, float]],
+        set_ups: Mapping[str, SessionSetup],
+        rendered: Mapping[str, FrameSource],
         progress: Progress,
-        tell: Callable[[Exception], None],
+        on_fault: Callable[[Exception], None],
     ) -> None:
-        self._patient, self._draw, self._set_ups = patient, draw, set_ups
-        self._progress, self._tell = progress, tell
-        self._drawn = dict(drawn)
-        self._chosen = next(iter(set_ups))
-        self._turn = threading.Lock()
+        self._patient, self._render, self._set_ups = patient, render, set_ups
+        self._progress, self._on_fault = progress, on_fault
+        self._rendered = dict(rendered)
+        self._chosen_exercise = next(iter(set_ups))
+        self._lock = threading.Lock()
 
     def start(self) -> None:
         """Begin with what is not there yet."""
-        if len(self._drawn) < len(self._set_ups):
+        if len(self._rendered) < len(self._set_ups):
             # No daemon: one that still draws while the program ends would be cut off in the middle, which aborts it.
             threading.Thread(target=self._run, name="practice takes", daemon=False).start()
 
     def choose(self, exercise: str) -> None:
         """The exercise that the patient does next, as soon as it is drawn."""
-        with self._turn:
-            self._chosen = exercise
-            self._patient.play_next(self._drawn.get(exercise))
+        with self._lock:
+            self._chosen_exercise = exercise
+            self._patient.set_next_recording(self._rendered.get(exercise))
 
     def _run(self) -> None:
-        self._patient.shown.wait()  # the first picture before all others: drawing takes every core
+        self._patient.still_hand_shown.wait()  # the first picture before all others: drawing takes every core
         try:
             for name, set_up in self._set_ups.items():
-                if name in self._drawn:
+                if name in self._rendered:
                     continue
-                self._on_the_way(0, 1)
-                take, _ = self._draw(set_up, self._on_the_way)
-                with self._turn:
-                    self._drawn[name] = take
-                    if name == self._chosen:
-                        self._patient.play_next(take)
-        except NobodyWaitsError:
+                self._report_progress(0, 1)
+                take, _ = self._render(set_up, self._report_progress)
+                with self._lock:
+                    self._rendered[name] = take
+                    if name == self._chosen_exercise:
+                        self._patient.set_next_recording(take)
+        except OpeningCancelledError:
             return
         except CarpusFault as fault:
-            self._tell(fault)
+            self._on_fault(fault)
 
-    def _on_the_way(self, done: int, total: int) -> None:
+    def _report_progress(self, done: int, total: int) -> None:
         if self._patient.is_closed:
-            raise NobodyWaitsError
+            raise OpeningCancelledError
         self._progress(done, total)

@@ -11,11 +11,11 @@ from PySide6.QtCore import QObject
 from carpus.ui.flow import Flow, Navigator, ScreenContext
 
 if TYPE_CHECKING:
-    from carpus.ui.beside.flow import BesideFlow
-    from carpus.ui.by_hand.flow import ByHandFlow
-    from carpus.ui.camera_calibration.flow import BoardFlow
-    from carpus.ui.check_card.flow import CardFlow
-    from carpus.ui.correct.flow import CorrectFlow
+    from carpus.ui.beside.flow import ComparisonFlow
+    from carpus.ui.by_hand.flow import ManualMeasurementsFlow
+    from carpus.ui.camera_calibration.flow import CameraCalibrationFlow
+    from carpus.ui.check_card.flow import CheckCardFlow
+    from carpus.ui.correct.flow import CorrectionFlow
     from carpus.ui.help.flow import HelpFlow
     from carpus.ui.live.flow import LiveFlow
     from carpus.ui.markers.flow import MarkersFlow
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from carpus.ui.sessions.flow import SessionsFlow
     from carpus.ui.setup.flow import CameraFlow, ExerciseFlow
 
-CORE = (
+SLOW_CORE_MODULES = (
     "carpus.core.pipeline.correction",
     "carpus.core.agreement.retest",
     "carpus.core.calibration.camera.calibrate",
@@ -43,7 +43,7 @@ PLACES = (
 class Screens(QObject):
     """Each screen's flow by its place."""
 
-    way: Navigator
+    navigator: Navigator
     patients: PatientsFlow
     exercise: ExerciseFlow
     camera: CameraFlow
@@ -53,12 +53,12 @@ class Screens(QObject):
     review: ReviewFlow
     progress: ProgressFlow
     report: ReportFlow
-    by_hand: ByHandFlow
-    beside: BesideFlow
-    board: BoardFlow
-    card: CardFlow
+    by_hand: ManualMeasurementsFlow
+    beside: ComparisonFlow
+    board: CameraCalibrationFlow
+    card: CheckCardFlow
     help: HelpFlow
-    correct: CorrectFlow
+    correct: CorrectionFlow
 
     if not TYPE_CHECKING:
 
@@ -69,7 +69,7 @@ class Screens(QObject):
             return self.way.flow(place)
 
 
-def flow_class(place: str) -> Callable[[ScreenContext], Flow]:
+def load_flow_class(place: str) -> Callable[[ScreenContext], Flow]:
     """Load what the screen of a place is made of."""
     match place:
         case "patients":
@@ -109,35 +109,35 @@ def flow_class(place: str) -> Callable[[ScreenContext], Flow]:
 
             return ReportFlow
         case "by_hand":
-            from carpus.ui.by_hand.flow import ByHandFlow
+            from carpus.ui.by_hand.flow import ManualMeasurementsFlow
 
-            return ByHandFlow
+            return ManualMeasurementsFlow
         case "beside":
-            from carpus.ui.beside.flow import BesideFlow
+            from carpus.ui.beside.flow import ComparisonFlow
 
-            return BesideFlow
+            return ComparisonFlow
         case "board":
-            from carpus.ui.camera_calibration.flow import BoardFlow
+            from carpus.ui.camera_calibration.flow import CameraCalibrationFlow
 
-            return BoardFlow
+            return CameraCalibrationFlow
         case "card":
-            from carpus.ui.check_card.flow import CardFlow
+            from carpus.ui.check_card.flow import CheckCardFlow
 
-            return CardFlow
+            return CheckCardFlow
         case "help":
             from carpus.ui.help.flow import HelpFlow
 
             return HelpFlow
         case "correct":
-            from carpus.ui.correct.flow import CorrectFlow
+            from carpus.ui.correct.flow import CorrectionFlow
 
-            return CorrectFlow
+            return CorrectionFlow
     raise KeyError(place)
 
 
 def load_core() -> Iterator[str]:
     """Load, module by module, what has nothing of Qt in it; in whatever thread."""
-    for module in CORE:
+    for module in SLOW_CORE_MODULES:
         import_module(module)
         yield module
 
@@ -146,7 +146,7 @@ def load_screens() -> Iterator[str]:
     """Load, one by one, what all screens are made of. For the window's thread alone: Qt makes a class when it is first
     named, and where two threads name one each at once the process ends."""
     for place in PLACES:
-        flow_class(place)
+        load_flow_class(place)
         yield place
     for module in ("carpus.ui.settings.flow",):
         import_module(module)

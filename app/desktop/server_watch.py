@@ -7,58 +7,61 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from carpus.core.errors import CarpusFault, ServerGone
+from carpus.core.errors import CarpusFault, ServerUnavailable
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import Recovered, recover
+from carpus.core.records.new_sessions import RecoveredSession, recover_sessions
 from carpus.ui.background import Background
 
-LOOK_MS = 4_000
+CHECK_EVERY_MS = 4_000
 
-Caught = tuple[Sequence[Recovered], Sequence[CarpusFault]]
+CatchUp = tuple[Sequence[RecoveredSession], Sequence[CarpusFault]]
 
 
-class ServerWatch(QObject):
-    """``gone`` when the server no longer answers; ``back`` with what :func:`recover` found, when it does again."""
+class ServerMonitor(QObject):
+    """``server_lost`` when the server no longer answers; ``server_restored`` with what :func:`recover` found, when it
+    does again."""
 
-    gone = Signal()
-    back = Signal(object)
+    server_lost = Signal()
+    server_restored = Signal(object)
 
     def __init__(self, library: Library, parent: QObject) -> None:
         super().__init__(parent)
         self._library, self._background = library, Background()
-        self._was_away = library.store.is_away
-        self._clock = QTimer(self, interval=LOOK_MS)
-        self._clock.timeout.connect(self._look)
+        self._was_away = library.store.is_server_away
+        self._clock = QTimer(self, interval=CHECK_EVERY_MS)
+        self._clock.timeout.connect(self._check)
         if library.store.server is not None:
             self._clock.start()
 
-    def end(self) -> None:
+    def stop(self) -> None:
         """The window closes."""
         self._clock.stop()
-        self._background.wait()
+        self._background.join()
 
-    def _look(self) -> None:
-        if not self._background.busy:
-            self._background.run(lambda: _looked(self._library, self._was_away), self._take, self._fail, self)
+    def _check(self) -> None:
+        if not self._background.is_busy:
+            self._background.run(
+                lambda: _check_server(self._library, self._was_away), self._handle_catch_up, self._handle_fault, self
+            )
 
-    def _take(self, caught: Caught | None) -> None:
+    def _handle_catch_up(self, caught: CatchUp | None) -> None:
         if caught is not None:
             self._was_away = False
-            self.back.emit(caught)
+            self.server_restored.emit(caught)
 
-    def _fail(self, fault: Exception) -> None:
-        if isinstance(fault, ServerGone) and not self._was_away:
+    def _handle_fault(self, fault: Exception) -> None:
+        if isinstance(fault, ServerUnavailable) and not self._was_away:
             self._was_away = True
-            self.gone.emit()
+            self.server_lost.emit()
 
 
-def _looked(library: Library, was_away: bool) -> Caught | None:
-    """What was caught up with, None where there is nothing to. Raises :class:`ServerGone`."""
+def _check_server(library: Library, was_away: bool) -> CatchUp | None:
+    """What was caught up with, None where there is nothing to. Raises :class:`ServerUnavailable`."""
     assert library.store.server is not None
-    library.store.server.look()
+    library.store.server.ping()
     if not was_away:
         return None
-    caught = recover(library)
-    if library.store.is_away:  # once more
-        raise next(fault for fault in caught[1] if isinstance(fault, ServerGone))
+    caught = recover_sessions(library)
+    if library.store.is_server_away:  # once more
+        raise next(fault for fault in caught[1] if isinstance(fault, ServerUnavailable))
     return caught

@@ -10,43 +10,43 @@ from pathlib import Path
 from PySide6.QtCore import QMetaObject, QObject, Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
-from carpus.app.command_line import on_stop
-from carpus.app.desktop.journey import Journey
-from carpus.app.desktop.preferences import PreferenceKeeper
+from carpus.app.command_line import handle_stop_signals
+from carpus.app.desktop.journey import MainController
+from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.desktop.screens import load_core, load_screens
-from carpus.app.desktop.welcoming import Tour, Welcome
+from carpus.app.desktop.welcoming import TourController, WelcomeController
 from carpus.core.records.library import Library
 from carpus.ui.background import Background
-from carpus.ui.collector import Collector
-from carpus.ui.last_places import LastPlaces, place_of, put_in_place
-from carpus.ui.records.backing_up import BackingUp
-from carpus.ui.records.erasing import Erasing
-from carpus.ui.records.lists import RecordLists
-from carpus.ui.records.locking import Locking
-from carpus.ui.shell import Shell
+from carpus.ui.collector import GarbageCollector
+from carpus.ui.last_places import RecentLocations, encode_geometry, restore_window
+from carpus.ui.records.backing_up import BackupController
+from carpus.ui.records.erasing import DeletionController
+from carpus.ui.records.lists import RecordListsController
+from carpus.ui.records.locking import LockController
+from carpus.ui.shell import MainWindow
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
-SETTLED_MS = 200
+PRELOAD_DELAY_MS = 200
 """After the first picture, which need not wait for it."""
 
 
-def settle(application: QApplication) -> None:
+def start_garbage_collection(application: QApplication) -> None:
     """Begin to collect garbage; all that was built by now stays, and is not looked through again while frames come."""
     gc.collect()
     gc.freeze()
-    if application.findChild(Collector) is None:  # another language opens the window again
-        Collector(application)
+    if application.findChild(GarbageCollector) is None:  # another language opens the window again
+        GarbageCollector(application)
 
 
 @dataclass(eq=False)
-class Safe:
+class DataProtection:
     """What keeps, hides and erases."""
 
-    erasing: Erasing
-    lists: RecordLists
-    backing_up: BackingUp
-    locking: Locking
+    erasing: DeletionController
+    lists: RecordListsController
+    backing_up: BackupController
+    locking: LockController
 
 
 @dataclass(eq=False)
@@ -54,40 +54,42 @@ class Desktop:
     """The application put together; :meth:`close` ends every thread of it."""
 
     application: QApplication
-    shell: Shell
+    shell: MainWindow
     theme: Theme
-    journey: Journey
+    controller: MainController
     library: Library
-    safe: Safe
-    welcome: Welcome
-    tour: Tour
-    keeper: PreferenceKeeper
-    from_system: tuple[QMetaObject.Connection, ...] = ()
+    data_protection: DataProtection
+    welcome: WelcomeController
+    tour: TourController
+    preferences: PreferencesController
+    system_connections: tuple[QMetaObject.Connection, ...] = ()
     """What the system tells, until this is closed."""
-    is_to_reopen: bool = False
+    must_reopen: bool = False
     """Whether another window, with the settings as they are now, is to be opened once this one is closed."""
     _closed: bool = False
-    _loading: Background = field(default_factory=Background)
+    _preloading: Background = field(default_factory=Background)
 
     def show(self, *, is_reopened: bool = False) -> None:
         """Bring up the first screen and tell of what was recovered; once reopened, the settings, from where that came,
         without the PIN that was typed before."""
         # The newest session is on top, but for simulated ones, which count nowhere.
-        self.journey.patients.show(self.library.index.last_owner() if self.journey.is_demo else "")
-        put_in_place(self.shell, LastPlaces(self.library.folder).window())
+        self.controller.patients.open(self.library.session_list.last_patient_id() if self.controller.is_demo else "")
+        restore_window(self.shell, RecentLocations(self.library.folder).window_geometry())
         self.shell.create()  # what hides the names must be there before anything is seen
         if is_reopened:
-            self.safe.locking.look_again()
+            self.data_protection.locking.refresh()
         else:
-            self.safe.locking.lock_at_start()
+            self.data_protection.locking.lock_at_start()
         self.shell.show()
-        self.welcome.begin()
+        self.welcome.show_if_first_start()
         if is_reopened:
-            self.journey.way.show("settings")
-        QTimer.singleShot(SETTLED_MS, self._load)
-        self.journey.way.made.connect(lambda: QTimer.singleShot(SETTLED_MS, lambda: settle(self.application)))
+            self.controller.navigator.open_screen("settings")
+        QTimer.singleShot(PRELOAD_DELAY_MS, self._preload)
+        self.controller.navigator.screen_created.connect(
+            lambda: QTimer.singleShot(PRELOAD_DELAY_MS, lambda: start_garbage_collection(self.application))
+        )
 
-    def _load(self) -> None:
+    def _preload(self) -> None:
         """While the window waits for the person: what the other screens are made of, as far as it may be in a thread of
         its own."""
 
@@ -96,26 +98,26 @@ class Desktop:
                 if self._closed:
                     break
 
-        self._loading.run(work, lambda _: self._load_on(load_screens()), self.journey.messages.fault)
+        self._preloading.run(work, lambda _: self._preload_next(load_screens()), self.controller.messages.show_fault)
 
-    def _load_on(self, loaded: Iterator[str]) -> None:
+    def _preload_next(self, loaded: Iterator[str]) -> None:
         """The next module, when the window has done what came meanwhile."""
         if self._closed:
             return
         if next(loaded, ""):
-            QTimer.singleShot(0, lambda: self._load_on(loaded))
+            QTimer.singleShot(0, lambda: self._preload_next(loaded))
         else:
-            settle(self.application)
+            start_garbage_collection(self.application)
 
     def reopen(self) -> None:
         """The language was changed: this window closes, and who opened it opens another one."""
-        self.is_to_reopen = True
-        self.shell.close_surely()
+        self.must_reopen = True
+        self.shell.close_without_prompt()
 
-    def why_no_other_language(self) -> str:
+    def find_language_obstacle(self) -> str:
         """One sentence where the window cannot be put together again now, else nothing."""
-        journey, safe = self.journey, self.safe
-        busy = journey.is_at_work or safe.backing_up.is_at_work or self.tour.is_on or journey.messages.busy
+        journey, safe = self.controller, self.data_protection
+        busy = journey.is_at_work or safe.backing_up.is_busy or self.tour.is_on or journey.messages.is_busy
         return tr("The language can be changed when nothing is measured or worked on any more.") if busy else ""
 
     def come_to_front(self) -> None:
@@ -124,7 +126,7 @@ class Desktop:
         self.shell.raise_()
         self.shell.activateWindow()
 
-    def called(self, session: Path | None) -> None:
+    def on_second_instance(self, session: Path | None) -> None:
         """Another start on the same data folder, with the session file that it was to open."""
         self.come_to_front()
         if session is not None:
@@ -132,15 +134,15 @@ class Desktop:
 
     def open_session(self, session: Path) -> None:
         """Show a session by its file; where the window is locked, once somebody has opened it."""
-        locking = self.safe.locking
-        if locking.locked:
+        locking = self.data_protection.locking
+        if locking.is_locked:
             once = Qt.ConnectionType.SingleShotConnection
-            locking.sheet.closed.connect(lambda: self.journey.review_file(session), once)
+            locking.lock_screen.closed.connect(lambda: self.controller.review_file(session), once)
         else:
-            self.journey.review_file(session)
+            self.controller.review_file(session)
 
     @property
-    def closed(self) -> bool:
+    def is_closed(self) -> bool:
         """Whether everything was let go of."""
         return self._closed
 
@@ -148,23 +150,23 @@ class Desktop:
         """Finish what runs and let go of everything; may be called twice."""
         if not self._closed:
             self._closed = True
-            for connection in self.from_system:
+            for connection in self.system_connections:
                 QObject.disconnect(connection)
-            self._loading.wait()
-            self.tour.end()
-            self.welcome.end()
-            self.safe.locking.end()
-            self.safe.backing_up.end()
-            LastPlaces(self.library.folder).keep_window(place_of(self.shell))
-            self.journey.close()
+            self._preloading.join()
+            self.tour.stop()
+            self.welcome.stop()
+            self.data_protection.locking.shut_down()
+            self.data_protection.backing_up.shut_down()
+            RecentLocations(self.library.folder).save_window_geometry(encode_geometry(self.shell))
+            self.controller.close()
             self.shell.hide()
             self.library.close()
 
 
-def end_on_signals(desktop: Desktop) -> None:
+def close_on_signals(desktop: Desktop) -> None:
     """Ctrl+C in the terminal, its closing, a log-out or a shutdown close the window as a person would.
 
     Recordings are finished. Python hears of a signal when it next runs, at the latest when the journey looks for a
     camera.
     """
-    on_stop(lambda: desktop.shell.close_surely())
+    handle_stop_signals(lambda: desktop.shell.close_without_prompt())

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.errors import SettingsInvalid
-from carpus.core.formats.new_output import new_json
+from carpus.core.formats.new_output import write_new_json
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.phrase import phrase
 
@@ -30,51 +30,62 @@ def read_limits(data_folder: Path) -> ErrorLimits:
     try:
         if content["format"] != FORMAT or content["format_version"] != FORMAT_VERSION:
             raise ValueError("another format")
-        return ErrorLimits(tuple(_study(one) for one in content["studies"]))
+        return ErrorLimits(tuple(_parse_study(one) for one in content["studies"]))
     except (KeyError, TypeError, ValueError, AttributeError) as cause:
         raise SettingsInvalid(path, phrase("it does not hold limits; the usual ones hold")) from cause
 
 
-def _study(said: dict[str, Any]) -> RetestStudy:
-    date.fromisoformat(said["made"])
+def _parse_study(content: dict[str, Any]) -> RetestStudy:
+    date.fromisoformat(content["made"])
     limits = tuple(
         MeasuredLimit(
-            str(one["of"]), str(one["movement"]), int(one["people"]), _number(one["sem_deg"]),
-            _two(one["sem_interval_deg"]), _number(one["mdc95_deg"]), _two(one["mdc95_interval_deg"]),
+            str(one["of"]),
+            str(one["movement"]),
+            int(one["people"]),
+            _parse_error_deg(one["sem_deg"]),
+            _parse_interval(one["sem_interval_deg"]),
+            _parse_error_deg(one["mdc95_deg"]),
+            _parse_interval(one["mdc95_interval_deg"]),
         )
-        for one in said["limits"]
-    )  # fmt: skip
+        for one in content["limits"]
+    )
     return RetestStudy(
-        str(said["protocol"]), str(said["exercise"]), str(said["angle_order"]), str(said["made"]), int(said["people"]),
-        int(said["sessions"]), int(said["raters"]), limits,
-    )  # fmt: skip
+        str(content["protocol"]),
+        str(content["exercise"]),
+        str(content["angle_order"]),
+        str(content["made"]),
+        int(content["people"]),
+        int(content["sessions"]),
+        int(content["raters"]),
+        limits,
+    )
 
 
-def _number(value: Any) -> float:
+def _parse_error_deg(value: Any) -> float:
     number = float(value)
     if not 0.0 <= number < 360.0:
         raise ValueError(f"{number} is no error in degrees")
     return number
 
 
-def _two(value: Any) -> tuple[float, float]:
+def _parse_interval(value: Any) -> tuple[float, float]:
     low, high = value
     return tuple(math.nan if one is None else float(one) for one in (low, high))  # type: ignore[return-value]
 
 
-def store_limits(data_folder: Path, new: Sequence[RetestStudy]) -> Path:
+def save_limits(data_folder: Path, studies: Sequence[RetestStudy]) -> Path:
     """Put studies into force, each in place of an earlier one of its kind; the file, whole or as it was.
 
     Raises :class:`SettingsInvalid` where the one that is there is damaged, and the faults of writing.
     """
     path = data_folder / LIMITS_FILE
-    kinds = {(one.protocol, one.exercise, one.angle_order) for one in new}
+    kinds = {(one.protocol, one.exercise, one.angle_order) for one in studies}
     kept = (
         one for one in read_limits(data_folder).studies if (one.protocol, one.exercise, one.angle_order) not in kinds
     )
     content = {
         "format": FORMAT,
         "format_version": FORMAT_VERSION,
-        "studies": [asdict(one) for one in (*kept, *new)],
+        "studies": [asdict(one) for one in (*kept, *studies)],
     }
-    return new_json(path, content, replaces=True)
+    return write_new_json(path, content, overwrite=True)

@@ -16,22 +16,23 @@ import numpy as np
 import scipy
 
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
-from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, cell, new_table
-from carpus.core.measures.change import FEWEST_PEOPLE, MDC95_FACTOR, MeasuredLimit, RetestStudy
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import newest_results, unfair_reasons
+from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect, format_cell, write_new_table
+from carpus.core.measures.change import MDC95_FACTOR, MIN_PEOPLE, MeasuredLimit, RetestStudy
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.progress import incomparable_reasons, select_latest_versions
 from carpus.core.types import FloatArray
 
-MOST_DAYS = 14.0
+MAX_DAYS_APART = 14.0
 """Two mountings further apart measure the person's change too."""
 _UNKNOWN: Interval = (math.nan, math.nan)
 
 
 @dataclass(frozen=True, slots=True)
-class Retest:
+class RetestResult:
     """``readings`` of ``people``, unit of the readings. ``icc`` ICC(2,1), ``icc_3_1`` ICC(3,1); ``sem`` with ``df``
-    degrees of freedom; ``sem_same_rater`` of mountings by one rater alone, NaN where fewer than two raters are known
-    (it would be ``sem`` again) or none measured twice; ``step`` mean of the last mountings less that of the first.
+    degrees of freedom; ``intra_rater_sem`` of mountings by one rater alone, NaN where fewer than two raters are known
+    (it would be ``sem`` again) or none measured twice; ``systematic_change`` mean of the last mountings less that of
+    the first.
     Intervals of 95 %."""
 
     people: int
@@ -45,11 +46,11 @@ class Retest:
     df: float
     mdc95: float
     mdc95_interval: Interval
-    sem_same_rater: float
-    step: float
+    intra_rater_sem: float
+    systematic_change: float
 
 
-def retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] = ()) -> Retest:
+def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] = ()) -> RetestResult:
     """Of ``readings`` for each person in the order they were taken, and who took them; people with one are left out.
 
     >>> found = retest([[60.0, 62.0], [71.0, 70.0], [55.0, 58.0], [64.0, 64.0]])
@@ -66,24 +67,37 @@ def retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] 
     n, total = len(values), sum(map(len, values))
     if n < 2:
         nan = math.nan
-        return Retest(n, total, nan, _UNKNOWN, nan, _UNKNOWN, nan, _UNKNOWN, 0.0, nan, _UNKNOWN, nan, nan)
+        return RetestResult(n, total, nan, _UNKNOWN, nan, _UNKNOWN, nan, _UNKNOWN, 0.0, nan, _UNKNOWN, nan, nan)
     within = sum(float(((one - one.mean()) ** 2).sum()) for one in values)
     df = float(total - n)
     variance = within / df
     each = min(map(len, values))
     if all(len(one) == each for one in values):
-        df = _freedom(np.array(values), df)
+        df = _degrees_of_freedom(np.array(values), df)
     sem = math.sqrt(variance)
-    interval = (math.sqrt(df * variance / _chi2(df, 0.975)), math.sqrt(df * variance / _chi2(df, 0.025)))
+    interval = (
+        math.sqrt(df * variance / _chi2_quantile(df, 0.975)),
+        math.sqrt(df * variance / _chi2_quantile(df, 0.025)),
+    )
     table = np.array([one[:each] for one in values])
     mdc = (MDC95_FACTOR * interval[0], MDC95_FACTOR * interval[1])
     step = float(np.mean([one[-1] - one[0] for one in values]))
-    return Retest(
-        n, total, *icc_2_1(table), *icc_3_1(table), sem, interval, df, MDC95_FACTOR * sem, mdc, _same_rater(kept), step,
-    )  # fmt: skip
+    return RetestResult(
+        n,
+        total,
+        *icc_2_1(table),
+        *icc_3_1(table),
+        sem,
+        interval,
+        df,
+        MDC95_FACTOR * sem,
+        mdc,
+        _intra_rater_sem(kept),
+        step,
+    )
 
 
-def _freedom(table: FloatArray, most: float) -> float:
+def _degrees_of_freedom(table: FloatArray, max_df: float) -> float:
     """Degrees of freedom of the error of (people, mountings): fewer where the mountings differ as such, since then a
     few means make it (Satterthwaite 1946)."""
     n, k = table.shape
@@ -92,19 +106,19 @@ def _freedom(table: FloatArray, most: float) -> float:
     ms_rest = float((rest**2).sum()) / ((n - 1) * (k - 1))
     a, b = ms_columns / n, ms_rest * (n - 1) / n
     below = a**2 / (k - 1) + b**2 / ((n - 1) * (k - 1))
-    return min((a + b) ** 2 / below, most) if below > 0.0 else most
+    return min((a + b) ** 2 / below, max_df) if below > 0.0 else max_df
 
 
-def _chi2(df: float, share: float) -> float:
+def _chi2_quantile(df: float, share: float) -> float:
     """The value that a chi-square of ``df`` stays below with a probability."""
     return float(scipy.special.chdtri(df, 1.0 - share))
 
 
-def _same_rater(kept: Sequence[Sequence[tuple[float, str]]]) -> float:
-    if len({who for one in kept for _, who in one if who}) < 2:
+def _intra_rater_sem(readings: Sequence[Sequence[tuple[float, str]]]) -> float:
+    if len({who for one in readings for _, who in one if who}) < 2:
         return math.nan
     squares, df = 0.0, 0
-    for one in kept:
+    for one in readings:
         of = defaultdict(list)
         for value, who in one:
             if who:
@@ -116,7 +130,7 @@ def _same_rater(kept: Sequence[Sequence[tuple[float, str]]]) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class LeftOut:
+class ExcludedSession:
     """A session that takes no part, and why."""
 
     session_id: str
@@ -124,8 +138,8 @@ class LeftOut:
 
 
 @dataclass(frozen=True, slots=True)
-class StudyFigures:
-    """A study of one exercise: ``found`` by angle or joint and movement, what the window and the file say of it."""
+class RetestAnalysis:
+    """A study of one exercise: ``results`` by angle or joint and movement, what the window and the file say of it."""
 
     protocol: str
     exercise: str
@@ -134,71 +148,77 @@ class StudyFigures:
     sessions: int
     raters: int
     simulated: bool
-    found: Mapping[tuple[str, str], Retest]
-    left_out: tuple[LeftOut, ...]
+    results: Mapping[tuple[str, str], RetestResult]
+    excluded: tuple[ExcludedSession, ...]
 
     @property
     def is_usable(self) -> bool:
         """Whether it may become the clinic's own error limits."""
-        return bool(self.found) and not self.simulated and self.people >= FEWEST_PEOPLE
+        return bool(self.results) and not self.simulated and self.people >= MIN_PEOPLE
 
-    def study(self, made: str) -> RetestStudy:
+    def to_study(self, date: str) -> RetestStudy:
         """As it is stored, with its date."""
         limits = (
             MeasuredLimit(of, movement, one.people, one.sem, one.sem_interval, one.mdc95, one.mdc95_interval)
-            for (of, movement), one in self.found.items()
+            for (of, movement), one in self.results.items()
             if math.isfinite(one.mdc95)
         )
         return RetestStudy(
-            self.protocol, self.exercise, self.angle_order, made, self.people, self.sessions, self.raters, tuple(limits)
+            self.protocol, self.exercise, self.angle_order, date, self.people, self.sessions, self.raters, tuple(limits)
         )
 
 
-def studies(sessions: Sequence[SessionFigures], raters: Mapping[str, str] | None = None) -> list[StudyFigures]:
+def analyse_retests(
+    sessions: Sequence[SessionResults], raters: Mapping[str, str] | None = None
+) -> list[RetestAnalysis]:
     """One study for each exercise and set of discs. A person is a pseudonym and a hand; ``raters`` by session id."""
-    groups: dict[tuple[str, str, str], list[SessionFigures]] = defaultdict(list)
-    for figures in newest_results(sessions):
+    groups: dict[tuple[str, str, str], list[SessionResults]] = defaultdict(list)
+    for figures in select_latest_versions(sessions):
         groups[(figures.protocol, figures.exercise.id, figures.angle_order)].append(figures)
-    return [_study(group, raters or {}) for _, group in sorted(groups.items())]
+    return [_analyse_group(group, raters or {}) for _, group in sorted(groups.items())]
 
 
-def _study(group: Sequence[SessionFigures], raters: Mapping[str, str]) -> StudyFigures:
-    people: dict[tuple[str, str], list[SessionFigures]] = defaultdict(list)
-    out: list[LeftOut] = []
+def _analyse_group(group: Sequence[SessionResults], raters: Mapping[str, str]) -> RetestAnalysis:
+    people: dict[tuple[str, str], list[SessionResults]] = defaultdict(list)
+    out: list[ExcludedSession] = []
     for figures in group:  # in order of time
         mine = people[(figures.subject_id.casefold(), figures.side)]
-        reasons = unfair_reasons(mine[0] if mine else figures, figures)
-        if not figures.counted:
+        reasons = incomparable_reasons(mine[0] if mine else figures, figures)
+        if not figures.repetition_count:
             reasons = (*reasons, "few_repetitions_after")
         if reasons:
-            out.append(LeftOut(figures.session_id, reasons[0]))
-        elif mine and (figures.when - mine[0].when).total_seconds() > MOST_DAYS * 86400.0:
-            out.append(LeftOut(figures.session_id, "too_late"))
+            out.append(ExcludedSession(figures.session_id, reasons[0]))
+        elif mine and (figures.when - mine[0].when).total_seconds() > MAX_DAYS_APART * 86400.0:
+            out.append(ExcludedSession(figures.session_id, "too_late"))
         else:
             mine.append(figures)
-    out += [LeftOut(one[0].session_id, "once") for one in people.values() if len(one) == 1]
+    out += [ExcludedSession(one[0].session_id, "once") for one in people.values() if len(one) == 1]
     measured = [one for one in people.values() if len(one) > 1]
-    keys = Counter(key for one in measured for figures in one for key in _readings(figures))
+    keys = Counter(key for one in measured for figures in one for key in _range_means(figures))
     found = {}
     for key in keys:
-        values = [[_readings(figures).get(key, math.nan) for figures in one] for one in measured]
+        values = [[_range_means(figures).get(key, math.nan) for figures in one] for one in measured]
         named = [[raters.get(figures.session_id, "") for figures in one] for one in measured]
-        found[key] = retest(values, named)
+        found[key] = compute_retest(values, named)
     first = group[0]
     kept = [figures for one in measured for figures in one]
-    return StudyFigures(
+    return RetestAnalysis(
         first.protocol, first.exercise.id, first.angle_order, len(measured), len(kept),
         len({raters[one.session_id] for one in kept if one.session_id in raters}),
-        any(one.simulated for one in kept), found, tuple(out),
+        any(one.is_simulated for one in kept), found, tuple(out),
     )  # fmt: skip
 
 
-def _readings(figures: SessionFigures) -> dict[tuple[str, str], float]:
+def _range_means(figures: SessionResults) -> dict[tuple[str, str], float]:
     """Mean of every movement that was seen whole, degrees, by angle or joint and movement."""
-    return {row.key: row.mean for row in figures.group("range") if row.count and not (row.angle < 0 and row.at_least)}
+    return {
+        row.key: row.mean
+        for row in figures.measures_in_group("range")
+        if row.count and not (row.wrist_angle < 0 and row.is_lower_bound)
+    }
 
 
-HEAD = (
+RETEST_COLUMNS = (
     "protocol", "exercise", "of", "movement", "people", "readings", "icc_2_1", "icc_2_1_low", "icc_2_1_high",
     "icc_3_1", "icc_3_1_low", "icc_3_1_high", "sem_deg",
     "sem_low_deg", "sem_high_deg", "mdc95_deg", "mdc95_low_deg", "mdc95_high_deg",
@@ -206,15 +226,15 @@ HEAD = (
 )  # fmt: skip
 
 
-def write_study(studies: Sequence[StudyFigures], path: Path, form: TableForm = FOR_PROGRAMS) -> Path:
+def write_retests(analyses: Sequence[RetestAnalysis], path: Path, form: TableDialect = MACHINE_DIALECT) -> Path:
     """One line for each figure. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
     rows = []
-    for one in studies:
-        for (of, movement), f in one.found.items():
+    for one in analyses:
+        for (of, movement), f in one.results.items():
             values = (
                 f.icc, *f.icc_interval, f.icc_3_1, *f.icc_3_1_interval, f.sem, *f.sem_interval, f.mdc95,
-                *f.mdc95_interval, f.sem_same_rater, f.step,
+                *f.mdc95_interval, f.intra_rater_sem, f.systematic_change,
             )  # fmt: skip
             counts = (str(f.people), str(f.readings))
-            rows.append((one.protocol, one.exercise, of, movement, *counts, *map(cell, values)))
-    return new_table(path, HEAD, rows, form)
+            rows.append((one.protocol, one.exercise, of, movement, *counts, *map(format_cell, values)))
+    return write_new_table(path, RETEST_COLUMNS, rows, form)

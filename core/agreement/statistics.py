@@ -14,10 +14,10 @@ import scipy
 
 from carpus.core.types import FloatArray
 
-FEWEST = 3
+MIN_PAIRS = 3
 """Pairs below which nothing is said, and people."""
-FEWEST_TO_JUDGE = 10
-OPPOSITE = -0.5
+MIN_PAIRS_TO_JUDGE = 10
+MAX_OPPOSITE_CORRELATION = -0.5
 """Below this correlation the two measure the same with opposite signs, or not the same."""
 
 Interval = tuple[float, float]
@@ -26,15 +26,16 @@ _UNKNOWN: Interval = (math.nan, math.nan)
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """``measured`` less ``reference`` of ``count`` pairs, worth ``independent`` ones; intervals of 95 %.
+    """``measured`` less ``reference`` of ``count`` pairs, worth ``effective_count`` ones; intervals of 95 %.
 
-    ``bias``, ``sd`` of the differences, ``limits`` bias ± 1.96 sd, each with its interval; ``rmse``; ``largest``
+    ``bias``, ``sd`` of the differences, ``limits`` bias ± 1.96 sd, each with its interval; ``rmse``;
+    ``largest_difference``
     difference; ``correlation`` by Pearson; ``icc`` ICC(2,1), absolute agreement; ``icc_3_1`` ICC(3,1), consistency;
     ``cmc`` of the whole waveform, NaN for single readings and where the two have nothing in common.
     """
 
     count: int
-    independent: float
+    effective_count: float
     bias: float
     bias_interval: Interval
     sd: float
@@ -42,7 +43,7 @@ class Agreement:
     lower_interval: Interval
     upper_interval: Interval
     rmse: float
-    largest: float
+    largest_difference: float
     correlation: float
     icc: float
     icc_interval: Interval
@@ -53,19 +54,19 @@ class Agreement:
     @property
     def is_opposite(self) -> bool:
         """Whether one goes down where the other goes up."""
-        return self.correlation < OPPOSITE
+        return self.correlation < MAX_OPPOSITE_CORRELATION
 
 
-def agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True) -> Agreement:
+def compute_agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True) -> Agreement:
     """Of pairs (N,). ``waveform``: neighbours in time are alike, so that they count as fewer independent ones."""
     known = np.isfinite(measured) & np.isfinite(reference)
     a, b = measured[known], reference[known]
     n = len(a)
-    if n < FEWEST:
-        return replace(NOTHING, count=n, independent=float(n))
+    if n < MIN_PAIRS:
+        return replace(NO_AGREEMENT, count=n, effective_count=float(n))
     difference = a - b
     bias, sd = float(difference.mean()), float(difference.std(ddof=1))
-    worth = independent_count(difference) if waveform else float(n)
+    worth = effective_sample_size(difference) if waveform else float(n)
     t = float(scipy.special.stdtrit(max(worth - 1.0, 1.0), 0.975))
     half_bias = t * sd / math.sqrt(worth)
     half_limit = t * sd * math.sqrt(1.0 / worth + 1.96**2 / (2.0 * max(worth - 1.0, 1.0)))
@@ -90,7 +91,7 @@ def agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True
     )
 
 
-NOTHING = Agreement(
+NO_AGREEMENT = Agreement(
     0, 0.0, math.nan, _UNKNOWN, math.nan, _UNKNOWN, _UNKNOWN, _UNKNOWN, math.nan, math.nan, math.nan,
     math.nan, _UNKNOWN, math.nan, _UNKNOWN, math.nan,
 )  # fmt: skip
@@ -98,7 +99,7 @@ NOTHING = Agreement(
 
 
 @dataclass(frozen=True, slots=True)
-class Between:
+class VarianceComponents:
     """What several people's differences are made of: ``sd_between`` people's means, ``sd_within`` one of them; both NaN
     where nobody has two pairs, which alone tell them apart."""
 
@@ -107,29 +108,32 @@ class Between:
     sd_within: float
 
 
-def fewest_of_person(*, waveform: bool) -> int:
+def min_pairs_per_person(*, waveform: bool) -> int:
     """Pairs with which a person counts among several: a single reading says something of people, a piece of a curve
     nothing."""
-    return FEWEST if waveform else 1
+    return MIN_PAIRS if waveform else 1
 
 
-def agreement_of_people(
+def compute_pooled_agreement(
     measured: Sequence[FloatArray], reference: Sequence[FloatArray], waveform: bool = True
-) -> tuple[Agreement, Between]:
+) -> tuple[Agreement, VarianceComponents]:
     """Of the pairs (N,) of each person, whose true value varies: every person counts alike, with however many pairs.
 
     The variance of one difference is that between people and that within one (Bland and Altman 2007, section 3, with
     people's means unweighted); intervals of the limits by recovering the variances of both (Zou 2013). Neighbours in
-    time count for less, as in :func:`agreement`. No ICC and no CMC: pairs of several people have none in common.
+    time count for less, as in :func:`compute_agreement`. No ICC and no CMC: pairs of several people have none in
+    common.
     """
-    least = fewest_of_person(waveform=waveform)
+    least = min_pairs_per_person(waveform=waveform)
     known = [np.isfinite(a) & np.isfinite(b) for a, b in zip(measured, reference, strict=True)]
     pairs = [(a[k], b[k]) for a, b, k in zip(measured, reference, known, strict=True) if k.sum() >= least]
     people, differences = len(pairs), [a - b for a, b in pairs]
     count = sum(map(len, differences))
-    if people < FEWEST:
-        return replace(NOTHING, count=count, independent=math.nan), Between(people, math.nan, math.nan)
-    worth = np.array([independent_count(d) if waveform else float(len(d)) for d in differences])
+    if people < MIN_PAIRS:
+        return replace(NO_AGREEMENT, count=count, effective_count=math.nan), VarianceComponents(
+            people, math.nan, math.nan
+        )
+    worth = np.array([effective_sample_size(d) if waveform else float(len(d)) for d in differences])
     means = np.array([d.mean() for d in differences])
     # What is left about a person's mean is of fewer independent values than there are pictures.
     df = float(worth.sum() - people)
@@ -140,12 +144,12 @@ def agreement_of_people(
     bias, z = float(means.mean()), 1.96
     t = float(scipy.special.stdtrit(people - 1.0, 0.975))
 
-    def aside(p: float) -> float:
+    def variance_error(p: float) -> float:
         """How far the variance may be off, to the side that a chi-square's ``p`` belongs to."""
         parts = [(of_means, people - 1.0), *([(share * within, df)] if df > 0.0 else [])]
         return math.sqrt(sum((v * (1.0 - d / float(scipy.special.chdtri(d, 1.0 - p)))) ** 2 for v, d in parts))
 
-    sd_low, sd_high = math.sqrt(max(sd**2 - aside(0.975), 0.0)), math.sqrt(sd**2 + aside(0.025))
+    sd_low, sd_high = math.sqrt(max(sd**2 - variance_error(0.975), 0.0)), math.sqrt(sd**2 + variance_error(0.025))
     mean_part = t**2 * of_means / people
     inner = math.sqrt(mean_part + (z * (sd - sd_low)) ** 2)
     outer = math.sqrt(mean_part + (z * (sd_high - sd)) ** 2)
@@ -154,25 +158,32 @@ def agreement_of_people(
     everything = np.concatenate(differences)
     a, b = (np.concatenate(side) for side in zip(*pairs, strict=True))
     found = replace(
-        NOTHING, count=count, independent=float(worth.sum()), bias=bias, bias_interval=(bias - half, bias + half),
-        sd=sd, limits=(low, high), lower_interval=(low - outer, low + inner),
+        NO_AGREEMENT,
+        count=count,
+        effective_count=float(worth.sum()),
+        bias=bias,
+        bias_interval=(bias - half, bias + half),
+        sd=sd,
+        limits=(low, high),
+        lower_interval=(low - outer, low + inner),
         upper_interval=(high - inner, high + outer),
-        rmse=float(np.sqrt(np.mean(everything**2))), largest=float(np.abs(everything).max()),
+        rmse=float(np.sqrt(np.mean(everything**2))),
+        largest_difference=float(np.abs(everything).max()),
         correlation=float(np.corrcoef(a, b)[0, 1]) if a.std() > 0.0 and b.std() > 0.0 else math.nan,
-    )  # fmt: skip
+    )
     if not df > 0.0:
-        return found, Between(people, math.nan, math.nan)
+        return found, VarianceComponents(people, math.nan, math.nan)
     between = max(of_means - float((1.0 / worth).mean()) * within, 0.0)
-    return found, Between(people, math.sqrt(between), math.sqrt(within))
+    return found, VarianceComponents(people, math.sqrt(between), math.sqrt(within))
 
 
-def independent_count(values: FloatArray) -> float:
+def effective_sample_size(values: FloatArray) -> float:
     """How many independent values a series (N,) is worth: N over 1 + 2 x the sum of its autocorrelation, which is taken
     up to its first value below nothing. At least 2, at most N."""
     n = len(values)
     centred = values - values.mean()
     power = float(centred @ centred)
-    if n < FEWEST or power <= 0.0:
+    if n < MIN_PAIRS or power <= 0.0:
         return float(n)
     size = 1 << (2 * n - 1).bit_length()
     spectrum = np.abs(np.fft.rfft(centred, size)) ** 2
@@ -182,10 +193,10 @@ def independent_count(values: FloatArray) -> float:
     return float(min(max(n / (1.0 + 2.0 * float(rho[1:upto].sum())), 2.0), n))
 
 
-def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, Interval]:
+def icc_2_1(readings: FloatArray, effective_count: float | None = None) -> tuple[float, Interval]:
     """ICC(2,1), two-way random effects, absolute agreement, single reading, of (subjects, raters), and its interval.
 
-    ``worth`` subjects count for the interval where they are not independent. Shrout and Fleiss' example:
+    ``effective_count`` subjects count for the interval where they are not independent. Shrout and Fleiss' example:
 
     >>> example = np.array([[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7.0]])
     >>> icc, (low, high) = icc_2_1(example)
@@ -197,8 +208,8 @@ def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     below = ms_rows + (k - 1) * ms_rest + k * (ms_columns - ms_rest) / n
     if below <= 0.0 or not np.ptp(readings, axis=0).any():
         return math.nan, _UNKNOWN
-    icc = max((ms_rows - ms_rest) / below, _least_icc(k))
-    m = n if worth is None else max(worth, 2.0)
+    icc = max((ms_rows - ms_rest) / below, _min_icc(k))
+    m = n if effective_count is None else max(effective_count, 2.0)
     if ms_rest <= 0.0:
         return icc, (icc, icc) if ms_columns <= 0.0 else _UNKNOWN
     # The variance between raters is that of their means: with fewer independent subjects it is worth less.
@@ -206,7 +217,7 @@ def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     own = icc
     if icc < 0.0:  # estimates of variances are below nothing: what follows from them would cross -1
         if k == 2:
-            return icc, _within(icc, *_concordance_interval(readings, m), k)
+            return icc, _clip_interval(icc, *_concordance_interval(readings, m), k)
         ratio, own = max(ratio, 1.0), 0.0
     above = (m - 1) * (k - 1) * (k * own * ratio + m * (1 + (k - 1) * own) - k * own) ** 2
     under = (m - 1) * k**2 * own**2 * ratio**2 + (m * (1 + (k - 1) * own) - k * own) ** 2
@@ -216,7 +227,7 @@ def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     rows_part = k * ms_columns_m + (k * m - k - m) * ms_rest
     low = m * (ms_rows - f_low * ms_rest) / (f_low * rows_part + m * ms_rows)
     high = m * (f_high * ms_rows - ms_rest) / (rows_part + m * f_high * ms_rows)
-    return icc, _within(icc, low, high, k)
+    return icc, _clip_interval(icc, low, high, k)
 
 
 def _concordance_interval(pairs: FloatArray, m: float) -> Interval:
@@ -234,7 +245,7 @@ def _concordance_interval(pairs: FloatArray, m: float) -> Interval:
     return math.tanh(math.atanh(c) - half), math.tanh(math.atanh(c) + half)
 
 
-def icc_3_1(readings: FloatArray, worth: float | None = None) -> tuple[float, Interval]:
+def icc_3_1(readings: FloatArray, effective_count: float | None = None) -> tuple[float, Interval]:
     """ICC(3,1), consistency of a single reading, as :func:`icc_2_1`: an offset between raters is no disagreement.
 
     >>> example = np.array([[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7.0]])
@@ -249,10 +260,10 @@ def icc_3_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     icc = (ms_rows - ms_rest) / (ms_rows + (k - 1) * ms_rest)
     if ms_rest <= 0.0:
         return icc, (icc, icc)
-    m = n if worth is None else max(worth, 2.0)
+    m = n if effective_count is None else max(effective_count, 2.0)
     f, df, df_rest = ms_rows / ms_rest, m - 1.0, (m - 1.0) * (k - 1.0)
     low, high = f / float(scipy.special.fdtri(df, df_rest, 0.975)), f * float(scipy.special.fdtri(df_rest, df, 0.975))
-    return icc, _within(icc, (low - 1) / (low + k - 1), (high - 1) / (high + k - 1), k)
+    return icc, _clip_interval(icc, (low - 1) / (low + k - 1), (high - 1) / (high + k - 1), k)
 
 
 def _mean_squares(readings: FloatArray) -> tuple[float, float, float]:
@@ -268,15 +279,15 @@ def _mean_squares(readings: FloatArray) -> tuple[float, float, float]:
     )
 
 
-def _least_icc(raters: int) -> float:
+def _min_icc(raters: int) -> float:
     return -1.0 / (raters - 1)
 
 
-def _within(icc: float, low: float, high: float, raters: int) -> Interval:
+def _clip_interval(icc: float, low: float, high: float, raters: int) -> Interval:
     """Limits that lie where an ICC can, about it; unknown ones stay so."""
     if not math.isfinite(low + high):
         return _UNKNOWN
-    return max(min(low, icc), _least_icc(raters)), min(max(high, icc), 1.0)
+    return max(min(low, icc), _min_icc(raters)), min(max(high, icc), 1.0)
 
 
 def cmc(a: FloatArray, b: FloatArray) -> float:
@@ -295,12 +306,12 @@ def cmc(a: FloatArray, b: FloatArray) -> float:
     return math.sqrt(1.0 - between / total)
 
 
-Judgement = Literal["agree", "apart", "few", "not_judged"]
+AgreementVerdict = Literal["agree", "apart", "few", "not_judged"]
 
 
-def judged(figures: Agreement, limit: float) -> Judgement:
+def judge_agreement(agreement: Agreement, limit: float) -> AgreementVerdict:
     """``agree`` where both limits of agreement lie within ± ``limit``; ``not_judged`` where none was set (0). Too few
-    to say: fewer pairs than :data:`FEWEST_TO_JUDGE`, or a limit known less well than the limit to be kept.
+    to say: fewer pairs than :data:`MIN_PAIRS_TO_JUDGE`, or a limit known less well than the limit to be kept.
 
     >>> from carpus.core.agreement.statistics import agreement
     >>> import numpy as np
@@ -312,14 +323,14 @@ def judged(figures: Agreement, limit: float) -> Judgement:
     """
     if not limit > 0.0:
         return "not_judged"
-    if figures.count < FEWEST_TO_JUDGE:
+    if agreement.count < MIN_PAIRS_TO_JUDGE:
         return "few"
-    widths = [high - low for low, high in (figures.lower_interval, figures.upper_interval)]
+    widths = [high - low for low, high in (agreement.lower_interval, agreement.upper_interval)]
     if not max(widths) <= limit:
         return "few"
-    return "agree" if furthest(figures) <= limit else "apart"
+    return "agree" if max_absolute_limit(agreement) <= limit else "apart"
 
 
-def furthest(figures: Agreement) -> float:
+def max_absolute_limit(agreement: Agreement) -> float:
     """The limit of agreement that is further from nothing, without its sign; NaN where there is none."""
-    return max(map(abs, figures.limits)) if all(map(math.isfinite, figures.limits)) else math.nan
+    return max(map(abs, agreement.limits)) if all(map(math.isfinite, agreement.limits)) else math.nan

@@ -10,28 +10,33 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import nearest_within
-from carpus.core.calibration.candidates import is_paper, marker_candidates
+from carpus.core.assignment import assign_nearest
+from carpus.core.calibration.candidates import find_marker_candidates, is_paper
 from carpus.core.calibration.name_checks import (
-    OFF_THE_HAND_M,
-    SAME_DISC_RADII,
+    MAX_DEPTH_OFFSET_M,
+    SAME_MARKER_RADII,
     SAME_SPOT_PX,
-    looks_like_other_side,
-    misnamed,
-    odd_disc,
+    find_label_fault,
+    find_odd_marker,
+    find_shifted_labels,
+    is_other_side,
     plan_view,
-    shifted_names,
 )
-from carpus.core.calibration.neutral_pose import pose_by_least_squares
+from carpus.core.calibration.neutral_pose import estimate_neutral_pose
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.calibration.still_depth import COMPARED_WIDTH_PX, SURELY_OFF_PX, depth_offset_px, surface_of
+from carpus.core.calibration.still_depth import (
+    COMPARED_WIDTH_PX,
+    MIN_OFFSET_PX,
+    estimate_back_surface,
+    estimate_depth_offset_px,
+)
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.detection.appearance import (
-    CLICK_REACH_RADII,
+    MAX_CLICK_DISTANCE_RADII,
     MarkerAppearance,
-    expected_radius_px,
+    estimate_radius_px,
     learn_appearance,
     to_hsv,
 )
@@ -44,44 +49,44 @@ from carpus.core.types import Detections, FloatArray, Frame, Region
 _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""
 _TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
-STILL_PX = 0.7
+MAX_STILL_MOTION_PX = 0.7
 """By how much the discs of a still hand may have moved."""
-STAYED_PX, MIN_STILL_DISCS = 4.0, 3
+STILL_GATE_PX, MIN_STILL_MARKERS = 4.0, 3
 """While the hand is still a disc lies so near to where it was clicked, so many of them at least."""
-ENOUGH_FRAMES = 5
+MIN_NEUTRAL_FRAMES = 5
 """For a neutral pose worth its name."""
-USUAL_PIXEL_SD_PX, PIXEL_STAYS_PX = 0.3, 0.1
+DEFAULT_PIXEL_SD_PX, SYSTEMATIC_PIXEL_SD_PX = 0.3, 0.1
 """Of a disc's centre where the frames are too few to show it, and what of it no averaging removes."""
-MAX_LENGTH_CHANGE = 0.15
+MAX_HAND_LENGTH_CHANGE = 0.15
 """Of a hand since last time: discs put on anew lie up to half a centimetre elsewhere on the 8 cm that are measured."""
 
 
 @dataclass(frozen=True, slots=True)
 class NeutralCapture:
     """The discs over the still first frames: pixels (F, M, 2), depths (F, M), what the detector said of the
-    depths' sd (F, M), and areas (F, M); NaN where not seen; ``lasted_s`` from the first to the last."""
+    depths' sd (F, M), and areas (F, M); NaN where not seen; ``duration_s`` from the first to the last."""
 
     pixel: FloatArray
     depth_m: FloatArray
     depth_sd_m: FloatArray
     area_px: FloatArray
-    lasted_s: float = 0.0
+    duration_s: float = 0.0
 
     @property
-    def frames(self) -> int:
+    def frame_count(self) -> int:
         return int(self.pixel.shape[0])
 
 
 @dataclass(frozen=True, slots=True)
-class StillNoise:
+class MeasurementNoise:
     """Standard deviation of one picture's centres and depths on a still hand, ``depth_ratio`` of the latter to that
-    of a single reading by the book: NaN when there were too few frames. ``disc_radius_m`` of the palm's discs as
+    of a single reading by the book: NaN when there were too few frames. ``marker_radius_m`` of the palm's discs as
     they appear."""
 
     pixel_sd_px: float = float("nan")
     depth_sd_m: float = float("nan")
     depth_ratio: float = float("nan")
-    disc_radius_m: float = float("nan")
+    marker_radius_m: float = float("nan")
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +95,7 @@ class MeasuredHand:
 
     verdict: Verdict
     calibration: Calibration | None
-    noise: StillNoise
+    noise: MeasurementNoise
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +108,7 @@ class CalibrationOutcome(MeasuredHand):
     capture_frames: int
 
 
-def calibrate(
+def calibrate_hand(
     clicks: Clicks,
     frames: Sequence[Frame],
     camera: Camera,
@@ -113,142 +118,143 @@ def calibrate(
 ) -> CalibrationOutcome:
     """Find the clicked discs, average them while the hand is still, measure the palm, judge the result.
 
-    ``frames``: the clicked frame first, then those that follow it.
+    ``frame_count``: the clicked frame first, then those that follow it.
     """
     first = frames[0]
-    radius_px = np.array([expected_radius_px(first, click, camera, detection) for click in clicks.pixel])
-    region = _around(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
-    found = _discs_clicked(clicks, first, region, CLICK_REACH_RADII * radius_px, camera, detection)
-    appearance, blobs, taken, findings = found.appearance, found.blobs, found.taken, found.findings
+    radius_px = np.array([estimate_radius_px(first, click, camera, detection) for click in clicks.pixel])
+    region = _bounding_region(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
+    found = _find_clicked_markers(clicks, first, region, MAX_CLICK_DISTANCE_RADII * radius_px, camera, detection)
+    appearance, blobs, taken, findings = found.appearance, found.blobs, found.blob_index, found.findings
     detector = Detector(appearance, camera, detection)
-    found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)
+    found_px = np.where((taken >= 0)[:, None], _take_rows(blobs.pixel, taken), np.nan)
     if np.any(taken < 0):
-        verdict = _no_verdict(clicks, findings)
-        return CalibrationOutcome(verdict, None, StillNoise(), appearance, found_px, 0)
+        verdict = _empty_verdict(clicks, findings)
+        return CalibrationOutcome(verdict, None, MeasurementNoise(), appearance, found_px, 0)
 
-    offset_px = depth_offset_px(first, appearance, found_px)
+    offset_px = estimate_depth_offset_px(first, appearance, found_px)
     if offset_px > 0.0:
-        limit_px = SURELY_OFF_PX * camera.width_px / COMPARED_WIDTH_PX
+        limit_px = MIN_OFFSET_PX * camera.width_px / COMPARED_WIDTH_PX
         findings.append(CalibrationFinding("depth_off", (), offset_px, limit_px, "px"))
 
-    def seen() -> Iterator[tuple[float, Detections]]:
+    def iterate_detections() -> Iterator[tuple[float, Detections]]:
         yield first.timestamp_s, blobs
         for frame in frames[1:]:
             yield frame.timestamp_s, detector.detect(frame, region)
 
-    capture = still_capture(seen(), taken, settings)
+    capture = capture_neutral_pose(iterate_detections(), taken, settings)
     hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
-    if not any(finding.kind in _NAMES_WRONG for finding in hand.verdict.findings):
+    if not any(finding.kind in _LABEL_FINDINGS for finding in hand.verdict.findings):
         everywhere = detector.detect(first)
-        hand = _with_near_spot(hand, clicks, found_px, radius_px, everywhere)
-        hand = _with_odd_disc(hand, clicks, first, found_px, everywhere, camera, detection)
+        hand = _add_near_spot_finding(hand, clicks, found_px, radius_px, everywhere)
+        hand = _add_odd_marker_finding(hand, clicks, first, found_px, everywhere, camera, detection)
     calibration = hand.calibration
     if calibration is not None:
-        still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.lasted_s]
-        calibration = replace(calibration, surface=surface_of(calibration, still, camera))
-    return CalibrationOutcome(hand.verdict, calibration, hand.noise, appearance, found_px, capture.frames)
+        still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.duration_s]
+        calibration = replace(calibration, surface=estimate_back_surface(calibration, still, camera))
+    return CalibrationOutcome(hand.verdict, calibration, hand.noise, appearance, found_px, capture.frame_count)
 
 
-_NAMES_WRONG = ("shifted", "swapped", "misnamed", "wrong_side")
+_LABEL_FINDINGS = ("shifted", "swapped", "misnamed", "wrong_side")
 
 
-def _with_odd_disc(
+def _add_odd_marker_finding(
     hand: MeasuredHand,
     clicks: Clicks,
-    first: Frame,
+    frame: Frame,
     found_px: FloatArray,
-    everywhere: Detections,
+    all_blobs: Detections,
     camera: Camera,
     detection: DetectionSettings,
 ) -> MeasuredHand:
     """The measured hand, doubted where a disc makes no palm, or where a spot that nobody named fits better."""
     palm = list(clicks.protocol.palm)
-    taken = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < SAME_SPOT_PX
+    taken = np.linalg.norm(all_blobs.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < SAME_SPOT_PX
     depth_m = float(hand.verdict.distance_m)
-    near = ~np.isfinite(everywhere.depth_m) | (np.abs(everywhere.depth_m - depth_m) < OFF_THE_HAND_M)
-    spare_px = everywhere.pixel[~taken & near]
-    spare_px = spare_px[is_paper(spare_px, first, to_hsv(first.color_rgb), camera, detection)]
+    near = ~np.isfinite(all_blobs.depth_m) | (np.abs(all_blobs.depth_m - depth_m) < MAX_DEPTH_OFFSET_M)
+    spare_px = all_blobs.pixel[~taken & near]
+    spare_px = spare_px[is_paper(spare_px, frame, to_hsv(frame.color_rgb), camera, detection)]
     names = clicks.protocol.markers
 
     def plan(pixel: FloatArray) -> FloatArray:
-        return plan_view(camera.back_project(camera.undistort(pixel), np.full(len(pixel), depth_m)))
+        return plan_view(camera.backproject(camera.undistort(pixel), np.full(len(pixel), depth_m)))
 
-    odd = odd_disc(clicks.side, plan(found_px[palm]), plan(spare_px))
+    odd = find_odd_marker(clicks.side, plan(found_px[palm]), plan(spare_px))
     if odd is None or not np.isfinite(depth_m):
         return hand
-    kind: FindingKind = "other_spot" if odd.fits else "spare_spot" if odd.spot >= 0 else "no_palm"
+    kind: FindingKind = "other_spot" if odd.is_spot_better else "spare_spot" if odd.spot >= 0 else "no_palm"
     spot_px = tuple(map(float, spare_px[odd.spot])) if odd.spot >= 0 else ()
     marker = (names[palm[odd.marker]],) if odd.marker >= 0 else ()
-    return _doubted(hand, CalibrationFinding(kind, marker, spot_px=spot_px))
+    return _add_finding(hand, CalibrationFinding(kind, marker, spot_px=spot_px))
 
 
-def _with_near_spot(
+def _add_near_spot_finding(
     hand: MeasuredHand,
     clicks: Clicks,
     found_px: FloatArray,
     radius_px: FloatArray,
-    everywhere: Detections,
+    all_blobs: Detections,
 ) -> MeasuredHand:
     """The measured hand, doubted where a spot that nobody named lies so near to a disc that it may be the disc."""
-    apart = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1)
+    apart = np.linalg.norm(all_blobs.pixel[:, None] - found_px[None], axis=-1)
     # A disc is its own nearest blob.
     apart[apart.argmin(axis=0)] = np.inf
     near = apart / radius_px
-    if not near.size or not near.min() < SAME_DISC_RADII:
+    if not near.size or not near.min() < SAME_MARKER_RADII:
         return hand
     spot, marker = np.unravel_index(int(near.argmin()), near.shape)
-    spot_px = tuple(map(float, everywhere.pixel[spot]))
-    return _doubted(hand, CalibrationFinding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
+    spot_px = tuple(map(float, all_blobs.pixel[spot]))
+    return _add_finding(hand, CalibrationFinding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
 
 
-_Judged = TypeVar("_Judged", bound=MeasuredHand)
+_HandT = TypeVar("_HandT", bound=MeasuredHand)
 
 
-def _doubted(judged: _Judged, finding: CalibrationFinding) -> _Judged:
-    verdict = replace(judged.verdict, findings=(*judged.verdict.findings, finding))
-    calibration = None if judged.calibration is None else replace(judged.calibration, verdict=verdict)
-    return replace(judged, verdict=verdict, calibration=calibration)
+def _add_finding(hand: _HandT, finding: CalibrationFinding) -> _HandT:
+    verdict = replace(hand.verdict, findings=(*hand.verdict.findings, finding))
+    calibration = None if hand.calibration is None else replace(hand.calibration, verdict=verdict)
+    return replace(hand, verdict=verdict, calibration=calibration)
 
 
 @dataclass(frozen=True, slots=True)
-class _Found:
-    """Colours of the discs, blobs of the clicked frame, blob ``taken`` (M,) of every click or -1, what was wrong."""
+class _ClickedMarkers:
+    """Colours of the discs, blobs of the clicked frame, blob ``blob_index`` (M,) of every click or -1, what was
+    wrong."""
 
     appearance: MarkerAppearance
     blobs: Detections
-    taken: NDArray[np.int64]
+    blob_index: NDArray[np.int64]
     findings: list[CalibrationFinding]
 
 
-def _discs_clicked(
+def _find_clicked_markers(
     clicks: Clicks,
-    first: Frame,
+    frame: Frame,
     region: Region,
     reach_px: FloatArray,
     camera: Camera,
     detection: DetectionSettings,
-) -> _Found:
+) -> _ClickedMarkers:
     """The discs of the clicked frame under the clicks."""
 
-    def tried(pixel: FloatArray) -> _Found:
+    def detect_at_pixels(pixel: FloatArray) -> _ClickedMarkers:
         """The colours learnt where the discs are taken to be, at ``pixel`` (M, 2)."""
-        appearance, _ = learn_appearance(first, pixel, camera, detection)
-        blobs = Detector(appearance, camera, detection).detect(first, region)
-        return _Found(appearance, blobs, *_named(clicks, blobs, reach_px))
+        appearance, _ = learn_appearance(frame, pixel, camera, detection)
+        blobs = Detector(appearance, camera, detection).detect(frame, region)
+        return _ClickedMarkers(appearance, blobs, *_assign_clicks(clicks, blobs, reach_px))
 
-    found = tried(clicks.pixel)
-    if np.all(found.taken >= 0):
+    found = detect_at_pixels(clicks.pixel)
+    if np.all(found.blob_index >= 0):
         return found
     # Small discs and clicks at their edges: colours are better learnt in the middle of what is blue.
-    candidates = marker_candidates(first, camera, detection)
-    again = tried(_snapped(clicks.pixel, candidates, reach_px))
-    return max(found, again, key=lambda each: int(np.count_nonzero(each.taken >= 0)))
+    candidates = find_marker_candidates(frame, camera, detection)
+    again = detect_at_pixels(_snap_clicks(clicks.pixel, candidates, reach_px))
+    return max(found, again, key=lambda each: int(np.count_nonzero(each.blob_index >= 0)))
 
 
-def _snapped(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
+def _snap_clicks(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
     """Clicks (M, 2) moved onto the blob that each means, all together; where there is none, as clicked."""
-    taken = nearest_within(np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1), reach_px)
-    return np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), pixel)
+    taken = assign_nearest(np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1), reach_px)
+    return np.where((taken >= 0)[:, None], _take_rows(blobs.pixel, taken), pixel)
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:
@@ -262,27 +268,25 @@ def require_calibration(outcome: CalibrationOutcome) -> Calibration:
     return outcome.calibration
 
 
-def _rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
+def _take_rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
     if values.shape[0] == 0:
         return np.full((index.size, *values.shape[1:]), np.nan)
     return values[np.maximum(index, 0)]
 
 
-def _around(pixel: FloatArray, margin_px: float, camera: Camera) -> Region:
+def _bounding_region(pixel: FloatArray, margin_px: float, camera: Camera) -> Region:
     low, high = pixel.min(axis=0) - margin_px, pixel.max(axis=0) + margin_px
-    return Region(int(low[0]), int(low[1]), int(high[0]) + 1, int(high[1]) + 1).clipped(
-        camera.width_px, camera.height_px
-    )
+    return Region(int(low[0]), int(low[1]), int(high[0]) + 1, int(high[1]) + 1).clip(camera.width_px, camera.height_px)
 
 
-def _named(
+def _assign_clicks(
     clicks: Clicks, blobs: Detections, reach_px: FloatArray
 ) -> tuple[NDArray[np.int64], list[CalibrationFinding]]:
     """Blob of every click (M,), -1 for none, each blob once, nearest overall; and what was wrong."""
     names = clicks.protocol.markers
     findings: list[CalibrationFinding] = []
     distance = np.linalg.norm(clicks.pixel[:, None] - blobs.pixel[None], axis=-1)
-    taken = nearest_within(distance, reach_px)
+    taken = assign_nearest(distance, reach_px)
     for marker in np.flatnonzero(taken < 0):
         rivals = [r for r in range(len(names)) if taken[r] >= 0 and distance[marker, taken[r]] <= reach_px[marker]]
         if rivals:
@@ -293,18 +297,18 @@ def _named(
     return taken, findings
 
 
-def still_capture(
-    seen: Iterable[tuple[float, Detections]], taken: NDArray[np.int64], settings: CalibrationSettings
+def capture_neutral_pose(
+    detections: Iterable[tuple[float, Detections]], blob_index: NDArray[np.int64], settings: CalibrationSettings
 ) -> NeutralCapture:
     """The discs from the first frame on for as long as the hand stays still.
 
-    ``seen``: time and blobs of every frame in order; ``taken`` (M,) the first frame's blob of every marker.
+    ``seen``: time and blobs of every frame in order; ``blob_index`` (M,) the first frame's blob of every marker.
     """
-    frames = iter(seen)
+    frames = iter(detections)
     begin_s, blobs = next(frames)
-    start_px = blobs.pixel[taken]
-    pixels, depths, said = [start_px], [blobs.depth_m[taken]], [blobs.depth_sd_m[taken]]
-    areas = [blobs.area_px[taken]]
+    start_px = blobs.pixel[blob_index]
+    pixels, depths, said = [start_px], [blobs.depth_m[blob_index]], [blobs.depth_sd_m[blob_index]]
+    areas = [blobs.area_px[blob_index]]
     lasted_s = 0.0
     for time_s, blobs in frames:
         if time_s - begin_s > settings.still_s:
@@ -313,11 +317,11 @@ def still_capture(
             continue
         distance = np.linalg.norm(start_px[:, None] - blobs.pixel[None], axis=-1)
         nearest = distance.argmin(axis=1)
-        near = distance[np.arange(len(start_px)), nearest] < STAYED_PX
-        if np.count_nonzero(near) < MIN_STILL_DISCS:
+        near = distance[np.arange(len(start_px)), nearest] < STILL_GATE_PX
+        if np.count_nonzero(near) < MIN_STILL_MARKERS:
             continue
         moved_px = np.median(blobs.pixel[nearest[near]] - start_px[near], axis=0)
-        if float(np.hypot(*moved_px)) > STILL_PX:
+        if float(np.hypot(*moved_px)) > MAX_STILL_MOTION_PX:
             break
         lasted_s = time_s - begin_s
         pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
@@ -332,33 +336,33 @@ def measure_hand(
     capture: NeutralCapture,
     camera: Camera,
     settings: CalibrationSettings,
-    found_before: Iterable[CalibrationFinding] = (),
+    earlier_findings: Iterable[CalibrationFinding] = (),
     start_angles_rad: FloatArray | None = None,
 ) -> MeasuredHand:
     """Average the discs of the still hand, measure its shape and pose, judge them."""
     names = clicks.protocol.markers
-    findings = list(found_before)
+    findings = list(earlier_findings)
     palm = np.array(clicks.protocol.palm)
     depth_count = np.isfinite(capture.depth_m).sum(axis=0)
     for marker in np.flatnonzero(depth_count == 0):
         findings.append(CalibrationFinding("no_depth", (names[marker],), blocks=bool(marker in palm)))
     if np.any(depth_count[palm] == 0):
-        return MeasuredHand(_no_verdict(clicks, findings), None, StillNoise())
+        return MeasuredHand(_empty_verdict(clicks, findings), None, MeasurementNoise())
     with np.errstate(all="ignore"):
         pixel = camera.undistort(np.nanmean(capture.pixel, axis=0))
         depth_m = _nanmean(capture.depth_m)
-    noise = replace(_noise(capture, camera.sensor), disc_radius_m=_disc_radius_m(capture, camera, palm))
-    point_cam = camera.back_project(pixel, depth_m)
+    noise = replace(_estimate_noise(capture, camera.sensor), marker_radius_m=_marker_radius_m(capture, camera, palm))
+    point_cam = camera.backproject(pixel, depth_m)
     axes_cam = wrist_axes(point_cam[palm], _TOWARDS_CAMERA)
     origin_cam = point_cam[palm[0]]
     marker_w0_m = (point_cam - origin_cam) @ axes_cam
     seen = np.isfinite(depth_m)
     if not np.all(np.isfinite(axes_cam)):
         raise CalibrationImpossible(", ".join(names))
-    rotation, translation = pose_by_least_squares(
+    rotation, translation = estimate_neutral_pose(
         camera, marker_w0_m[seen], pixel[seen], depth_m[seen], axes_cam, origin_cam
     )
-    covariance = _disc_covariances(
+    covariance = _marker_covariances(
         point_cam,
         rotation,
         np.isfinite(capture.pixel[..., 0]).sum(axis=0),
@@ -372,11 +376,11 @@ def measure_hand(
     hand_length_mm = 1e3 * float(np.linalg.norm(marker_w0_m[palm[3]])) / _MCP3_OVER_HAND_LENGTH
     view_axis = -origin_cam / np.linalg.norm(origin_cam)
     tilt_deg = float(np.degrees(np.arccos(np.clip(rotation[:, 2] @ view_axis, -1.0, 1.0))))
-    verdict = Verdict(residual_mm, hand_length_mm, tilt_deg, float(origin_cam[2]), capture.frames, ())
+    verdict = Verdict(residual_mm, hand_length_mm, tilt_deg, float(origin_cam[2]), capture.frame_count, ())
     usual_m = float(np.median(depth_m[seen]))
-    plan = plan_view(camera.back_project(pixel, np.where(seen, depth_m, usual_m)))
+    plan = plan_view(camera.backproject(pixel, np.where(seen, depth_m, usual_m)))
     near_m = max(settings.least_distance_m, camera.sensor.nearest_m)
-    findings += _judged(clicks, verdict, plan, replace(settings, least_distance_m=near_m))
+    findings += _check_calibration(clicks, verdict, plan, replace(settings, least_distance_m=near_m))
     calibration = Calibration(
         clicks,
         marker_w0_m,
@@ -395,10 +399,10 @@ def _nanmean(values: FloatArray) -> FloatArray:
     return np.asarray(np.where(count > 0, total / np.maximum(count, 1), np.nan))
 
 
-def _noise(capture: NeutralCapture, sensor: DepthSensor) -> StillNoise:
+def _estimate_noise(capture: NeutralCapture, sensor: DepthSensor) -> MeasurementNoise:
     """Noise of one picture on the still hand, common drift of the centres removed; NaN where too little was seen."""
-    if capture.frames < 4:
-        return StillNoise()
+    if capture.frame_count < 4:
+        return MeasurementNoise()
     about = capture.pixel - np.nanmean(capture.pixel, axis=0)  # first: a disc not seen must not move the median
     drift = about - np.nanmedian(about, axis=1, keepdims=True)
     # The discs share the median that is taken away: a little of their own scatter goes with it, the more the fewer.
@@ -406,7 +410,7 @@ def _noise(capture: NeutralCapture, sensor: DepthSensor) -> StillNoise:
     pixel_sd = math.sqrt(_mean_variance(drift) * seen / max(seen - 1, 1))
     depth_sd = math.sqrt(_mean_variance(capture.depth_m))
     book_m = sensor.disc_sd_m(capture.depth_m, capture.area_px)
-    return StillNoise(pixel_sd, depth_sd, depth_sd / float(np.nanmean(book_m)))
+    return MeasurementNoise(pixel_sd, depth_sd, depth_sd / float(np.nanmean(book_m)))
 
 
 def _mean_variance(series: FloatArray) -> float:
@@ -415,30 +419,30 @@ def _mean_variance(series: FloatArray) -> float:
     return float(np.mean(np.nanvar(series[:, often], axis=0, ddof=1))) if often.any() else math.nan
 
 
-def _disc_radius_m(capture: NeutralCapture, camera: Camera, palm: NDArray[np.int64]) -> float:
+def _marker_radius_m(capture: NeutralCapture, camera: Camera, palm: NDArray[np.int64]) -> float:
     """Of round discs that had the area of the palm's: children wear smaller ones (reference 2)."""
     radius_px = np.sqrt(_nanmean(capture.area_px[:, palm]) / np.pi)
     return float(np.nanmedian(radius_px * _nanmean(capture.depth_m[:, palm]) / camera.fx_px))
 
 
-def _disc_covariances(
+def _marker_covariances(
     point_cam: FloatArray,
     rotation: FloatArray,
     pixel_count: NDArray[np.int64],
     depth_count: NDArray[np.int64],
-    said_sd_m: FloatArray,
+    detector_sd_m: FloatArray,
     area_px: FloatArray,
-    noise: StillNoise,
+    noise: MeasurementNoise,
     camera: Camera,
 ) -> FloatArray:
     """Covariance (M, 3, 3) in W0 of the averaged disc places: across by the pixels, along the ray by the depth."""
     z = point_cam[:, 2]
     book_m = camera.sensor.disc_sd_m(z, area_px)
     scatter_m = noise.depth_sd_m if np.isfinite(noise.depth_sd_m) else book_m
-    steep2 = np.maximum(said_sd_m**2 - book_m**2, 0.0)  # of a slope, as steep in every frame
-    along = scatter_m**2 / np.maximum(depth_count, 1) + camera.sensor.stays_sd_m(z) ** 2 + steep2
-    pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else USUAL_PIXEL_SD_PX
-    across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), PIXEL_STAYS_PX) * z / camera.fx_px
+    steep2 = np.maximum(detector_sd_m**2 - book_m**2, 0.0)  # of a slope, as steep in every frame
+    along = scatter_m**2 / np.maximum(depth_count, 1) + camera.sensor.bias_sd_m(z) ** 2 + steep2
+    pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else DEFAULT_PIXEL_SD_PX
+    across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), SYSTEMATIC_PIXEL_SD_PX) * z / camera.fx_px
     ray = point_cam / z[:, None]
     flat = np.diag([1.0, 1.0, 0.0])
     in_cam = across_m[:, None, None] ** 2 * flat + along[:, None, None] * (ray[:, :, None] * ray[:, None, :])
@@ -456,28 +460,28 @@ def _residuals_mm(
     placed = marker_w0_m @ rotation.T + translation
     flat = capture.pixel.reshape(-1, 2)
     ideal = camera.undistort(np.nan_to_num(flat)).reshape(capture.pixel.shape)
-    seen = camera.back_project(ideal, capture.depth_m)
+    seen = camera.backproject(ideal, capture.depth_m)
     squared = np.sum((seen - placed) ** 2, axis=-1)
     squared[~np.isfinite(capture.pixel[..., 0])] = np.nan
     return np.asarray(1e3 * np.sqrt(_nanmean(squared)))
 
 
-def _judged(
+def _check_calibration(
     clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: CalibrationSettings
 ) -> list[CalibrationFinding]:
     names = clicks.protocol.markers
     out: list[CalibrationFinding] = []
-    shifted = shifted_names(clicks.side, plan[list(clicks.protocol.palm)])
+    shifted = find_shifted_labels(clicks.side, plan[list(clicks.protocol.palm)])
     if len(shifted) > 2:
         out.append(CalibrationFinding("shifted", shifted))
-    elif looks_like_other_side(clicks.protocol, clicks.side, plan):
+    elif is_other_side(clicks.protocol, clicks.side, plan):
         out.append(CalibrationFinding("wrong_side"))
     elif shifted and not clicks.protocol.has_fingers:
         out.append(CalibrationFinding("swapped", shifted))
     elif clicks.protocol.has_fingers:
-        names_at_fault = misnamed(clicks.protocol, clicks.side, plan)
-        if names_at_fault is not None and names_at_fault.alone:
-            out.append(CalibrationFinding("misnamed", (names_at_fault.alone,)))
+        names_at_fault = find_label_fault(clicks.protocol, clicks.side, plan)
+        if names_at_fault is not None and names_at_fault.misplaced:
+            out.append(CalibrationFinding("misnamed", (names_at_fault.misplaced,)))
         elif names_at_fault is not None:
             out.append(CalibrationFinding("swapped", sum(names_at_fault.swapped, ())))
     for marker in np.flatnonzero(verdict.residual_mm > settings.most_residual_mm):
@@ -494,21 +498,21 @@ def _judged(
         out.append(CalibrationFinding("tilt", (), verdict.tilt_deg, settings.most_tilt_deg, "deg"))
     if verdict.distance_m < settings.least_distance_m:
         out.append(CalibrationFinding("distance", (), verdict.distance_m, settings.least_distance_m, "m"))
-    if verdict.frames_used < ENOUGH_FRAMES:
-        out.append(CalibrationFinding("few_frames", (), verdict.frames_used, ENOUGH_FRAMES, "frames"))
+    if verdict.frames_used < MIN_NEUTRAL_FRAMES:
+        out.append(CalibrationFinding("few_frames", (), verdict.frames_used, MIN_NEUTRAL_FRAMES, "frames"))
     return out
 
 
-def _no_verdict(clicks: Clicks, findings: list[CalibrationFinding]) -> Verdict:
+def _empty_verdict(clicks: Clicks, findings: list[CalibrationFinding]) -> Verdict:
     unknown = np.full(len(clicks.protocol.markers), np.nan)
     return Verdict(unknown, np.nan, np.nan, np.nan, 0, tuple(findings))
 
 
-def compared_with_last_time(outcome: CalibrationOutcome, last_length_mm: float) -> CalibrationOutcome:
+def check_hand_length(outcome: CalibrationOutcome, previous_length_mm: float) -> CalibrationOutcome:
     """The outcome, doubted where the hand is not as long as the same hand was; NaN: there is none to compare with."""
     now_mm = outcome.verdict.hand_length_mm
-    if not (math.isfinite(last_length_mm) and math.isfinite(now_mm)):
+    if not (math.isfinite(previous_length_mm) and math.isfinite(now_mm)):
         return outcome
-    if abs(now_mm - last_length_mm) <= MAX_LENGTH_CHANGE * last_length_mm:
+    if abs(now_mm - previous_length_mm) <= MAX_HAND_LENGTH_CHANGE * previous_length_mm:
         return outcome
-    return _doubted(outcome, CalibrationFinding("other_length", (), now_mm, last_length_mm, "mm"))
+    return _add_finding(outcome, CalibrationFinding("other_length", (), now_mm, previous_length_mm, "mm"))

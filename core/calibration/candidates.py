@@ -11,57 +11,65 @@ from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.detection import appearance
-from carpus.core.detection.appearance import CLICK_REACH_RADII, expected_radius_px, learn_appearance
-from carpus.core.detection.components import components
+from carpus.core.detection.appearance import MAX_CLICK_DISTANCE_RADII, estimate_radius_px, learn_appearance
+from carpus.core.detection.components import find_components
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
-PAPER_BLUE: tuple[tuple[int, ...], ...] = ((90, 60, 30), (130, 255, 255))
+PAPER_HSV_RANGE: tuple[tuple[int, ...], ...] = ((90, 60, 30), (130, 255, 255))
 """Lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""
-TINGED_BLUE: tuple[tuple[int, ...], ...] = ((85, 50, 25), (145, 255, 255))
+TINGED_HSV_RANGE: tuple[tuple[int, ...], ...] = ((85, 50, 25), (145, 255, 255))
 """The same of discs so small that they take on some of the skin; with it a sleeve falls into specks."""
-MIN_SPOT_AREA = 0.3
+MIN_AREA_RATIO = 0.3
 """Area of a spot over a disc's."""
-MIN_TINGED_AREA = 0.2
+MIN_TINGED_AREA_RATIO = 0.2
 """The same of a tinged one."""
-MAX_TRIED_SPOTS = 400
+MAX_CANDIDATES = 400
 """In cloth of the paper's hue there are more spots than discs; so many are looked at."""
-MIN_SPOTS = 3
+MIN_CANDIDATES = 3
 """Fewer spots are no marked hand."""
 CLICK_WINDOW_RADII = 8.0
 """So far about a click is searched."""
-MAX_ALIKE = 0.6
+MAX_BACKGROUND_SIMILARITY = 0.6
 """Bhattacharyya coefficient of a spot to what lies around it, above which it is no paper."""
-MIN_COLOUR = 24.0
+MIN_CHROMA = 24.0
 """Strongest channel less the weakest, of 255: coloured paper in a dim room has 60, a dark pullover up to 15."""
 MIN_VALUE = 60.0
 """Strongest channel of a spot: 90 on paper in a dim room; darker nothing has such a colour but by chance."""
-MIN_COLOUR_STEP = 50.0
+MIN_COLOUR_CONTRAST = 50.0
 """Distance in colour (RGB) of most of the ring about a disc from the disc: 65 in a dim room, in cloth rarely 45."""
-MIN_USUAL_SHARE = 0.35
+MIN_CHROMA_SHARE = 0.35
 """All discs are of one paper: a spot with less than this share of the usual colour of the spots is none of them."""
 
 
-def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings) -> Detections:
+def find_marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings) -> Detections:
     """Every blue disc-sized blob of a picture, exactly placed; none where fewer than three are seen.
 
     A first, wide search for blue shows what today's paper and skin look like; the detector then finds the discs.
     """
     hsv = appearance.to_hsv(frame.color_rgb)
-    blue = cv2.inRange(hsv, *(np.array(limit) for limit in PAPER_BLUE))
+    blue = cv2.inRange(hsv, *(np.array(limit) for limit in PAPER_HSV_RANGE))
     opened = cv2.morphologyEx(blue, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
-    spots = _paper(_disc_sized(opened, MIN_SPOT_AREA, frame, camera, settings), frame, hsv, camera, settings)
-    if len(spots) < MIN_SPOTS:
-        tinged = cv2.inRange(hsv, *(np.array(limit) for limit in TINGED_BLUE))
-        spots = _paper(_disc_sized(tinged, MIN_TINGED_AREA, frame, camera, settings), frame, hsv, camera, settings)
-    if len(spots) < MIN_SPOTS:
+    spots = _paper(
+        _find_marker_sized_spots(opened, MIN_AREA_RATIO, frame, camera, settings), frame, hsv, camera, settings
+    )
+    if len(spots) < MIN_CANDIDATES:
+        tinged = cv2.inRange(hsv, *(np.array(limit) for limit in TINGED_HSV_RANGE))
+        spots = _paper(
+            _find_marker_sized_spots(tinged, MIN_TINGED_AREA_RATIO, frame, camera, settings),
+            frame,
+            hsv,
+            camera,
+            settings,
+        )
+    if len(spots) < MIN_CANDIDATES:
         return Detections.none()
     looks, _ = learn_appearance(frame, spots, camera, settings)
     # In cloth of the paper's hue there are more spots than discs: they must not crowd these out before they are tried.
-    found = Detector(looks, camera, replace(settings, most_blobs=MAX_TRIED_SPOTS)).detect(frame)
+    found = Detector(looks, camera, replace(settings, most_blobs=MAX_CANDIDATES)).detect(frame)
     kept = is_paper(found.pixel, frame, hsv, camera, settings)
-    return found.only(kept) if np.count_nonzero(kept) >= MIN_SPOTS else Detections.none()
+    return found.subset(kept) if np.count_nonzero(kept) >= MIN_CANDIDATES else Detections.none()
 
 
 def _paper(pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings) -> FloatArray:
@@ -74,56 +82,61 @@ def is_paper(
     """Which spots (B, 2) have a colour of their own, other than what lies around them, and about as much of it as
     the others. Dark cloth falls into specks whose hue is blue by chance; they have hardly any colour."""
     colour = np.zeros(len(pixel))
-    for i, (at, radius_px) in enumerate(zip(pixel, _radii_px(frame, pixel, camera, settings), strict=True)):
+    for i, (at, radius_px) in enumerate(zip(pixel, _expected_radii_px(frame, pixel, camera, settings), strict=True)):
         others = pixel[(np.abs(pixel - at).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
-        colour[i] = _own_colour(frame.color_rgb, hsv, at, radius_px, others)
-    coloured = colour >= MIN_COLOUR
+        colour[i] = _chroma(frame.color_rgb, hsv, at, radius_px, others)
+    coloured = colour >= MIN_CHROMA
     usual = float(np.median(colour[coloured])) if coloured.any() else 0.0
-    return np.asarray(coloured & (colour >= MIN_USUAL_SHARE * usual))
+    return np.asarray(coloured & (colour >= MIN_CHROMA_SHARE * usual))
 
 
-def _own_colour(
+def _chroma(
     color_rgb: ByteImage,
     hsv: ByteImage,
-    at: FloatArray,
+    centre_px: FloatArray,
     radius_px: float,
-    others: FloatArray,
+    neighbours_px: FloatArray,
 ) -> float:
     """Strongest channel less the weakest of a spot, 0 for one that looks like what lies around it."""
     half = int(3.0 * radius_px) + 2
-    left, top = (max(0, round(float(value)) - half) for value in at)
+    left, top = (max(0, round(float(value)) - half) for value in centre_px)
     rows, columns = slice(top, top + 2 * half + 1), slice(left, left + 2 * half + 1)
     rgb, part = color_rgb[rows, columns].astype(np.float64), hsv[rows, columns]
     v, u = np.ogrid[: part.shape[0], : part.shape[1]]
-    squared = (u + left - at[0]) ** 2 + (v + top - at[1]) ** 2
+    squared = (u + left - centre_px[0]) ** 2 + (v + top - centre_px[1]) ** 2
     own = squared <= (0.7 * radius_px) ** 2
     ring = (squared > (1.6 * radius_px) ** 2) & (squared < (2.6 * radius_px) ** 2)
-    for other in others:  # the two discs of a fingertip nearly touch
+    for other in neighbours_px:  # the two discs of a fingertip nearly touch
         ring &= (u + left - other[0]) ** 2 + (v + top - other[1]) ** 2 > (1.3 * radius_px) ** 2
     if not own.any() or not ring.any():
         return 0.0
     step = np.linalg.norm(rgb[ring] - np.median(rgb[own], axis=0), axis=1)
-    mine, around = (appearance.histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
-    if np.quantile(step, 0.7) < MIN_COLOUR_STEP or appearance.bhattacharyya(mine, around) > MAX_ALIKE:
+    mine, around = (appearance.compute_histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
+    if (
+        np.quantile(step, 0.7) < MIN_COLOUR_CONTRAST
+        or appearance.compute_bhattacharyya(mine, around) > MAX_BACKGROUND_SIMILARITY
+    ):
         return 0.0
     if np.median(rgb[own].max(axis=1)) < MIN_VALUE:
         return 0.0
     return float(np.median(rgb[own].max(axis=1) - rgb[own].min(axis=1)))
 
 
-def _disc_sized(mask: Any, least_area: float, frame: Frame, camera: Camera, settings: DetectionSettings) -> FloatArray:
-    """Middles (B, 2) of the mask's components that are as large as a disc there, or ``least_area`` of it."""
-    found = components((mask > 0).astype(np.uint8), lambda at: _radii_px(frame, at, camera, settings))
+def _find_marker_sized_spots(
+    mask: Any, min_area_ratio: float, frame: Frame, camera: Camera, settings: DetectionSettings
+) -> FloatArray:
+    """Middles (B, 2) of the mask's components that are as large as a disc there, or ``min_area_ratio`` of it."""
+    found = find_components((mask > 0).astype(np.uint8), lambda at: _expected_radii_px(frame, at, camera, settings))
     full = np.pi * found.radius_px**2
-    return found.centre_px[(found.area_px > least_area * full) & (found.area_px < 2.0 * full)]
+    return found.centre_px[(found.area_px > min_area_ratio * full) & (found.area_px < 2.0 * full)]
 
 
-def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> Detections:
+def find_marker_at_click(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> Detections:
     """The disc that covers a pixel (2,), whatever its colour: one blob, or none.
 
     Only a small window is looked at. A spot that looks like all that lies around it is no disc.
     """
-    radius_px = expected_radius_px(frame, pixel, camera, settings)
+    radius_px = estimate_radius_px(frame, pixel, camera, settings)
     half = CLICK_WINDOW_RADII * radius_px
     height, width = frame.color_rgb.shape[:2]
     left, top = (int(max(0.0, value - half)) for value in pixel)
@@ -140,23 +153,23 @@ def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: Detection
     v, u = np.ogrid[: color.shape[0], : color.shape[1]]
     squared = (u - centre[0, 0]) ** 2 + (v - centre[0, 1]) ** 2
     ring = (squared > (1.5 * radius_px) ** 2) & (squared < (3.0 * radius_px) ** 2)
-    around = appearance.histogram(hsv, ring, smooth_bins=1.2)
-    if appearance.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > MAX_ALIKE:
+    around = appearance.compute_histogram(hsv, ring, smooth_bins=1.2)
+    if appearance.compute_bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > MAX_BACKGROUND_SIMILARITY:
         return Detections.none()
     if not is_paper(centre + corner, frame, appearance.to_hsv(frame.color_rgb), camera, settings).all():
         return Detections.none()
-    window = Detector(looks, camera, settings).region_about(centre, np.zeros((1, 2, 2)), np.array([0.5]))
+    window = Detector(looks, camera, settings).compute_search_region(centre, np.zeros((1, 2, 2)), np.array([0.5]))
     found = Detector(looks, camera, settings).detect(part, window)
-    return snapped(replace(found, pixel=found.pixel + corner), pixel, radius_px, settings)
+    return nearest_blob(replace(found, pixel=found.pixel + corner), pixel, radius_px, settings)
 
 
-def snapped(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
+def nearest_blob(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
     """The blob within a click's reach of a pixel (2,), the nearest one: one blob, or none."""
     distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
-    if not distance.size or float(distance.min()) > CLICK_REACH_RADII * radius_px:
+    if not distance.size or float(distance.min()) > MAX_CLICK_DISTANCE_RADII * radius_px:
         return Detections.none()
-    return blobs.only(np.arange(distance.size) == distance.argmin())
+    return blobs.subset(np.arange(distance.size) == distance.argmin())
 
 
-def _radii_px(frame: Frame, centre_px: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
-    return np.array([expected_radius_px(frame, at, camera, settings) for at in centre_px])
+def _expected_radii_px(frame: Frame, centre_px: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
+    return np.array([estimate_radius_px(frame, at, camera, settings) for at in centre_px])

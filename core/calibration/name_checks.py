@@ -23,7 +23,7 @@ from carpus.core.hand.protocols import PALM_MARKERS, WRIST6, MarkerProtocol
 from carpus.core.types import FloatArray, Side
 
 _THUMB = 1
-_OTHER: dict[Side, Side] = {"right": "left", "left": "right"}
+_OTHER_SIDE: dict[Side, Side] = {"right": "left", "left": "right"}
 
 
 MAX_TURN_DEG = 50.0
@@ -38,27 +38,27 @@ SHORT_LENGTH = 0.08
 """Pieces as short on that scale have no direction worth judging."""
 LENGTH_WEIGHT = 4.0
 """Faults counted for each such length too much; a crossing is one."""
-TURN_FAULT_DEG = 45.0
+TURN_PENALTY_DEG = 45.0
 """Turned aside by so much too far is one fault."""
 ORDER_WEIGHT = 1.5
 """Faults counted for a knuckle out of order."""
-DOUBTFUL_FAULTS = 1.2
+MIN_DOUBTFUL_PENALTY = 1.2
 """With so many faults names are doubted: two bent fingers may cross once by themselves."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Lines:
+class _FingerLines:
     """The lines that a protocol's discs make: ``chains`` by digit; pieces of them, and which pairs of pieces of
     different digits should not cross; the four ``knuckles``."""
 
     chains: dict[int, tuple[int, ...]]
-    pieces: tuple[tuple[int, int, int], ...]
-    beside: tuple[tuple[int, int], ...]
+    segments: tuple[tuple[int, int, int], ...]
+    crossing_pairs: tuple[tuple[int, int], ...]
     knuckles: tuple[int, ...]
 
 
 @lru_cache(maxsize=4)
-def _lines_of(protocol: MarkerProtocol) -> _Lines:
+def _finger_lines(protocol: MarkerProtocol) -> _FingerLines:
     chains = protocol.chains
     pieces = tuple((a, b, digit) for digit, chain in chains.items() for a, b in pairwise(chain))
     beside = tuple(
@@ -70,48 +70,53 @@ def _lines_of(protocol: MarkerProtocol) -> _Lines:
         and pieces[i][0] != pieces[j][0]
         and not (_THUMB in (pieces[i][2], pieces[j][2]) and 0 in (pieces[i][0], pieces[j][0]))
     )
-    return _Lines(chains, pieces, beside, protocol.rows(("MCP2", "MCP3", "MCP4", "MCP5")))
+    return _FingerLines(chains, pieces, beside, protocol.rows(("MCP2", "MCP3", "MCP4", "MCP5")))
 
 
 @dataclass(frozen=True, slots=True)
-class Misnamed:
-    """Names that stand in for each other (``swapped``, two of equal length), or one that fits nowhere (``alone``)."""
+class LabelFault:
+    """Names that stand in for each other (``swapped``, two of equal length), or one that fits nowhere
+    (``misplaced``)."""
 
     swapped: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
-    alone: str = ""
+    misplaced: str = ""
 
 
-def misnamed(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> Misnamed | None:
+def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> LabelFault | None:
     """What is wrong with the names of a ``plan`` (M, 2) seen from the camera, y up; None when nothing is."""
-    lines = _lines_of(protocol)
-    now = _faults(lines, side, plan)
-    if now < DOUBTFUL_FAULTS:
+    lines = _finger_lines(protocol)
+    now = _label_penalty(lines, side, plan)
+    if now < MIN_DOUBTFUL_PENALTY:
         return None
     best = np.inf
     rows: tuple[tuple[int, ...], tuple[int, ...]] = ((0,), (0,))
-    for one, other in _exchanges(lines, len(plan)):
+    for one, other in _possible_swaps(lines, len(plan)):
         trial = plan.copy()
         trial[[*one, *other]] = plan[[*other, *one]]
-        value = _faults(lines, side, trial)
+        value = _label_penalty(lines, side, trial)
         if value < best - 1e-9:
             best, rows = value, (one, other)
     names = protocol.markers
-    exchanged = Misnamed((tuple(names[i] for i in rows[0]), tuple(names[i] for i in rows[1])))
-    if best < DOUBTFUL_FAULTS:
+    exchanged = LabelFault((tuple(names[i] for i in rows[0]), tuple(names[i] for i in rows[1])))
+    if best < MIN_DOUBTFUL_PENALTY:
         return exchanged
     # No exchange mends it all: is it one disc that lies outside of the hand?
-    alone, without = _worst_finger(lines, side, plan)
-    return Misnamed(alone=names[alone]) if without < DOUBTFUL_FAULTS or best >= now - DOUBTFUL_FAULTS else exchanged
+    alone, without = _find_misplaced_marker(lines, side, plan)
+    return (
+        LabelFault(misplaced=names[alone])
+        if without < MIN_DOUBTFUL_PENALTY or best >= now - MIN_DOUBTFUL_PENALTY
+        else exchanged
+    )
 
 
-def _exchanges(lines: _Lines, count: int) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
+def _possible_swaps(lines: _FingerLines, count: int) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
     """Two discs, or two whole fingers."""
     fingers = [chain[1:] for digit, chain in lines.chains.items() if digit != _THUMB]
     single = [((i,), (j,)) for i, j in combinations(range(count), 2)]
     return [*single, *combinations(fingers, 2)]
 
 
-def _worst_finger(lines: _Lines, side: Side, plan: FloatArray) -> tuple[int, float]:
+def _find_misplaced_marker(lines: _FingerLines, side: Side, plan: FloatArray) -> tuple[int, float]:
     """The disc without which least is wrong, and how much: laid between its neighbours on the line, as if it fitted."""
     left = np.full(len(plan), np.inf)
     for chain in lines.chains.values():
@@ -122,11 +127,11 @@ def _worst_finger(lines: _Lines, side: Side, plan: FloatArray) -> tuple[int, flo
                 plan[chain[place + 1]] if place + 1 < len(chain) else before + 0.5 * (before - plan[chain[place - 2]])
             )
             trial[chain[place]] = 0.5 * (before + after)
-            left[chain[place]] = min(left[chain[place]], _faults(lines, side, trial))
+            left[chain[place]] = min(left[chain[place]], _label_penalty(lines, side, trial))
     return int(np.argmin(left)), float(left.min())
 
 
-def _faults(lines: _Lines, side: Side, plan: FloatArray) -> float:
+def _label_penalty(lines: _FingerLines, side: Side, plan: FloatArray) -> float:
     """Sum of all that speaks against the names, 0 for a usual hand."""
     size = float(np.median([np.hypot(*(plan[k] - plan[0])) for k in lines.knuckles]))
     if not size > 0.0:
@@ -144,23 +149,25 @@ def _faults(lines: _Lines, side: Side, plan: FloatArray) -> float:
         limit_deg = np.array([base_deg] * 2 + [MAX_TURN_DEG])
         # A very short piece, as of a finger bent towards the camera's line of sight, has no direction worth judging.
         weight = np.clip(np.minimum(length[:-1], length[1:]) / (SHORT_LENGTH * size), 0.0, 1.0)
-        faults += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / TURN_FAULT_DEG
-    start, end = (plan[[piece[end] for piece in lines.pieces]] for end in (0, 1))
-    faults += float(crossing(start, end, np.array(lines.beside, dtype=np.int64).reshape(-1, 2)).sum())
-    return faults + ORDER_WEIGHT * _knuckles_out_of_order(lines, side, plan)
+        faults += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / TURN_PENALTY_DEG
+    start, end = (plan[[piece[end] for piece in lines.segments]] for end in (0, 1))
+    faults += float(find_crossings(start, end, np.array(lines.crossing_pairs, dtype=np.int64).reshape(-1, 2)).sum())
+    return faults + ORDER_WEIGHT * _count_unordered_knuckles(lines, side, plan)
 
 
-def crossing(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64]) -> NDArray[np.bool_]:
+def find_crossings(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Which of the ``pairs`` (K, 2) of pieces cut each other, which run from ``start`` (P, 2) to ``end`` (P, 2)."""
 
-    def turn(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    def orientation(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
         return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
 
     a, b, c, d = start[pairs[:, 0]], end[pairs[:, 0]], start[pairs[:, 1]], end[pairs[:, 1]]
-    return np.asarray((turn(a, b, c) * turn(a, b, d) < 0.0) & (turn(c, d, a) * turn(c, d, b) < 0.0))
+    return np.asarray(
+        (orientation(a, b, c) * orientation(a, b, d) < 0.0) & (orientation(c, d, a) * orientation(c, d, b) < 0.0)
+    )
 
 
-def _knuckles_out_of_order(lines: _Lines, side: Side, plan: FloatArray) -> int:
+def _count_unordered_knuckles(lines: _FingerLines, side: Side, plan: FloatArray) -> int:
     """Neighbouring knuckles that follow each other the wrong way about the wrist."""
     ray = plan[list(lines.knuckles)] - plan[0]
     turn = ray[:-1, 0] * ray[1:, 1] - ray[:-1, 1] * ray[1:, 0]
@@ -168,37 +175,37 @@ def _knuckles_out_of_order(lines: _Lines, side: Side, plan: FloatArray) -> int:
     return int(np.count_nonzero(~onwards))
 
 
-_ORDERS = np.array(list(permutations(range(len(PALM_MARKERS)))))
+_PALM_PERMUTATIONS = np.array(list(permutations(range(len(PALM_MARKERS)))))
 
 
 GOOD_PALM_MISFIT = 0.08
 """Share of the palm's size below which its names are not questioned: hands differ from the average by up to 0.05,
 and the next best order of the names of a right palm leaves 0.25."""
-BETTER_NAMES_SHARE = 0.6
+BETTER_LABELS_SHARE = 0.6
 """Another order must leave less than this share of the misfit of the names as clicked."""
 
 
-def shifted_names(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
+def find_shifted_labels(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
     """The wrong names among the palm's, empty when another order does not fit clearly better.
 
     ``palm_plan`` (6, 2) the discs in the order of ``PALM_MARKERS``, seen from the camera, y up. The first disc that
     was given a wrong name comes first, and after each name the one that its disc should have: WRIST, MCP5 say that
     the disc clicked as wrist is the little knuckle. Two names only are two that were exchanged.
     """
-    misfits = misfit(average_palm(side), palm_plan[_ORDERS])
+    misfits = misfit(average_palm(side), palm_plan[_PALM_PERMUTATIONS])
     best = int(misfits.argmin())
-    if misfits[0] < GOOD_PALM_MISFIT or misfits[best] > BETTER_NAMES_SHARE * misfits[0]:
+    if misfits[0] < GOOD_PALM_MISFIT or misfits[best] > BETTER_LABELS_SHARE * misfits[0]:
         return ()
-    if misfits[best] > misfit(average_palm(_OTHER[side]), palm_plan):
+    if misfits[best] > misfit(average_palm(_OTHER_SIDE[side]), palm_plan):
         return ()  # the names are in order, but on the other hand
-    right_name = np.argsort(_ORDERS[best])  # of the disc clicked under each name
-    return tuple(PALM_MARKERS[i] for i in _ring_by_ring(right_name))
+    right_name = np.argsort(_PALM_PERMUTATIONS[best])  # of the disc clicked under each name
+    return tuple(PALM_MARKERS[i] for i in _permutation_cycles(right_name))
 
 
-def names_fit(side: Side, palm_plan: FloatArray) -> bool:
+def is_plausible_palm(side: Side, palm_plan: FloatArray) -> bool:
     """Whether six names, given by nobody yet, lie where a palm of this hand has them, and not better on the other
-    hand. ``palm_plan`` as in :func:`shifted_names`."""
-    misfits, others = (misfit(average_palm(one), palm_plan[_ORDERS]) for one in (side, _OTHER[side]))
+    hand. ``palm_plan`` as in :func:`find_shifted_labels`."""
+    misfits, others = (misfit(average_palm(one), palm_plan[_PALM_PERMUTATIONS]) for one in (side, _OTHER_SIDE[side]))
     return bool(misfits[0] < GOOD_PALM_MISFIT and misfits[0] == misfits.min() < others.min())
 
 
@@ -223,13 +230,13 @@ def misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
     return np.asarray(off / np.maximum(np.linalg.norm(theirs, axis=-1), 1e-12))
 
 
-def misfit_without(average: FloatArray, plan: FloatArray) -> FloatArray:
+def leave_one_out_misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
     """The :func:`misfit` (M,) that is left without each of the discs (M, 2)."""
     each = range(len(plan))
     return np.array([misfit(np.delete(average, k, axis=0), np.delete(plan, k, axis=0)) for k in each])
 
 
-def _ring_by_ring(right_name: NDArray[np.int64]) -> list[int]:
+def _permutation_cycles(right_name: NDArray[np.int64]) -> list[int]:
     """The wrong ones, each followed by what it should be."""
     out: list[int] = []
     for start in range(len(right_name)):
@@ -250,10 +257,10 @@ def plan_view(point_cam_m: FloatArray) -> FloatArray:
     return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
 
 
-def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
+def is_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
     """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
     average = _average_plan(protocol, side)
-    own, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER[side]), plan)
+    own, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER_SIDE[side]), plan)
     if own < GOOD_SIDE_MISFIT or mirrored >= OTHER_SIDE_SHARE * own:
         return False
     pairs = np.array(list(combinations(range(len(plan)), 2)))
@@ -265,33 +272,33 @@ def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray
 
 QUESTIONED_MISFIT = 0.08
 """Share of the palm's size from which a spot without a name may stand in for a disc."""
-BETTER_DISC_SHARE = 0.6
+BETTER_SPOT_SHARE = 0.6
 """What stands in for a disc must leave less than this share of the misfit."""
-NO_PALM_MISFIT = 0.17
+MAX_PALM_MISFIT = 0.17
 """A misfit that no palm has: hands differ by up to 0.05, discs stuck 4 mm off by up to 0.12."""
-BESIDE_SHARE = 0.18
+PALM_MARGIN_SHARE = 0.18
 """A spot as near to the palm's discs, a share of its length, lies on the palm: there is one disc too many."""
 MAX_SPARE_SPOTS = 2
 """More of these are the discs of a whole hand, or a pattern: nobody is asked of each."""
 SAME_SPOT_PX = 4.0
 """A spot as near to a disc is that disc."""
-OFF_THE_HAND_M = 0.06
+MAX_DEPTH_OFFSET_M = 0.06
 """A spot farther from the depth of the palm lies on something else."""
-SAME_DISC_RADII = 1.6
+SAME_MARKER_RADII = 1.6
 """A spot within so many radii of a disc's middle may be the disc itself."""
 
 
 @dataclass(frozen=True, slots=True)
-class OddDisc:
+class OddMarker:
     """``marker`` the row of the palm's disc in question, -1 for none; ``spot`` the row of the spot that may be it, or
-    that is one too many, -1 for none; ``fits`` whether the spot makes a better palm than the disc."""
+    that is one too many, -1 for none; ``is_spot_better`` whether the spot makes a better palm than the disc."""
 
     marker: int
     spot: int
-    fits: bool
+    is_spot_better: bool
 
 
-def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddDisc | None:
+def find_odd_marker(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddMarker | None:
     """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
     average = average_palm(side)
     own = misfit(average, palm_plan)
@@ -302,23 +309,23 @@ def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddDi
                 other = palm_plan.copy()
                 other[marker] = spots_plan[spot]
                 best = min(best, (float(misfit(average, other)), marker, spot))
-    if best[0] < BETTER_DISC_SHARE * own:
-        return OddDisc(best[1], best[2], fits=True)
-    if own >= NO_PALM_MISFIT:
-        return OddDisc(int(misfit_without(average, palm_plan).argmin()), -1, fits=False)
-    spare = _beside(palm_plan, spots_plan)
+    if best[0] < BETTER_SPOT_SHARE * own:
+        return OddMarker(best[1], best[2], is_spot_better=True)
+    if own >= MAX_PALM_MISFIT:
+        return OddMarker(int(leave_one_out_misfit(average, palm_plan).argmin()), -1, is_spot_better=False)
+    spare = _spots_on_palm(palm_plan, spots_plan)
     if 0 < len(spare) <= MAX_SPARE_SPOTS:
-        return OddDisc(-1, int(spare[0]), fits=False)
+        return OddMarker(-1, int(spare[0]), is_spot_better=False)
     return None
 
 
-def _beside(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.int64]:
+def _spots_on_palm(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.int64]:
     if not len(spots_plan):
         return np.empty(0, dtype=np.int64)
     length = float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
     distance = np.linalg.norm(spots_plan[:, None] - palm_plan[None], axis=-1).min(axis=1)
     inside = np.array([_is_inside(spot, palm_plan) for spot in spots_plan])
-    return np.flatnonzero(inside | (distance < BESIDE_SHARE * length))
+    return np.flatnonzero(inside | (distance < PALM_MARGIN_SHARE * length))
 
 
 def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:

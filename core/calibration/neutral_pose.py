@@ -12,11 +12,11 @@ from carpus.core.camera import Camera
 from carpus.core.hand.clinical_angles import wrist_axes
 from carpus.core.types import FloatArray
 
-_ROUNDS = 30
-_SETTLED = 1e-12
+_MAX_ITERATIONS = 30
+_CONVERGED_STEP = 1e-12
 
 
-def pose_by_least_squares(
+def estimate_neutral_pose(
     camera: Camera,
     marker_w0_m: FloatArray,
     pixel: FloatArray,
@@ -37,7 +37,7 @@ def pose_by_least_squares(
     weight = np.concatenate((np.full(pixel.size, 1.0 / pixel_sd_px), np.full(depth_m.size, 1.0 / depth_sd_m)))
     measured = np.concatenate((pixel.ravel(), depth_m))
     used = np.isfinite(measured)
-    for _ in range(_ROUNDS):
+    for _ in range(_MAX_ITERATIONS):
         point = marker_w0_m @ rotation.T + translation
         x, y, z = point.T
         predicted = np.concatenate((camera.project(point).ravel(), z))
@@ -54,7 +54,7 @@ def pose_by_least_squares(
         step = np.linalg.pinv(weighted) @ (weight * (measured - predicted))[used]
         translation = translation + step[:3]
         rotation = rotation @ so3.exp(step[3:])
-        if float(step @ step) < _SETTLED**2:
+        if float(step @ step) < _CONVERGED_STEP**2:
             break
     return rotation, translation
 
@@ -62,28 +62,28 @@ def pose_by_least_squares(
 TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
 
 
-def discs_cam_m(calibration: Calibration) -> FloatArray:
+def marker_positions_cam_m(calibration: Calibration) -> FloatArray:
     """The measured discs (M, 3) in camera axes, NaN where the depth is unknown."""
     return np.asarray(
         calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
     )
 
 
-def by_the_discs(calibration: Calibration) -> Calibration:
+def with_w0_from_markers(calibration: Calibration) -> Calibration:
     """The calibration with W0 built from the measured discs again (reference 1.1), as every other filter has it."""
-    disc_cam_m = discs_cam_m(calibration)
+    disc_cam_m = marker_positions_cam_m(calibration)
     palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
-    return seen_from(calibration, disc_cam_m, wrist_axes(palm_cam_m, TOWARDS_CAMERA), palm_cam_m[0])
+    return with_w0_pose(calibration, disc_cam_m, wrist_axes(palm_cam_m, TOWARDS_CAMERA), palm_cam_m[0])
 
 
-def seen_from(
-    calibration: Calibration, disc_cam_m: FloatArray, rotation: FloatArray, translation: FloatArray
+def with_w0_pose(
+    calibration: Calibration, marker_cam_m: FloatArray, rotation: FloatArray, translation: FloatArray
 ) -> Calibration:
     """The calibration with W0 at another pose; the measured discs (M, 3) stay where they are in space."""
     turn = rotation.T @ calibration.rotation_w0_cam
     return replace(
         calibration,
-        marker_position_w0_m=(disc_cam_m - translation) @ rotation,
+        marker_position_w0_m=(marker_cam_m - translation) @ rotation,
         rotation_w0_cam=rotation,
         translation_w0_cam_m=translation,
         marker_covariance_w0_m2=turn @ calibration.marker_covariance_w0_m2 @ turn.T,

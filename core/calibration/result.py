@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from carpus.core.hand.back_surface import BackSurface
+from carpus.core.hand.back_surface import DorsalSurface
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.phrase import Phrase, phrase
 from carpus.core.types import FloatArray, Side
-from carpus.core.words import Say, Words, marker_in_words, markers_in_words, on_one_line
+from carpus.core.words import MessageText, Translate, join_marker_names, join_sentences, marker_name
 
 FindingKind = Literal[
     "click_on_no_marker",
@@ -120,7 +120,7 @@ class Calibration:
     marker_covariance_w0_m2: FloatArray
     start_angles_rad: FloatArray
     verdict: Verdict
-    surface: BackSurface | None = None
+    surface: DorsalSurface | None = None
 
     @property
     def straight_fingers(self) -> tuple[bool, ...]:
@@ -129,11 +129,11 @@ class Calibration:
 
 
 _HAND = phrase("hand")
-_FINGERS = {
+_FINGER_NAMES = {
     "1": phrase("thumb"), "2": phrase("index finger"), "3": phrase("middle finger"), "4": phrase("ring finger"),
     "5": phrase("little finger"),
 }  # fmt: skip
-FINDINGS: dict[str, tuple[Phrase, Phrase]] = {
+FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
     "click_on_no_marker": (
         phrase("No blue marker at the {markers}."),
         phrase("Click nearer to the marker, or check the light."),
@@ -212,32 +212,35 @@ FINDINGS: dict[str, tuple[Phrase, Phrase]] = {
 
 
 def finding_words(
-    finding: CalibrationFinding, say: Say = str, written: Callable[[float], str] = "{:.3g}".format
-) -> Words:
-    """What a finding says and how to mend it; ``say`` says a phrase in another language, ``written`` writes figures."""
-    headline, remedy = map(say, FINDINGS[finding.kind])
+    finding: CalibrationFinding, translate: Translate = str, format_number: Callable[[float], str] = "{:.3g}".format
+) -> MessageText:
+    """What a finding says and how to mend it; ``translate`` says a phrase in another language, ``format_number``
+    writes figures."""
+    headline, remedy = map(translate, FINDING_TEXTS[finding.kind])
     if math.isnan(finding.value) and " (" in headline:
         headline = headline[: headline.index(" (")] + "."
     text = headline.format(
-        markers=_exchanged_in_words(finding, say) or markers_in_words(finding.markers, say) or say(_HAND),
-        first=marker_in_words(finding.markers[0], say) if finding.markers else "",
-        second=marker_in_words(finding.markers[1], say) if len(finding.markers) > 1 else "",
-        value=written(finding.value),
-        limit=written(finding.limit),
+        markers=_swapped_fingers_text(finding, translate)
+        or join_marker_names(finding.markers, translate)
+        or translate(_HAND),
+        first=marker_name(finding.markers[0], translate) if finding.markers else "",
+        second=marker_name(finding.markers[1], translate) if len(finding.markers) > 1 else "",
+        value=format_number(finding.value),
+        limit=format_number(finding.limit),
         unit=finding.unit,
     )
-    return Words(text[0].upper() + text[1:], "", remedy)
+    return MessageText(text[0].upper() + text[1:], "", remedy)
 
 
-def _exchanged_in_words(finding: CalibrationFinding, say: Say) -> str:
+def _swapped_fingers_text(finding: CalibrationFinding, translate: Translate) -> str:
     """``middle finger and ring finger`` where all names of two fingers stand in for each other."""
     if finding.kind != "swapped" or len(finding.markers) <= 2:
         return ""
     firsts = (finding.markers[0], finding.markers[len(finding.markers) // 2])
-    return say(phrase("{one} and {other}", one=_FINGERS[firsts[0][-1]], other=_FINGERS[firsts[1][-1]]))
+    return translate(phrase("{one} and {other}", one=_FINGER_NAMES[firsts[0][-1]], other=_FINGER_NAMES[firsts[1][-1]]))
 
 
 def finding_sentence(finding: CalibrationFinding) -> str:
     """What it says and how to mend it on one line."""
     words = finding_words(finding)
-    return on_one_line(words.happened, words.do)
+    return join_sentences(words.summary, words.remedy)

@@ -10,22 +10,22 @@ from typing import Any
 import numpy as np
 import yaml
 
-from carpus.core.camera import COEFFICIENTS, Camera, DistortionModel
+from carpus.core.camera import DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
 from carpus.core.dates import is_moment
-from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
-from carpus.core.durable import private, write_fault
+from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, parse_sensor
+from carpus.core.durable import open_private, write_fault
 from carpus.core.errors import CameraFileUnreadable, OutputExists
 from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED
 
 CAMERA_FILE = "camera_info.yaml"
-_USUAL_MODEL: DistortionModel = "plumb_bob"
-_MOST_BYTES = 1_000_000
-_MOST_SIDE_PX = 100_000
-_SCALES, _MOST_OFFSET_M = (0.8, 1.25), 0.1
-_DEPTH_UNITS_M = (1e-5, 1e-2)
-_FOUND_BACK_PX = 2.0
-_FOCAL_SHARE = (0.2, 10.0)
+_DEFAULT_MODEL: DistortionModel = "plumb_bob"
+_MAX_BYTES = 1_000_000
+_MAX_SIDE_PX = 100_000
+_SCALE_RANGE, _MAX_OFFSET_M = (0.8, 1.25), 0.1
+_DEPTH_UNIT_RANGE_M = (1e-5, 1e-2)
+_MAX_ROUND_TRIP_PX = 2.0
+_FOCAL_LENGTH_RANGE = (0.2, 10.0)
 """Focal length over the picture's width: beyond these a camera sees more than 136 or less than 6 degrees."""
 
 
@@ -65,8 +65,8 @@ def read_camera_info(path: Path) -> CameraInfo:
     """Read a ROS camera calibration file; raises :class:`CameraFileUnreadable`."""
     try:
         with path.open("rb") as file:
-            data = file.read(_MOST_BYTES + 1)
-        if len(data) > _MOST_BYTES:
+            data = file.read(_MAX_BYTES + 1)
+        if len(data) > _MAX_BYTES:
             raise CameraFileUnreadable(path, phrase("much too long for a camera calibration"))
         content = yaml.safe_load(data.decode("utf-8-sig"))
     except OSError as cause:
@@ -80,9 +80,9 @@ def read_camera_info(path: Path) -> CameraInfo:
         raise CameraFileUnreadable(path, phrase("not YAML")) from cause
     if not isinstance(content, dict):
         raise CameraFileUnreadable(path, phrase("not a camera calibration"))
-    registered, mirrored, simulated = (_flag(path, content, key) for key in ("registered", "mirrored", SIMULATED))
-    calibration, unit_m = _calibration(path, content), _depth_unit_m(path, content)
-    return CameraInfo(_camera(path, content), registered, mirrored, bool(simulated), calibration, unit_m)
+    registered, mirrored, simulated = (_parse_flag(path, content, key) for key in ("registered", "mirrored", SIMULATED))
+    calibration, unit_m = _parse_calibration(path, content), _parse_depth_unit_m(path, content)
+    return CameraInfo(_parse_camera(path, content), registered, mirrored, bool(simulated), calibration, unit_m)
 
 
 def write_camera_info(
@@ -101,11 +101,11 @@ def write_camera_info(
         "image_width": camera.width_px,
         "image_height": camera.height_px,
         "camera_name": camera_name,
-        "camera_matrix": _matrix(3, 3, k),
+        "camera_matrix": _format_matrix(3, 3, k),
         "distortion_model": camera.distortion_model,
-        "distortion_coefficients": _matrix(1, len(camera.distortion), list(camera.distortion)),
-        "rectification_matrix": _matrix(3, 3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
-        "projection_matrix": _matrix(3, 4, [*k[0:3], 0.0, *k[3:6], 0.0, *k[6:9], 0.0]),
+        "distortion_coefficients": _format_matrix(1, len(camera.distortion), list(camera.distortion)),
+        "rectification_matrix": _format_matrix(3, 3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
+        "projection_matrix": _format_matrix(3, 4, [*k[0:3], 0.0, *k[3:6], 0.0, *k[6:9], 0.0]),
     }
     for name, value in (("registered", registered), ("mirrored", mirrored)):
         if value is not None:
@@ -113,12 +113,12 @@ def write_camera_info(
     if simulated:
         content[SIMULATED] = True
     if camera.sensor.origin != ASSUMED:
-        content[_SENSOR] = camera.sensor.as_mapping()
+        content[_SENSOR] = camera.sensor.to_dict()
     if calibration is not None:
         content[_CALIBRATION] = asdict(calibration)
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=120)
     try:
-        with open(path, "x", encoding="utf-8", opener=private) as file:
+        with open(path, "x", encoding="utf-8", opener=open_private) as file:
             file.write(text)
     except FileExistsError as cause:
         raise OutputExists(path) from cause
@@ -126,7 +126,7 @@ def write_camera_info(
         raise write_fault(path, cause) from cause
 
 
-def fitted_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
+def rescale_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
     """``camera`` for pictures enlarged or shrunk to ``size_px``; None when they are of another shape."""
     width, height = size_px
     if size_px == (camera.width_px, camera.height_px):
@@ -145,28 +145,30 @@ def fitted_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
     )
 
 
-def _matrix(rows: int, columns: int, data: list[float]) -> dict[str, Any]:
+def _format_matrix(rows: int, columns: int, data: list[float]) -> dict[str, Any]:
     return {"rows": rows, "cols": columns, "data": [float(value) for value in data]}
 
 
-def _camera(path: Path, content: dict[str, Any]) -> Camera:
-    said = content.get("distortion_model", _USUAL_MODEL)
-    model = next((known for known in COEFFICIENTS if known == said), None)
+def _parse_camera(path: Path, content: dict[str, Any]) -> Camera:
+    said = content.get("distortion_model", _DEFAULT_MODEL)
+    model = next((known for known in DISTORTION_COEFFICIENT_COUNTS if known == said), None)
     if model is None:
         raise CameraFileUnreadable(
             path,
             phrase(
-                "distortion_model {said}, {coefficients} expected", said=said, coefficients=" or ".join(COEFFICIENTS)
+                "distortion_model {said}, {coefficients} expected",
+                said=said,
+                coefficients=" or ".join(DISTORTION_COEFFICIENT_COUNTS),
             ),
         )
-    width, height = (_size(path, content, key) for key in ("image_width", "image_height"))
-    k = _data(path, content, "camera_matrix")
+    width, height = (_parse_size(path, content, key) for key in ("image_width", "image_height"))
+    k = _parse_numbers(path, content, "camera_matrix")
     if len(k) != 9:
         raise CameraFileUnreadable(path, phrase("camera_matrix has {count} numbers, 9 expected", count=len(k)))
     fx, skew, cx, zero, fy, cy, *last = k
     if fx <= 0.0 or fy <= 0.0 or [skew, zero, *last] != [0.0, 0.0, 0.0, 0.0, 1.0]:
         raise CameraFileUnreadable(path, phrase("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]"))
-    if not all(_FOCAL_SHARE[0] <= f / width <= _FOCAL_SHARE[1] for f in (fx, fy)):
+    if not all(_FOCAL_LENGTH_RANGE[0] <= f / width <= _FOCAL_LENGTH_RANGE[1] for f in (fx, fy)):
         raise CameraFileUnreadable(
             path,
             phrase(
@@ -176,8 +178,10 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
                 width=width,
             ),
         )
-    distortion = _data(path, content, "distortion_coefficients") if "distortion_coefficients" in content else []
-    wanted = COEFFICIENTS[model]
+    distortion = (
+        _parse_numbers(path, content, "distortion_coefficients") if "distortion_coefficients" in content else []
+    )
+    wanted = DISTORTION_COEFFICIENT_COUNTS[model]
     if len(distortion) not in (0, 4, 5, wanted):
         raise CameraFileUnreadable(
             path,
@@ -186,8 +190,8 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
             ),
         )
     lens = (*distortion, *[0.0] * (wanted - len(distortion)))
-    camera = Camera(fx, fy, cx, cy, width, height, lens, "file", _sensor(path, content), model)
-    if not _is_lens(camera):
+    camera = Camera(fx, fy, cx, cy, width, height, lens, "file", _parse_sensor(path, content), model)
+    if not _is_distortion_invertible(camera):
         raise CameraFileUnreadable(
             path,
             phrase("distortion_coefficients are no lens’s: points do not find back to their places"),
@@ -195,26 +199,26 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
     return camera
 
 
-def _is_lens(camera: Camera) -> bool:
+def _is_distortion_invertible(camera: Camera) -> bool:
     """Whether undistorted pixels of the picture find back, but for those at its very edge."""
     across, down = (np.linspace(0.1, 0.9, 5) * size for size in (camera.width_px, camera.height_px))
     pixel = np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2)
     with np.errstate(all="ignore"):
         off_px = np.abs(camera.distort(camera.undistort(pixel)) - pixel).max()
-    return bool(off_px <= _FOUND_BACK_PX)
+    return bool(off_px <= _MAX_ROUND_TRIP_PX)
 
 
-def _sensor(path: Path, content: dict[str, Any]) -> DepthSensor:
+def _parse_sensor(path: Path, content: dict[str, Any]) -> DepthSensor:
     said = content.get(_SENSOR)
     if said is None:
         return ASSUMED_SENSOR
     try:
-        return sensor_of(said)
+        return parse_sensor(said)
     except ValueError as cause:
         raise CameraFileUnreadable(path, f"{_SENSOR}: {cause}") from cause
 
 
-def _calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | None:
+def _parse_calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | None:
     said = content.get(_CALIBRATION)
     if said is None:
         return None
@@ -233,21 +237,21 @@ def _calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | Non
         raise CameraFileUnreadable(
             path, phrase("{calibration} is not as Carpus writes it", calibration=_CALIBRATION)
         ) from cause
-    if not (_SCALES[0] <= out.depth_scale <= _SCALES[1] and abs(out.depth_offset_m) <= _MOST_OFFSET_M):
+    if not (_SCALE_RANGE[0] <= out.depth_scale <= _SCALE_RANGE[1] and abs(out.depth_offset_m) <= _MAX_OFFSET_M):
         raise CameraFileUnreadable(
             path, phrase("{calibration} has depth that no camera reads", calibration=_CALIBRATION)
         )
     return out
 
 
-def _size(path: Path, content: dict[str, Any], key: str) -> int:
+def _parse_size(path: Path, content: dict[str, Any], key: str) -> int:
     value = content.get(key)
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 < value <= _MOST_SIDE_PX:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 < value <= _MAX_SIDE_PX:
         raise CameraFileUnreadable(path, phrase("{key} is not a number of pixels", key=key))
     return value
 
 
-def _depth_unit_m(path: Path, content: dict[str, Any]) -> float | None:
+def _parse_depth_unit_m(path: Path, content: dict[str, Any]) -> float | None:
     value = content.get("depth_unit_m")
     if value is None:
         return None
@@ -255,19 +259,19 @@ def _depth_unit_m(path: Path, content: dict[str, Any]) -> float | None:
         unit_m = math.nan if isinstance(value, bool) else float(value)
     except (TypeError, ValueError):
         unit_m = math.nan
-    if not _DEPTH_UNITS_M[0] <= unit_m <= _DEPTH_UNITS_M[1]:
+    if not _DEPTH_UNIT_RANGE_M[0] <= unit_m <= _DEPTH_UNIT_RANGE_M[1]:
         raise CameraFileUnreadable(path, phrase("depth_unit_m is not metres per count, as 0.001 or 0.0002"))
     return unit_m
 
 
-def _flag(path: Path, content: dict[str, Any], key: str) -> bool | None:
+def _parse_flag(path: Path, content: dict[str, Any], key: str) -> bool | None:
     value = content.get(key)
     if value is None or isinstance(value, bool):
         return value
     raise CameraFileUnreadable(path, phrase("{key} is neither true nor false", key=key))
 
 
-def _data(path: Path, content: dict[str, Any], key: str) -> list[float]:
+def _parse_numbers(path: Path, content: dict[str, Any], key: str) -> list[float]:
     block = content.get(key)
     data = block.get("data") if isinstance(block, dict) else None
     if not isinstance(data, list):

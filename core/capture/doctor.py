@@ -20,44 +20,51 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.devices.cameras import CAMERAS, CameraKind, camera_kind, kind_of, kind_to_open, open_camera
+from carpus.core.capture.devices.cameras import (
+    CAMERAS,
+    CameraKind,
+    choose_kind,
+    load_camera_kind,
+    open_camera,
+    parse_kind,
+)
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
-from carpus.core.disks import disk_encryption_finding, disk_state
+from carpus.core.disks import check_disk_encryption, detect_encryption
 from carpus.core.errors import (
     CameraBusy,
     CameraLost,
+    CameraMismatch,
     CameraMissing,
     CameraPermission,
     CarpusFault,
     CompiledPartMissing,
     DriverMissing,
     ExtraMissing,
-    OtherCamera,
 )
-from carpus.core.installing import Finding, how_to_install, is_packed
+from carpus.core.installing import Finding, install_hint, is_packed
 from carpus.core.phrase import phrase
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 from carpus.core.types import Frame
-from carpus.core.words import words_of
+from carpus.core.words import format_fault
 
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
 WINDOW_LIBRARIES = ("GL", "EGL", "fontconfig", "dbus-1", "xkbcommon", "xcb-cursor")
-PACKED_WITHOUT = ("GL", "EGL")
+SYSTEM_LIBRARIES = ("GL", "EGL")
 """Of these what a packed program does not bring: they belong to the graphics card."""
 RULES_FOLDERS = tuple(Path(root) / "udev/rules.d" for root in ("/etc", "/run", "/usr/lib", "/lib"))
 RULE_FILE = "/etc/udev/rules.d/60-carpus-cameras.rules"
 LOW_DISK_BYTES = 2_000_000_000
-SLOWEST_MBIT = 480
-CLOCK_SHARE, CLOCK_ROOM_S = 0.02, 0.3
-WANTED_FPS = 29.0
-NEEDED_FPS = 20.0
+MIN_SPEED_MBIT = 480
+MAX_CLOCK_DRIFT, CLOCK_TOLERANCE_S = 0.02, 0.3
+GOOD_FPS = 29.0
+MIN_FPS = 20.0
 MEASURE_S = 3.0
 
 _REMEDIES: dict[type[CarpusFault], str] = {
     CameraMissing: phrase("Plug the camera in."),
-    OtherCamera: phrase("Plug in the camera named in the settings, or change the settings."),
+    CameraMismatch: phrase("Plug in the camera named in the settings, or change the settings."),
     CameraBusy: phrase("Close the other program that uses the camera."),
     CameraPermission: phrase("Install the camera rights named above and plug the camera in again."),
     CameraLost: phrase("Plug the camera in again, into another port, without a hub."),
@@ -67,24 +74,24 @@ _REMEDIES: dict[type[CarpusFault], str] = {
 
 def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: float = MEASURE_S) -> Iterator[Finding]:
     """All findings, each as soon as it is known; the camera is opened for ``measure_s`` seconds at the end."""
-    yield python_finding(sys.version_info[:3])
-    yield packages_finding()
+    yield check_python(sys.version_info[:3])
+    yield check_packages()
     yield check_compiled_parts()
-    yield window_finding()
-    yield fonts_finding()
-    yield data_folder_finding(data_folder)
-    yield disk_finding(data_folder, shutil.disk_usage(_existing(data_folder)).free)
-    yield disk_encryption_finding(disk_state(data_folder))
+    yield check_window()
+    yield check_fonts()
+    yield check_data_folder(data_folder)
+    yield check_disk_space(data_folder, shutil.disk_usage(_existing_ancestor(data_folder)).free)
+    yield check_disk_encryption(detect_encryption(data_folder))
     on_linux = sys.platform.startswith("linux")
-    named = kind_of(camera_uri) if camera_uri else ""
-    yield from drivers_findings(asks_version=True, named=named)
+    named = parse_kind(camera_uri) if camera_uri else ""
+    yield from check_drivers(loads_library=True, wanted_kind=named)
     if on_linux:
-        yield from rights_findings(RULES_FOLDERS, named=named)
-    plugged_in = [(kind, camera) for kind in _kinds() for camera in kind.seen()]
+        yield from check_permissions(RULES_FOLDERS, wanted_kind=named)
+    plugged_in = [(kind, camera) for kind in _camera_kinds() for camera in kind.find_connected()]
     if on_linux:  # elsewhere only opening it tells
-        yield from camera_findings(plugged_in, named)
+        yield from check_cameras(plugged_in, named)
     if plugged_in or camera_uri or not on_linux:
-        yield from opened_findings(camera_uri or "", measure_s)
+        yield from check_open_camera(camera_uri or "", measure_s)
 
 
 def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterator[Finding]:
@@ -94,17 +101,17 @@ def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterato
     """
     on_linux = needs_camera and sys.platform.startswith("linux")
     if on_linux:  # elsewhere only opening it tells
-        yield from camera_findings([(kind, camera) for kind in _kinds() for camera in kind.seen()])
+        yield from check_cameras([(kind, camera) for kind in _camera_kinds() for camera in kind.find_connected()])
     if needs_camera:
-        yield from drivers_findings(asks_version=False)
+        yield from check_drivers(loads_library=False)
     if on_linux:
-        yield from rights_findings(RULES_FOLDERS)
-    yield data_folder_finding(data_folder)
-    yield disk_finding(data_folder, shutil.disk_usage(_existing(data_folder)).free)
-    yield fonts_finding()
+        yield from check_permissions(RULES_FOLDERS)
+    yield check_data_folder(data_folder)
+    yield check_disk_space(data_folder, shutil.disk_usage(_existing_ancestor(data_folder)).free)
+    yield check_fonts()
 
 
-def python_finding(found: tuple[int, int, int]) -> Finding:
+def check_python(found: tuple[int, int, int]) -> Finding:
     """Python itself."""
     text = ".".join(map(str, found)) + f", {platform.system()} {platform.machine()}"
     if found < (3, 11, 0):
@@ -114,7 +121,7 @@ def python_finding(found: tuple[int, int, int]) -> Finding:
     return Finding(phrase("Python"), "good", text)
 
 
-def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
+def check_packages(names: tuple[str, ...] = PACKAGES) -> Finding:
     """The packages that every command needs."""
     known, missing = [], []
     for name in names:
@@ -123,7 +130,7 @@ def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
         except PackageNotFoundError:
             missing.append(name)
     if missing:
-        return Finding(phrase("Packages"), "bad", "missing: " + ", ".join(missing), how_to_install(*missing))
+        return Finding(phrase("Packages"), "bad", "missing: " + ", ".join(missing), install_hint(*missing))
     return Finding(phrase("Packages"), "good", ", ".join(known))
 
 
@@ -137,7 +144,7 @@ def check_compiled_parts() -> Finding:
     return Finding(phrase("Compiled parts"), "good", phrase("all there"))
 
 
-def window_finding() -> Finding:
+def check_window() -> Finding:
     """What the desktop window needs, found out without loading it."""
     try:
         qt = version("PySide6-Essentials")
@@ -147,14 +154,14 @@ def window_finding() -> Finding:
             phrase("Window"),
             "warning",
             phrase("missing: {name}", name=cause.name),
-            how_to_install(cause.name),
+            install_hint(cause.name),
         )
     if tuple(int(part) for part in qt.split(".")[:2]) >= (6, 12) and sys.version_info < (3, 12):
         found = phrase("Qt {qt}, which stops the program on Python 3.11", qt=qt)
-        return Finding(phrase("Window"), "bad", found, how_to_install('"PySide6-Essentials<6.12"'))
+        return Finding(phrase("Window"), "bad", found, install_hint('"PySide6-Essentials<6.12"'))
     if not sys.platform.startswith("linux"):
         return Finding(phrase("Window"), "good", f"Qt {qt}")
-    wanted = PACKED_WITHOUT if is_packed() else WINDOW_LIBRARIES
+    wanted = SYSTEM_LIBRARIES if is_packed() else WINDOW_LIBRARIES
     missing = [name for name in wanted if ctypes.util.find_library(name) is None]
     if missing:
         remedy = phrase("Install the packages that bring these libraries.")
@@ -169,7 +176,7 @@ def window_finding() -> Finding:
     return Finding(phrase("Window"), "good", f"Qt {qt}")
 
 
-def fonts_finding() -> Finding:
+def check_fonts() -> Finding:
     """The typefaces that come with Carpus."""
     folder = files("carpus.resources").joinpath("fonts")
     faces = [each.name for each in folder.iterdir() if each.name.endswith(".otf")] if folder.is_dir() else []
@@ -183,9 +190,9 @@ def fonts_finding() -> Finding:
     return Finding(phrase("Fonts"), "good", phrase("{count} faces", count=len(faces)))
 
 
-def data_folder_finding(folder: Path) -> Finding:
+def check_data_folder(folder: Path) -> Finding:
     """Whether recordings can be stored, and nobody else can read them."""
-    there = _existing(folder)
+    there = _existing_ancestor(folder)
     if not os.access(there, os.W_OK | os.X_OK) or not there.is_dir():
         remedy = phrase("Give yourself the right to write there, or choose another folder in the settings.")
         return Finding(
@@ -206,28 +213,34 @@ def data_folder_finding(folder: Path) -> Finding:
     return Finding(phrase("Data folder"), "good", str(folder))
 
 
-def disk_finding(folder: Path, free_bytes: int) -> Finding:
+def check_disk_space(folder: Path, free_bytes: int) -> Finding:
     """Room for recordings."""
     minutes = free_bytes / (1e6 * MB_PER_MINUTE)
     text = phrase(
         "{free} GB free, about {minutes} minutes with pictures",
-        free=written(free_bytes / 1000000000.0, 1),
-        minutes=written(minutes),
+        free=format_rounded(free_bytes / 1000000000.0, 1),
+        minutes=format_rounded(minutes),
     )
     if free_bytes < LOW_DISK_BYTES:
         return Finding(
-            phrase("Disk"), "warning", text, phrase("Free space on the disk of {folder}.", folder=_existing(folder))
+            phrase("Disk"),
+            "warning",
+            text,
+            phrase("Free space on the disk of {folder}.", folder=_existing_ancestor(folder)),
         )
     return Finding(phrase("Disk"), "good", text)
 
 
-def drivers_findings(*, asks_version: bool, named: str = "") -> Iterator[Finding]:
-    """The libraries of all kinds, ``named`` the one that is asked for. What another kind lacks is no obstacle while one
+def check_drivers(*, loads_library: bool, wanted_kind: str = "") -> Iterator[Finding]:
+    """The libraries of all kinds, ``wanted_kind`` the one that is asked for. What another kind lacks is no obstacle
+    while one
     is wanted that has all."""
-    kinds = _kinds()
-    wanted = [bool(kind.seen()) or (named != "" and kind is camera_kind(named)) for kind in kinds]
+    kinds = _camera_kinds()
+    wanted = [
+        bool(kind.find_connected()) or (wanted_kind != "" and kind is load_camera_kind(wanted_kind)) for kind in kinds
+    ]
     for kind, is_wanted in zip(kinds, wanted, strict=True):
-        finding = kind.driver(asks_version, is_wanted)
+        finding = kind.check_driver(loads_library, is_wanted)
         if finding is None:
             continue
         if finding.state == "bad" and any(wanted) and not is_wanted:
@@ -235,15 +248,20 @@ def drivers_findings(*, asks_version: bool, named: str = "") -> Iterator[Finding
         yield finding
 
 
-def rights_findings(folders: tuple[Path, ...], *, named: str = "") -> Iterator[Finding]:
-    """Whether the system lets everybody open the cameras: those plugged in and the kind ``named``, else the usual one;
+def check_permissions(folders: tuple[Path, ...], *, wanted_kind: str = "") -> Iterator[Finding]:
+    """Whether the system lets everybody open the cameras: those plugged in and the kind ``wanted_kind``, else the
+    usual one;
     each by its own rules, since a rule for one kind says nothing of another."""
-    asked = [kind for kind in _kinds() if kind.seen() or (named and kind is camera_kind(named))]
-    for kind in asked or _kinds()[:1]:
-        yield rules_finding(kind, folders)
+    asked = [
+        kind
+        for kind in _camera_kinds()
+        if kind.find_connected() or (wanted_kind and kind is load_camera_kind(wanted_kind))
+    ]
+    for kind in asked or _camera_kinds()[:1]:
+        yield check_udev_rules(kind, folders)
 
 
-def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
+def check_udev_rules(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
     """Whether the system lets everybody open a camera of this kind."""
     name = phrase("Camera rights, {title}", title=kind.title)
     for folder in folders:
@@ -255,21 +273,21 @@ def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
     remedy = phrase(
         "As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.",
         file=RULE_FILE,
-        rule=kind.rules,
+        rule=kind.udev_rules,
     )
     return Finding(name, "warning", phrase("no udev rules for the camera"), remedy)
 
 
-def camera_findings(plugged_in: list[tuple[CameraKind, UsbCamera]], named: str = "") -> list[Finding]:
-    """The cameras on the bus, before anything opens one; ``named`` the kind that is asked for."""
-    if not plugged_in:
-        port = camera_kind(named or kind_of("")).port
+def check_cameras(connected: list[tuple[CameraKind, UsbCamera]], wanted_kind: str = "") -> list[Finding]:
+    """The cameras on the bus, before anything opens one; ``wanted_kind`` the kind that is asked for."""
+    if not connected:
+        port = load_camera_kind(wanted_kind or parse_kind("")).port_advice
         remedy = phrase("Plug the camera in, at best straight into the computer. {port}", port=port)
         return [Finding(phrase("Camera"), "warning", phrase("none plugged in"), remedy)]
-    return [camera_finding(kind, camera) for kind, camera in plugged_in]
+    return [check_camera(kind, camera) for kind, camera in connected]
 
 
-def camera_finding(kind: CameraKind, camera: UsbCamera) -> Finding:
+def check_camera(kind: CameraKind, camera: UsbCamera) -> Finding:
     """One camera on the bus."""
     text = phrase(
         "{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s",
@@ -279,7 +297,7 @@ def camera_finding(kind: CameraKind, camera: UsbCamera) -> Finding:
         node=camera.node,
         speed_mbit=camera.speed_mbit,
     )
-    if not camera.may_open:
+    if not camera.can_open:
         remedy = phrase(
             "You may not open {node}. Install the camera rights named above and plug it in again.", node=camera.node
         )
@@ -291,21 +309,23 @@ def camera_finding(kind: CameraKind, camera: UsbCamera) -> Finding:
             phrase("{text}, in use", text=text),
             phrase("Close the other program that uses the camera."),
         )
-    if 0 < camera.speed_mbit < SLOWEST_MBIT:
-        return Finding(phrase("Camera"), "bad", text, phrase("This port is too slow. {port}", port=kind.port))
+    if 0 < camera.speed_mbit < MIN_SPEED_MBIT:
+        return Finding(phrase("Camera"), "bad", text, phrase("This port is too slow. {port}", port=kind.port_advice))
     if 0 < camera.speed_mbit < kind.needed_mbit:
-        return Finding(phrase("Camera"), "warning", text, phrase("This port is slow for it. {port}", port=kind.port))
+        return Finding(
+            phrase("Camera"), "warning", text, phrase("This port is slow for it. {port}", port=kind.port_advice)
+        )
     return Finding(phrase("Camera"), "good", text)
 
 
-def opened_findings(uri: str, measure_s: float) -> list[Finding]:
+def check_open_camera(uri: str, measure_s: float) -> list[Finding]:
     """What really comes from the camera, and how it stands."""
     frames: list[Frame] = []
     arrived_s: list[float] = []
     try:
         source = open_camera(uri, patience_s=0.0)
     except CarpusFault as fault:
-        return [_not_opened(fault, uri)]
+        return [_camera_fault_finding(fault, uri)]
     ending = threading.Timer(measure_s + 2.0, source.close)
     ending.start()
     start_s = time.monotonic()
@@ -316,16 +336,16 @@ def opened_findings(uri: str, measure_s: float) -> list[Finding]:
             if time.monotonic() - start_s > measure_s:
                 break
     except CarpusFault as fault:
-        return [_not_opened(fault, uri)]
+        return [_camera_fault_finding(fault, uri)]
     finally:
         ending.cancel()
         source.close()
         ending.join()
-    further = camera_kind(kind_to_open(uri)).further(source.info.settings)
-    return [frames_finding(frames), *standing_findings(source.info, frames, arrived_s), *further]
+    further = load_camera_kind(choose_kind(uri)).check_settings(source.info.settings)
+    return [check_frames(frames), *check_camera_settings(source.info, frames, arrived_s), *further]
 
 
-def frames_finding(frames: list[Frame]) -> Finding:
+def check_frames(frames: list[Frame]) -> Finding:
     """Rate, gaps and depth of some seconds of frames."""
     if len(frames) < 2:
         remedy = phrase("Plug the camera in again, into another port, without a hub.")
@@ -339,15 +359,15 @@ def frames_finding(frames: list[Frame]) -> Finding:
         "{width}x{height}, {fps} fps, {missing} missing, depth in {with_depth} of {count}",
         width=width,
         height=height,
-        fps=written(fps, 1),
+        fps=format_rounded(fps, 1),
         missing=missing,
         with_depth=with_depth,
         count=len(frames),
     )
     remedy = phrase("Use another USB port, without a hub and without other cameras on it; end other heavy programs.")
-    if fps < NEEDED_FPS or with_depth < len(frames) // 2:
+    if fps < MIN_FPS or with_depth < len(frames) // 2:
         return Finding(phrase("Pictures"), "bad", text, remedy)
-    if fps < WANTED_FPS or missing:
+    if fps < GOOD_FPS or missing:
         return Finding(
             phrase("Pictures"),
             "warning",
@@ -357,7 +377,7 @@ def frames_finding(frames: list[Frame]) -> Finding:
     return Finding(phrase("Pictures"), "good", text)
 
 
-def standing_findings(info: SourceInfo, frames: list[Frame], arrived_s: list[float]) -> list[Finding]:
+def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list[float]) -> list[Finding]:
     """Registration, mirror and clock of a camera that ran for some seconds."""
     settings, findings = info.settings, []
     registered = settings.get("registered", "")
@@ -372,38 +392,42 @@ def standing_findings(info: SourceInfo, frames: list[Frame], arrived_s: list[flo
     findings.append(Finding(phrase("Mirror"), "good", phrase("on, turned back by Carpus") if turned else phrase("off")))
     if len(frames) > 1:
         own_s, here_s = frames[-1].timestamp_s - frames[0].timestamp_s, arrived_s[-1] - arrived_s[0]
-        findings.append(clock_finding(own_s, here_s, settings.get("clock", "")))
+        findings.append(check_clock(own_s, here_s, settings.get("clock", "")))
     return findings
 
 
-def clock_finding(own_s: float, here_s: float, whose: str) -> Finding:
+def check_clock(camera_s: float, computer_s: float, clock: str) -> Finding:
     """The camera's times against the computer's over the same pictures. Pictures wait on their way, hence the room."""
-    text = phrase("{own_s} s while {here_s} s passed here", own_s=written(own_s, 2), here_s=written(here_s, 2))
-    if whose == "computer":
+    text = phrase(
+        "{own_s} s while {here_s} s passed here",
+        own_s=format_rounded(camera_s, 2),
+        here_s=format_rounded(computer_s, 2),
+    )
+    if clock == "computer":
         remedy = phrase(
             "This camera does not tell when it took a picture; its times are those of arrival: speeds are rough."
         )
         return Finding(phrase("Clock"), "warning", text, remedy)
-    if abs(own_s - here_s) > CLOCK_SHARE * here_s + CLOCK_ROOM_S:
+    if abs(camera_s - computer_s) > MAX_CLOCK_DRIFT * computer_s + CLOCK_TOLERANCE_S:
         remedy = phrase("Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.")
         return Finding(phrase("Clock"), "warning", text, remedy)
     return Finding(phrase("Clock"), "good", text)
 
 
-def _kinds() -> list[CameraKind]:
-    return [camera_kind(name) for name in CAMERAS]
+def _camera_kinds() -> list[CameraKind]:
+    return [load_camera_kind(name) for name in CAMERAS]
 
 
-def _not_opened(fault: CarpusFault, uri: str) -> Finding:
+def _camera_fault_finding(fault: CarpusFault, uri: str) -> Finding:
     """Why no picture came, in words; a driver that is missing is told as its own finding tells it."""
-    words = words_of(fault)
-    remedy = _REMEDIES.get(type(fault), words.do)
+    words = format_fault(fault)
+    remedy = _REMEDIES.get(type(fault), words.remedy)
     if isinstance(fault, DriverMissing | ExtraMissing):
-        driver = camera_kind(kind_to_open(uri)).driver(False, True)
+        driver = load_camera_kind(choose_kind(uri)).check_driver(False, True)
         remedy = driver.remedy if driver is not None and driver.remedy else remedy
-    return Finding(phrase("Pictures"), "bad", words.happened, remedy)
+    return Finding(phrase("Pictures"), "bad", words.summary, remedy)
 
 
-def _existing(folder: Path) -> Path:
+def _existing_ancestor(folder: Path) -> Path:
     """``folder`` or the nearest folder above it that is there."""
     return next((each for each in (folder, *folder.parents) if each.exists()), Path.cwd())

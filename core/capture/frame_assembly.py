@@ -12,30 +12,30 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
-from carpus.core.capture.camera_info import fitted_camera
+from carpus.core.camera import DEFAULT_CAMERA, DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
+from carpus.core.capture.camera_info import rescale_camera
 from carpus.core.capture.video_mode import Lens, PixelFormat
 from carpus.core.types import Frame
 
 T = TypeVar("T")
 
-TOLERANCE_US = 20_000
+PAIRING_TOLERANCE_US = 20_000
 """Farther apart in time, a colour picture has no depth."""
 
 
 @dataclass(frozen=True, slots=True)
-class Stamped(Generic[T]):
+class TimestampedImage(Generic[T]):
     """A picture with its device time and its number in its stream."""
 
     timestamp_us: int
     number: int
-    picture: T
+    image: T
 
 
-Pair = tuple[Stamped[T], Stamped[T] | None]
+ImagePair = tuple[TimestampedImage[T], TimestampedImage[T] | None]
 
 
-class NearestPairing(Generic[T]):
+class ApproximateTimeSynchronizer(Generic[T]):
     """Pairs two rising streams as they come.
 
     A colour picture leaves as soon as its depth is certain: one nearer than half a period has come, or one that is
@@ -53,51 +53,51 @@ class NearestPairing(Generic[T]):
     """
 
     def __init__(self, period_us: float, *, has_depth: bool = True, limit: int = 4, start_limit: int = 0) -> None:
-        self._certain_us = 0.45 * period_us
+        self._certain_gap_us = 0.45 * period_us
         self._has_depth = has_depth
         self._limit = limit
-        self._may_leave_out = start_limit
-        self._colors: deque[Stamped[T]] = deque()
-        self._depths: deque[Stamped[T]] = deque()
+        self._start_drops_left = start_limit
+        self._colors: deque[TimestampedImage[T]] = deque()
+        self._depths: deque[TimestampedImage[T]] = deque()
 
-    def add_color(self, color: Stamped[T]) -> list[Pair[T]]:
+    def add_color(self, color: TimestampedImage[T]) -> list[ImagePair[T]]:
         self._colors.append(color)
-        return self._decide()
+        return self._release_pairs()
 
-    def add_depth(self, depth: Stamped[T]) -> list[Pair[T]]:
+    def add_depth(self, depth: TimestampedImage[T]) -> list[ImagePair[T]]:
         self._depths.append(depth)
-        decided = self._decide()
+        decided = self._release_pairs()
         while len(self._depths) > self._limit:
             self._depths.popleft()
         return decided
 
-    def finish(self) -> list[Pair[T]]:
+    def finish(self) -> list[ImagePair[T]]:
         """No more pictures come: the pairs that were still open."""
         self._has_depth = False
-        return self._decide()
+        return self._release_pairs()
 
-    def _decide(self) -> list[Pair[T]]:
-        decided: list[Pair[T]] = []
+    def _release_pairs(self) -> list[ImagePair[T]]:
+        decided: list[ImagePair[T]] = []
         while self._colors:
             color = self._colors[0]
             nearest = min(self._depths, key=lambda depth: abs(depth.timestamp_us - color.timestamp_us), default=None)
             apart_us = abs(nearest.timestamp_us - color.timestamp_us) if nearest else 1 << 62
             certain = (
                 not self._has_depth
-                or apart_us <= self._certain_us
+                or apart_us <= self._certain_gap_us
                 or (self._depths and self._depths[-1].timestamp_us >= color.timestamp_us)
                 or len(self._colors) > self._limit
             )
             if not certain:
                 break
             self._colors.popleft()
-            partner = nearest if apart_us <= TOLERANCE_US else None
-            if partner is None and self._may_leave_out > 0 and self._has_depth:
-                self._may_leave_out -= 1
+            partner = nearest if apart_us <= PAIRING_TOLERANCE_US else None
+            if partner is None and self._start_drops_left > 0 and self._has_depth:
+                self._start_drops_left -= 1
             else:
-                self._may_leave_out = 0
+                self._start_drops_left = 0
                 decided.append((color, partner))
-            used_up_us = partner.timestamp_us + 1 if partner else color.timestamp_us - TOLERANCE_US
+            used_up_us = partner.timestamp_us + 1 if partner else color.timestamp_us - PAIRING_TOLERANCE_US
             while self._depths and self._depths[0].timestamp_us < used_up_us:
                 self._depths.popleft()
         return decided
@@ -105,14 +105,14 @@ class NearestPairing(Generic[T]):
 
 AnyImage = NDArray[Any]
 
-WAITING_IN_FILE = 64
+FILE_PAIRING_LIMIT = 64
 """How far apart in a recording colour and depth of one moment may lie, in pictures."""
 
 DEPTH_UNIT_M: dict[int, float] = {PixelFormat.DEPTH_1_MM: 1e-3, PixelFormat.DEPTH_100_UM: 1e-4}
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class StreamLayout:
     """Sizes (width, height) as they come, and which of the two are left for right; depth size None without depth."""
 
     color_size_px: tuple[int, int]
@@ -127,7 +127,7 @@ class Layout:
         return max(self.color_size_px, self.depth_size_px or self.color_size_px)
 
     @property
-    def enlarged(self) -> str:
+    def format_enlargement(self) -> str:
         """What is enlarged, in figures; empty when nothing is."""
         width, height = self.size_px
         for name, size in (("colour", self.color_size_px), ("depth", self.depth_size_px)):
@@ -135,7 +135,7 @@ class Layout:
                 return f"{name} from {size[0]}x{size[1]} to {width}x{height}"
         return ""
 
-    def misfit(self) -> str:
+    def describe_size_mismatch(self) -> str:
         """Why these sizes cannot be brought together; empty when they can: equal, or one twice the other."""
         width, height = self.size_px
         for size in (self.color_size_px, self.depth_size_px or self.color_size_px):
@@ -144,30 +144,32 @@ class Layout:
                 return f"colour {color[0]}x{color[1]}, depth {depth[0]}x{depth[1]}"
         return ""
 
-    def color(self, view: AnyImage) -> AnyImage:
+    def convert_color(self, view: AnyImage) -> AnyImage:
         """An own, read-only copy (H, W, 3) of a colour picture in the driver's memory."""
         if self.color_size_px != self.size_px:
             # half-pixel centres: pixel u of the small picture lies at 2 u + 0.5 of the large one
             turned = view[:, ::-1] if self.color_mirrored else view
-            return _frozen(cv2.resize(np.ascontiguousarray(turned), self.size_px, interpolation=cv2.INTER_LINEAR))
-        return _frozen(cv2.flip(view, 1) if self.color_mirrored else view.copy())
+            return _make_read_only(
+                cv2.resize(np.ascontiguousarray(turned), self.size_px, interpolation=cv2.INTER_LINEAR)
+            )
+        return _make_read_only(cv2.flip(view, 1) if self.color_mirrored else view.copy())
 
-    def depth(self, view: AnyImage) -> AnyImage:
+    def convert_depth(self, view: AnyImage) -> AnyImage:
         """An own, read-only copy (H, W) of a depth picture; enlarged by repetition, no depth is invented."""
         turned = view[:, ::-1] if self.depth_mirrored else view
         if self.depth_size_px != self.size_px:
-            return _frozen(turned.repeat(2, axis=0).repeat(2, axis=1))
-        return _frozen(turned.copy())
+            return _make_read_only(turned.repeat(2, axis=0).repeat(2, axis=1))
+        return _make_read_only(turned.copy())
 
 
-class Assembler:
+class FrameAssembler:
     """Builds frames from pictures of one colour and one depth stream.
 
     ``period_us`` is the time between colour pictures. Frames are numbered from 0; a colour picture that does not
-    come later than the one before is left out; ``start_limit`` as for :class:`NearestPairing`.
+    come later than the one before is left out; ``start_limit`` as for :class:`ApproximateTimeSynchronizer`.
     """
 
-    def __init__(self, layout: Layout, period_us: float, limit: int, start_limit: int = 0) -> None:
+    def __init__(self, layout: StreamLayout, period_us: float, limit: int, start_limit: int = 0) -> None:
         self.layout = layout
         self._period_us = period_us
         self._limit = limit
@@ -178,30 +180,32 @@ class Assembler:
         self._last_us: int | None = None
         self._last_number = 0
 
-    def _new_pairing(self) -> NearestPairing[AnyImage]:
+    def _new_pairing(self) -> ApproximateTimeSynchronizer[AnyImage]:
         has_depth = self.layout.depth_size_px is not None
-        return NearestPairing(self._period_us, has_depth=has_depth, limit=self._limit, start_limit=self._start_limit)
+        return ApproximateTimeSynchronizer(
+            self._period_us, has_depth=has_depth, limit=self._limit, start_limit=self._start_limit
+        )
 
-    def color(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        stamped = Stamped(timestamp_us, number, self.layout.color(view))
-        return self._frames(self._pairing.add_color(stamped))
+    def add_color(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
+        stamped = TimestampedImage(timestamp_us, number, self.layout.convert_color(view))
+        return self._build_frames(self._pairing.add_color(stamped))
 
-    def depth(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        stamped = Stamped(timestamp_us, number, self.layout.depth(view))
-        return self._frames(self._pairing.add_depth(stamped))
+    def add_depth(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
+        stamped = TimestampedImage(timestamp_us, number, self.layout.convert_depth(view))
+        return self._build_frames(self._pairing.add_depth(stamped))
 
     def finish(self) -> list[Frame]:
-        return self._frames(self._pairing.finish())
+        return self._build_frames(self._pairing.finish())
 
-    def restart(self, layout: Layout, first_us: int, away_us: int) -> None:
-        """The device's clock began anew at ``first_us``, ``away_us`` after the last frame: times keep rising."""
+    def restart(self, layout: StreamLayout, first_us: int, gap_us: int) -> None:
+        """The device's clock began anew at ``first_us``, ``gap_us`` after the last frame: times keep rising."""
         self.layout = layout
         self._pairing = self._new_pairing()
         self._last_number = 0
         if self._last_us is not None:
-            self._offset_us = self._last_us + max(away_us, 1) - first_us
+            self._offset_us = self._last_us + max(gap_us, 1) - first_us
 
-    def _frames(self, pairs: Iterable[Pair[AnyImage]]) -> list[Frame]:
+    def _build_frames(self, pairs: Iterable[ImagePair[AnyImage]]) -> list[Frame]:
         frames = []
         for color, depth in pairs:
             now_us = color.timestamp_us + self._offset_us
@@ -212,20 +216,18 @@ class Assembler:
                 by_time = round((now_us - self._last_us) / self._period_us) - 1
                 by_number = color.number - self._last_number - 1 if self._last_number else 0
                 missing = max(by_time, by_number, 0)
-            depth_raw = None if depth is None else depth.picture
-            frames.append(
-                Frame(self._index, now_us * 1e-6, color.picture, depth_raw, self.layout.depth_unit_m, missing)
-            )
+            depth_raw = None if depth is None else depth.image
+            frames.append(Frame(self._index, now_us * 1e-6, color.image, depth_raw, self.layout.depth_unit_m, missing))
             self._index += 1
             self._last_us, self._last_number = now_us, color.number
         return frames
 
 
-def camera_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, float] | None) -> Camera | None:
+def camera_from_field_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, float] | None) -> Camera | None:
     """Intrinsics from the driver's field of view, else the nominal ones; None for a shape that cannot be guessed."""
     width, height = size_px
     if field_of_view_rad is None:
-        return fitted_camera(DEFAULT_CAMERA, (width, height))
+        return rescale_camera(DEFAULT_CAMERA, (width, height))
     across, down = field_of_view_rad
     return Camera(
         width / 2.0 / math.tan(across / 2.0),
@@ -238,55 +240,56 @@ def camera_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, flo
     )
 
 
-def camera_of_lens(size_px: tuple[int, int], lens: Lens) -> Camera:
+def camera_from_lens(size_px: tuple[int, int], lens: Lens) -> Camera:
     """Intrinsics as the driver tells them, for pictures of ``size_px``; a model not known is taken as none."""
-    model: DistortionModel = next((each for each in COEFFICIENTS if each == lens.model), "plumb_bob")
-    known = lens.model == model and len(lens.coefficients) == COEFFICIENTS[model]
+    model: DistortionModel = next((each for each in DISTORTION_COEFFICIENT_COUNTS if each == lens.model), "plumb_bob")
+    known = lens.model == model and len(lens.coefficients) == DISTORTION_COEFFICIENT_COUNTS[model]
     return Camera(
         lens.fx_px,
         lens.fy_px,
         lens.cx_px,
         lens.cy_px,
         *size_px,
-        lens.coefficients if known else (0.0,) * COEFFICIENTS[model],
+        lens.coefficients if known else (0.0,) * DISTORTION_COEFFICIENT_COUNTS[model],
         origin="factory",
         distortion_model=model,
     )
 
 
-def _frozen(image: AnyImage) -> AnyImage:
+def _make_read_only(image: AnyImage) -> AnyImage:
     image.flags.writeable = False
     return image
 
 
-NODE_PX = 8
+GRID_STEP_PX = 8
 """Straightening a strong lens takes many rounds: it is done at each eighth pixel, and straight in between. The library
 that goes between counts in 1/32: eighths are exact."""
 
 
-def _straight_pixels(camera: Camera, shrink: int = 1) -> NDArray[np.float32]:
-    """Where an ideal lens would show what this one shows at its pixels, (H, W, 2); ``shrink`` of its pixels, across
+def _undistort_pixels(camera: Camera, downscale: int = 1) -> NDArray[np.float32]:
+    """Where an ideal lens would show what this one shows at its pixels, (H, W, 2); ``downscale`` of its pixels, across
     and down, are one of the picture asked about, whose middle is meant."""
-    width, height = camera.width_px // shrink, camera.height_px // shrink
-    across, down = (np.arange(0, side + NODE_PX, NODE_PX, dtype=np.float64) for side in (width, height))
+    width, height = camera.width_px // downscale, camera.height_px // downscale
+    across, down = (np.arange(0, side + GRID_STEP_PX, GRID_STEP_PX, dtype=np.float64) for side in (width, height))
     # half-pixel centres: the middle of a pixel lies at a whole number
-    nodes = (np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2) + 0.5) * shrink - 0.5
+    nodes = (np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2) + 0.5) * downscale - 0.5
     straight = camera.undistort(nodes).reshape(len(down), len(across), 2).astype(np.float32)
     u, v = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
-    return np.asarray(cv2.remap(straight, u / NODE_PX, v / NODE_PX, cv2.INTER_LINEAR), dtype=np.float32)
+    return np.asarray(cv2.remap(straight, u / GRID_STEP_PX, v / GRID_STEP_PX, cv2.INTER_LINEAR), dtype=np.float32)
 
 
-class LensBending:
-    """Takes depth (H, W) of ``camera`` without its distortion to colour pictures with it, whose pixels are ``shrink``
+class DepthDistorter:
+    """Takes depth (H, W) of ``camera`` without its distortion to colour pictures with it, whose pixels are
+    ``downscale``
     as wide. Readings are moved, never mixed: a mean would lie between a finger and the table. Without a reading: 0."""
 
-    def __init__(self, camera: Camera, shrink: int = 1) -> None:
+    def __init__(self, camera: Camera, downscale: int = 1) -> None:
         self._maps: tuple[NDArray[np.float32], NDArray[np.float32]] | None = None
-        if camera.is_distorted or shrink > 1:
-            ideal = _straight_pixels(camera, shrink)
+        if camera.is_distorted or downscale > 1:
+            ideal = _undistort_pixels(camera, downscale)
             self._maps = np.ascontiguousarray(ideal[..., 0]), np.ascontiguousarray(ideal[..., 1])
 
-    def bend(self, depth: NDArray[Any]) -> NDArray[Any]:
+    def distort(self, depth: NDArray[Any]) -> NDArray[Any]:
         """Depth (H, W) uint16 as the real lens shows it, (H / shrink, W / shrink)."""
         if self._maps is None:
             return depth

@@ -64,20 +64,23 @@ class PracticeSource:
     """Frames without end, not paced, times rising by themselves.
 
     The take begins with a hand that is still for ``still_s``: these pictures come again and again, forwards and
-    backwards, until :meth:`let_go`. Then the take is played through, and the hand rests until let go again.
+    backwards, until :meth:`start_movement`. Then the take is played through, and the hand rests until let go again.
     """
 
-    def __init__(self, take: FrameSource, still_s: float, *, begins_only: bool = False, times: int = 1) -> None:
-        """``begins_only``: the take is the still hand alone, which goes on resting until :meth:`play_next`. ``times``
+    def __init__(
+        self, recording: FrameSource, still_s: float, *, is_still_only: bool = False, movement_count: int = 1
+    ) -> None:
+        """``is_still_only``: the take is the still hand alone, which goes on resting until
+        :meth:`set_next_recording`. ``movement_count``
         the movement is played whenever it is let go."""
-        self._times = times
-        self._take, self._played, self._begins_only = take, [take], begins_only
+        self._movement_count = movement_count
+        self._recording, self._recordings, self._is_still_only = recording, [recording], is_still_only
         self._still_s = still_s
-        self._next: FrameSource | None = None
-        self._free, self._closed, self._can_move = threading.Event(), threading.Event(), threading.Event()
-        self.shown = threading.Event()
+        self._next_recording: FrameSource | None = None
+        self._movement_requested, self._closed, self._can_move = threading.Event(), threading.Event(), threading.Event()
+        self.still_hand_shown = threading.Event()
         """Set once every picture of the still hand has been given."""
-        if not begins_only:
+        if not is_still_only:
             self._can_move.set()
 
     @property
@@ -93,79 +96,86 @@ class PracticeSource:
     @property
     def info(self) -> SourceInfo:
         """Facts of the take; its number of frames is unknown, as a camera's is."""
-        return replace(self._take.info, frame_count=None)
+        return replace(self._recording.info, frame_count=None)
 
-    def let_go(self) -> None:
+    def start_movement(self) -> None:
         """The hand moves once from now on, or goes on if it moves already; may be called from another thread."""
-        self._free.set()
+        self._movement_requested.set()
 
-    def play_next(self, take: FrameSource | None) -> None:
-        """Another take of the same hand at the same place, from the next :meth:`let_go` on, closed with this; None: it
+    def set_next_recording(self, recording: FrameSource | None) -> None:
+        """Another take of the same hand at the same place, from the next :meth:`start_movement` on, closed with this;
+        None: it
         is still to come, and the hand rests until then. May be called from another thread."""
-        self._next = take
-        if take is None:
+        self._next_recording = recording
+        if recording is None:
             self._can_move.clear()
             return
-        self._played.append(take)
+        self._recordings.append(recording)
         self._can_move.set()
 
     def frames(self) -> Iterator[Frame]:
-        take = self._take.frames()
+        take = self._recording.frames()
         still = [next(take)]
-        period_s = 1.0 / self._take.info.nominal_fps
+        period_s = 1.0 / self._recording.info.nominal_fps
         clock_s, index = still[0].timestamp_s - period_s, 0
-        rest, moving, last_s = self._recalled(take, still), take, clock_s
-        if not self._begins_only:
+        rest, moving, last_s = self._play_still_hand(take, still), take, clock_s
+        if not self._is_still_only:
             first_moving = still[0]
             for first_moving in take:
                 if first_moving.timestamp_s - still[0].timestamp_s > self._still_s:
                     break
                 still.append(first_moving)
-            rest, moving, last_s = _to_and_fro(still), chain([first_moving], take), first_moving.timestamp_s - period_s
-            self.shown.set()
+            rest, moving, last_s = (
+                _loop_back_and_forth(still),
+                chain([first_moving], take),
+                first_moving.timestamp_s - period_s,
+            )
+            self.still_hand_shown.set()
 
-        def timed(frame: Frame, step_s: float) -> Frame:
+        def retime(frame: Frame, step_s: float) -> Frame:
             nonlocal clock_s, index
             clock_s, index = clock_s + step_s, index + 1
             return replace(frame, index=index - 1, timestamp_s=clock_s)
 
-        playing = self._take
+        playing = self._recording
         while True:
-            while not (self._free.is_set() and self._can_move.is_set() and self.shown.is_set()):
-                yield timed(replace(next(rest), dropped_before=0), period_s)
-            following, self._next = self._next, None
+            while not (
+                self._movement_requested.is_set() and self._can_move.is_set() and self.still_hand_shown.is_set()
+            ):
+                yield retime(replace(next(rest), dropped_before=0), period_s)
+            following, self._next_recording = self._next_recording, None
             if following is not None:
                 moving, last_s = following.frames(), still[0].timestamp_s - period_s
                 playing = following
-            for _ in range(self._times):
+            for _ in range(self._movement_count):
                 for frame in moving:
                     if self._closed.is_set():
                         return
-                    yield timed(frame, frame.timestamp_s - last_s)
+                    yield retime(frame, frame.timestamp_s - last_s)
                     last_s = frame.timestamp_s
                 moving, last_s = playing.frames(), still[0].timestamp_s - period_s
-            self._free.clear()
+            self._movement_requested.clear()
             if self._closed.is_set():
                 return
 
-    def _recalled(self, take: Iterator[Frame], still: list[Frame]) -> Iterator[Frame]:
+    def _play_still_hand(self, take: Iterator[Frame], still: list[Frame]) -> Iterator[Frame]:
         """The still hand's pictures as they come, all kept in ``still``, then those to and fro."""
         yield still[0]
         for frame in take:
             still.append(frame)
             yield frame
-        self.shown.set()
-        yield from _to_and_fro(still)
+        self.still_hand_shown.set()
+        yield from _loop_back_and_forth(still)
 
     def close(self) -> None:
         """End; may be called twice and from another thread."""
-        for event in (self._closed, self._free, self._can_move, self.shown):
+        for event in (self._closed, self._movement_requested, self._can_move, self.still_hand_shown):
             event.set()
-        for take in self._played:
+        for take in self._recordings:
             take.close()
 
 
-def _to_and_fro(frames: list[Frame]) -> Iterator[Frame]:
+def _loop_back_and_forth(frames: list[Frame]) -> Iterator[Frame]:
     while True:
         yield from frames
         yield from frames[-2:0:-1]

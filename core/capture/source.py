@@ -15,18 +15,18 @@ from typing import Literal, NamedTuple, Protocol
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.dates import is_moment, iso, time_of_day
+from carpus.core.dates import is_moment, moment_from_timestamp, to_iso
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.errors import CarpusFault
 from carpus.core.types import SIMULATED, Frame
 
-SERIAL, GIVEN = "serial", "serial_given"
+SERIAL, SERIAL_GIVEN = "serial", "serial_given"
 """Settings of a source: which camera it is, and that its number is a name that a person gave."""
-Notice = Callable[[CarpusFault], None]
+NoticeHandler = Callable[[CarpusFault], None]
 """Hears of faults that are told and not raised: the source goes on. Called where it is opened or frames are read."""
 
 
-def ignore(_fault: CarpusFault) -> None:
+def ignore_notice(_fault: CarpusFault) -> None:
     """For those who do not want to be told."""
 
 
@@ -35,7 +35,8 @@ class SourceInfo:
     """Facts about a source. ``frame_count`` is None for a live camera; ``has_depth`` whether depth comes at all.
 
     ``settings`` (sensor name, driver, modes, registration ...) goes into the session's parameters; ``simulated`` is
-    "yes" there for pictures of a simulated hand. ``recording_id`` and ``recorded`` (ISO 8601 with zone) where the
+    "yes" there for pictures of a simulated hand. ``compute_recording_id`` and ``recorded`` (ISO 8601 with zone) where
+    the
     recording says itself which it is and when the hand moved; empty where it does not.
     """
 
@@ -60,7 +61,7 @@ class SourceInfo:
     @property
     def is_nameless(self) -> bool:
         """Whether the camera does not tell its number by itself."""
-        return not self.serial or GIVEN in self.settings
+        return not self.serial or SERIAL_GIVEN in self.settings
 
 
 def is_simulated(info: SourceInfo) -> bool:
@@ -83,18 +84,18 @@ class FrameSource(Protocol):
         ...
 
 
-WhoSaid = Literal["asked", "recording", "times", "file"]
+DateSource = Literal["asked", "recording", "times", "file"]
 """A person; the recording itself; the times of its pictures, which count from 1970; the date of its file."""
 
 
-class Recorded(NamedTuple):
-    """``when`` the hand moved, ISO 8601 with zone, and who says so."""
+class RecordingDate(NamedTuple):
+    """``time`` the hand moved, ISO 8601 with zone, and who says so."""
 
-    when: str
-    said_by: WhoSaid
+    time: str
+    source: DateSource
 
 
-def recording_id(info: SourceInfo, first: Frame) -> str:
+def compute_recording_id(info: SourceInfo, first: Frame) -> str:
     """The identity of a recording: its own, else one made of its first frame, the same whenever it is read.
 
     Of the frame's time and depth, which are stored without loss everywhere; of the colour where there is no depth.
@@ -106,13 +107,13 @@ def recording_id(info: SourceInfo, first: Frame) -> str:
     return str(uuid.uuid5(uuid.NAMESPACE_OID, digest.hexdigest()))
 
 
-def recorded_at(info: SourceInfo, first_s: float, path: Path | None) -> Recorded | None:
+def find_recording_date(info: SourceInfo, first_s: float, path: Path | None) -> RecordingDate | None:
     """When a stored recording was made; the date of its file is the last resort, None where there is none."""
     if is_moment(info.recorded):
-        return Recorded(info.recorded, "recording")
-    by_times = time_of_day(first_s)
+        return RecordingDate(info.recorded, "recording")
+    by_times = moment_from_timestamp(first_s)
     if by_times is not None:
-        return Recorded(iso(by_times), "times")
+        return RecordingDate(to_iso(by_times), "times")
     if path is None or not path.exists():
         return None
-    return Recorded(iso(datetime.fromtimestamp(path.stat().st_mtime, UTC)), "file")
+    return RecordingDate(to_iso(datetime.fromtimestamp(path.stat().st_mtime, UTC)), "file")

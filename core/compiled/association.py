@@ -7,7 +7,7 @@ import numpy as np
 from cython.cimports.libc.math import isfinite, log
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import given
+from carpus.core.compiled.palm import require_array
 
 Array = NDArray[np.float64]
 
@@ -48,10 +48,10 @@ def compute_log_odds(
     """
     markers: cython.Py_ssize_t = len(predicted)
     blobs: cython.Py_ssize_t = len(measured)
-    at: cython.const[cython.double][:, ::1] = given(predicted, "what is predicted", (markers, 3))
-    wide: cython.const[cython.double][:, :, ::1] = given(covariance, "its covariance", (markers, 3, 3))
-    blob: cython.const[cython.double][:, ::1] = given(measured, "what is measured", (blobs, 3))
-    noise: cython.const[cython.double][:, ::1] = given(noise_variance, "its variance", (blobs, 3))
+    at: cython.const[cython.double][:, ::1] = require_array(predicted, "what is predicted", (markers, 3))
+    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "its covariance", (markers, 3, 3))
+    blob: cython.const[cython.double][:, ::1] = require_array(measured, "what is measured", (blobs, 3))
+    noise: cython.const[cython.double][:, ::1] = require_array(noise_variance, "its variance", (blobs, 3))
     out, believed = np.empty((markers, blobs)), np.empty((markers, blobs), dtype=np.uint8)
     value: cython.double[:, ::1] = out
     with_depth: cython.uchar[:, ::1] = believed
@@ -116,7 +116,7 @@ def find_likeliest(odds: Array) -> NDArray[np.int64] | None:
     """
     markers: cython.Py_ssize_t = odds.shape[0]
     blobs: cython.Py_ssize_t = odds.shape[1]
-    value: cython.const[cython.double][:, ::1] = given(odds, "odds", (markers, blobs))
+    value: cython.const[cython.double][:, ::1] = require_array(odds, "odds", (markers, blobs))
     out = np.full(markers, -1, dtype=np.int64)
     taken: cython.longlong[::1] = out
     is_used: cython.uchar[::1] = np.zeros(blobs, dtype=np.uint8)

@@ -251,7 +251,7 @@ def split_blob(
             for k in range(parts):
                 along = low + radius_px - (mean_u * across + mean_v * down) + gap * k
                 middle[k, 0], middle[k, 1] = mean_u + along * across, mean_v + along * down
-            if not share_out(u, v, part, middle):
+            if not assign_pixels(u, v, part, middle):
                 continue
         sum_parts(u, v, part, sums[:parts])
         elongation = mean_elongation(sums[:parts])
@@ -267,7 +267,7 @@ def split_blob(
 
 
 @cython.cfunc
-def share_out(
+def assign_pixels(
     u: cython.int[::1], v: cython.int[::1], part: cython.int[::1], middle: cython.double[:, ::1]
 ) -> cython.bint:
     """Give each pixel to the nearest of N middles, and move these to their pixels, until no pixel changes.

@@ -16,7 +16,7 @@ from cython.cimports.libc.math import acos, cos, exp, expm1, isfinite, log, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.digits import BENT, OTHER, POSE
-from carpus.core.compiled.palm import given
+from carpus.core.compiled.palm import require_array
 
 NARROW2 = 1e-10
 """Variance that keeps the covariance of slots that do not move positive definite where joints are read."""
@@ -58,13 +58,15 @@ def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array
         Images (5, 9), their slope (5, 9, 21), the covariance (5, 9, 9) of what is not linear, and of all; the discs
         (5, 3, 3), and the derivative (5, 3, 3, 3) of the images by that.
     """
-    disc: cython.const[cython.double][:, :, :, ::1] = given(points.disc_m, "discs", (5, 13, 3, 3))
-    unroot: cython.const[cython.double][:, :, ::1] = given(points.unroot, "inverse roots", (5, 6, 6))
-    along: cython.const[cython.double][:, :, ::1] = given(points.along, "what goes along", (5, 6, 10))
-    by_constants: cython.const[cython.double][:, :, :, ::1] = given(points.by_constants, "slopes", (5, 3, 3, 10))
-    wide: cython.const[cython.double][:, :, ::1] = given(points.covariance, "covariances", (5, 21, 21))
-    rotation: cython.const[cython.double][:, ::1] = given(view.rotation, "the view's rotation", (3, 3))
-    translation: cython.const[cython.double][::1] = given(view.translation_m, "the view's place", (3,))
+    disc: cython.const[cython.double][:, :, :, ::1] = require_array(points.disc_m, "discs", (5, 13, 3, 3))
+    unroot: cython.const[cython.double][:, :, ::1] = require_array(points.unroot, "inverse roots", (5, 6, 6))
+    along: cython.const[cython.double][:, :, ::1] = require_array(points.along, "what goes along", (5, 6, 10))
+    by_constants: cython.const[cython.double][:, :, :, ::1] = require_array(
+        points.by_constants, "slopes", (5, 3, 3, 10)
+    )
+    wide: cython.const[cython.double][:, :, ::1] = require_array(points.covariance, "covariances", (5, 21, 21))
+    rotation: cython.const[cython.double][:, ::1] = require_array(view.rotation, "the view's rotation", (3, 3))
+    translation: cython.const[cython.double][::1] = require_array(view.translation_m, "the view's place", (3,))
     fx: cython.double = view.camera.fx_px
     fy: cython.double = view.camera.fy_px
     cx: cython.double = view.camera.cx_px
@@ -199,9 +201,9 @@ def project_discs(points: Any, view: Any, scale: float) -> tuple[Array, Array, A
     tuple of numpy.ndarray
         Pixels (5, 3, 2), their covariance (5, 3, 2, 2), and depths (5, 3).
     """
-    disc: cython.const[cython.double][:, :, :, ::1] = given(points.disc_m, "discs", (5, 13, 3, 3))
-    rotation: cython.const[cython.double][:, ::1] = given(view.rotation, "the view's rotation", (3, 3))
-    translation: cython.const[cython.double][::1] = given(view.translation_m, "the view's place", (3,))
+    disc: cython.const[cython.double][:, :, :, ::1] = require_array(points.disc_m, "discs", (5, 13, 3, 3))
+    rotation: cython.const[cython.double][:, ::1] = require_array(view.rotation, "the view's rotation", (3, 3))
+    translation: cython.const[cython.double][::1] = require_array(view.translation_m, "the view's place", (3,))
     fx: cython.double = view.camera.fx_px
     fy: cython.double = view.camera.fy_px
     cx: cython.double = view.camera.cx_px
@@ -249,10 +251,12 @@ def propagate_palm_error(linearised: Any, seat: Any) -> Array:
     numpy.ndarray
         Covariance (5, 9, 9).
     """
-    centre: cython.const[cython.double][:, :, ::1] = given(linearised.centre_m, "discs", (5, 3, 3))
-    by_place: cython.const[cython.double][:, :, :, ::1] = given(linearised.by_place, "slopes by place", (5, 3, 3, 3))
-    origin: cython.const[cython.double][::1] = given(seat.view.translation_m, "the seat's place", (3,))
-    wide: cython.const[cython.double][:, ::1] = given(seat.pose_covariance, "the seat's covariance", (6, 6))
+    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
+    by_place: cython.const[cython.double][:, :, :, ::1] = require_array(
+        linearised.by_place, "slopes by place", (5, 3, 3, 3)
+    )
+    origin: cython.const[cython.double][::1] = require_array(seat.view.translation_m, "the seat's place", (3,))
+    wide: cython.const[cython.double][:, ::1] = require_array(seat.pose_covariance, "the seat's covariance", (6, 6))
     out = np.zeros((5, 9, 9))
     found: cython.double[:, :, ::1] = out
     by_pose: cython.double[:, ::1] = np.empty((9, 6))
@@ -312,10 +316,10 @@ def compute_tilts(normal: Array, covariance: Array, linearised: Any, view: Any) 
     tuple of numpy.ndarray
         Tilt (5, 3) in rad, and its variance (5, 3).
     """
-    facing: cython.const[cython.double][:, :, ::1] = given(normal, "normals", (5, 3, 3))
-    wide: cython.const[cython.double][:, :, ::1] = given(covariance, "covariances", (5, 21, 21))
-    centre: cython.const[cython.double][:, :, ::1] = given(linearised.centre_m, "discs", (5, 3, 3))
-    rotation: cython.const[cython.double][:, ::1] = given(view.rotation, "the view's rotation", (3, 3))
+    facing: cython.const[cython.double][:, :, ::1] = require_array(normal, "normals", (5, 3, 3))
+    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "covariances", (5, 21, 21))
+    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
+    rotation: cython.const[cython.double][:, ::1] = require_array(view.rotation, "the view's rotation", (3, 3))
     out = np.empty((5, 3)), np.empty((5, 3))
     tilt: cython.double[:, ::1] = out[0]
     variance: cython.double[:, ::1] = out[1]
@@ -363,10 +367,10 @@ def compute_visibility(
     tuple of numpy.ndarray
         Chance (5, 3) now, and pixels (5, 3) for each square metre of a disc.
     """
-    before: cython.const[cython.double][:, ::1] = given(visible, "chances", (5, 3))
-    tilted: cython.const[cython.double][:, ::1] = given(tilt, "tilts", (5, 3))
-    unsure: cython.const[cython.double][:, ::1] = given(variance, "their variances", (5, 3))
-    centre: cython.const[cython.double][:, :, ::1] = given(linearised.centre_m, "discs", (5, 3, 3))
+    before: cython.const[cython.double][:, ::1] = require_array(visible, "chances", (5, 3))
+    tilted: cython.const[cython.double][:, ::1] = require_array(tilt, "tilts", (5, 3))
+    unsure: cython.const[cython.double][:, ::1] = require_array(variance, "their variances", (5, 3))
+    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
     fx: cython.double = view.camera.fx_px
     stays: cython.double = exp(-dt_s / SHOWN_S)
     comes: cython.double = -expm1(-dt_s / HIDDEN_S)
@@ -413,13 +417,17 @@ def compute_disc_odds(
         is believed (15, D).
     """
     blobs: cython.Py_ssize_t = len(scene.free)
-    expected: cython.const[cython.double][:, ::1] = given(scene.linearised.value, "images", (5, 9)).reshape(15, 3)
-    spread: cython.const[cython.double][:, :, ::1] = given(scene.spread, "their covariance", (5, 9, 9))
-    visible: cython.const[cython.double][:, ::1] = given(scene.visible, "chances", (5, 3))
-    value: cython.const[cython.double][:, ::1] = given(scene.blobs.value, "the blobs", (blobs, 3))
-    noise: cython.const[cython.double][:, ::1] = given(scene.blobs.variance, "the blobs' variances", (blobs, 3))
-    free: cython.const[cython.uchar][::1] = given(scene.free, "free blobs", (blobs,)).view(np.uint8)
-    has_discs: cython.const[cython.uchar][::1] = given(scene.has_discs, "digits with discs", (5,)).view(np.uint8)
+    expected: cython.const[cython.double][:, ::1] = require_array(scene.linearised.value, "images", (5, 9)).reshape(
+        15, 3
+    )
+    spread: cython.const[cython.double][:, :, ::1] = require_array(scene.spread, "their covariance", (5, 9, 9))
+    visible: cython.const[cython.double][:, ::1] = require_array(scene.visible, "chances", (5, 3))
+    value: cython.const[cython.double][:, ::1] = require_array(scene.blobs.value, "the blobs", (blobs, 3))
+    noise: cython.const[cython.double][:, ::1] = require_array(scene.blobs.variance, "the blobs' variances", (blobs, 3))
+    free: cython.const[cython.uchar][::1] = require_array(scene.free, "free blobs", (blobs,)).view(np.uint8)
+    has_discs: cython.const[cython.uchar][::1] = require_array(scene.has_discs, "digits with discs", (5,)).view(
+        np.uint8
+    )
     out, believed = np.empty((15, blobs)), np.empty((15, blobs), dtype=np.uint8)
     odds: cython.double[:, ::1] = out
     with_depth: cython.uchar[:, ::1] = believed
@@ -471,15 +479,19 @@ def compute_inherited(covariance: Array, seat: Any, linearised: Any, normal: Arr
     numpy.linalg.LinAlgError
         When a covariance is not positive definite.
     """
-    wide: cython.const[cython.double][:, :, ::1] = given(covariance, "covariances", (5, 21, 21))
-    facing: cython.const[cython.double][:, :, ::1] = given(normal, "normals", (5, 3, 3))
-    slope: cython.const[cython.double][:, :, ::1] = given(linearised.slope, "slopes", (5, 9, 21))
-    centre: cython.const[cython.double][:, :, ::1] = given(linearised.centre_m, "discs", (5, 3, 3))
-    by_place: cython.const[cython.double][:, :, :, ::1] = given(linearised.by_place, "slopes by place", (5, 3, 3, 3))
-    root: cython.const[cython.double][:, ::1] = given(seat.palm.disc_m, "the palm's discs", (6, 3))
-    rotation: cython.const[cython.double][:, ::1] = given(seat.view.rotation, "the seat's rotation", (3, 3))
-    translation: cython.const[cython.double][::1] = given(seat.view.translation_m, "the seat's place", (3,))
-    turning: cython.const[cython.double][:, ::1] = given(seat.turn_covariance, "covariance of the seat's turn", (3, 3))
+    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "covariances", (5, 21, 21))
+    facing: cython.const[cython.double][:, :, ::1] = require_array(normal, "normals", (5, 3, 3))
+    slope: cython.const[cython.double][:, :, ::1] = require_array(linearised.slope, "slopes", (5, 9, 21))
+    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
+    by_place: cython.const[cython.double][:, :, :, ::1] = require_array(
+        linearised.by_place, "slopes by place", (5, 3, 3, 3)
+    )
+    root: cython.const[cython.double][:, ::1] = require_array(seat.palm.disc_m, "the palm's discs", (6, 3))
+    rotation: cython.const[cython.double][:, ::1] = require_array(seat.view.rotation, "the seat's rotation", (3, 3))
+    translation: cython.const[cython.double][::1] = require_array(seat.view.translation_m, "the seat's place", (3,))
+    turning: cython.const[cython.double][:, ::1] = require_array(
+        seat.turn_covariance, "covariance of the seat's turn", (3, 3)
+    )
     fx: cython.double = seat.view.camera.fx_px
     fy: cython.double = seat.view.camera.fy_px
     across_m: cython.double = ACROSS_M
@@ -558,7 +570,7 @@ def compute_inherited(covariance: Array, seat: Any, linearised: Any, normal: Arr
     return out
 
 
-def measure_named(
+def measure_assigned_discs(
     scene: Any,
     names: Any,
     own_px2: float,
@@ -597,18 +609,22 @@ def measure_named(
         Images (5, 9), NaN where there is none, and their variances (5, 9).
     """
     blobs: cython.Py_ssize_t = len(scene.area_px)
-    value: cython.const[cython.double][:, ::1] = given(scene.blobs.value, "the blobs", (blobs, 3))
-    noise: cython.const[cython.double][:, ::1] = given(scene.blobs.variance, "the blobs' variances", (blobs, 3))
-    area: cython.const[cython.double][::1] = given(scene.area_px, "the blobs' areas", (blobs,))
-    whole: cython.const[cython.double][:, ::1] = given(scene.whole_px, "the discs' areas", (5, 3))
-    disc_m2: cython.const[cython.double][:, ::1] = given(scene.disc_m2, "the discs' sizes", (5, 3))
-    visible: cython.const[cython.double][:, ::1] = given(scene.visible, "chances", (5, 3))
-    expected: cython.const[cython.double][:, ::1] = given(scene.linearised.value, "images", (5, 9))
-    spread: cython.const[cython.double][:, :, ::1] = given(scene.spread, "their covariance", (5, 9, 9))
-    factor: cython.const[cython.double][:, ::1] = given(scene.noise_factor, "factors", (5, 9))
-    has_discs: cython.const[cython.uchar][::1] = given(scene.has_discs, "digits with discs", (5,)).view(np.uint8)
-    assigned: cython.const[cython.longlong][:, ::1] = given(names.assigned, "names", (5, 3))
-    with_depth: cython.const[cython.uchar][:, ::1] = given(names.with_depth, "depths believed", (5, 3)).view(np.uint8)
+    value: cython.const[cython.double][:, ::1] = require_array(scene.blobs.value, "the blobs", (blobs, 3))
+    noise: cython.const[cython.double][:, ::1] = require_array(scene.blobs.variance, "the blobs' variances", (blobs, 3))
+    area: cython.const[cython.double][::1] = require_array(scene.area_px, "the blobs' areas", (blobs,))
+    whole: cython.const[cython.double][:, ::1] = require_array(scene.whole_px, "the discs' areas", (5, 3))
+    disc_m2: cython.const[cython.double][:, ::1] = require_array(scene.disc_m2, "the discs' sizes", (5, 3))
+    visible: cython.const[cython.double][:, ::1] = require_array(scene.visible, "chances", (5, 3))
+    expected: cython.const[cython.double][:, ::1] = require_array(scene.linearised.value, "images", (5, 9))
+    spread: cython.const[cython.double][:, :, ::1] = require_array(scene.spread, "their covariance", (5, 9, 9))
+    factor: cython.const[cython.double][:, ::1] = require_array(scene.noise_factor, "factors", (5, 9))
+    has_discs: cython.const[cython.uchar][::1] = require_array(scene.has_discs, "digits with discs", (5,)).view(
+        np.uint8
+    )
+    assigned: cython.const[cython.longlong][:, ::1] = require_array(names.assigned, "names", (5, 3))
+    with_depth: cython.const[cython.uchar][:, ::1] = require_array(names.with_depth, "depths believed", (5, 3)).view(
+        np.uint8
+    )
     fx: cython.double = scene.view.camera.fx_px
     own2: cython.double = own_px2
     reach: cython.double = crowd[0] * radius_m * fx

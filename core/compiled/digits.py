@@ -18,7 +18,7 @@ from cython.cimports.carpus.core.compiled.small_matrices import add_product, inv
 from cython.cimports.libc.math import cos, erfc, exp, sin, sqrt
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import given
+from carpus.core.compiled.palm import require_array
 from carpus.core.hand.kinematics import DIP_PER_PIP
 
 FLOOR = 1e-14
@@ -134,8 +134,8 @@ def place_digits(pose: Array, root_m: Array) -> tuple[Array, Array, Array, Array
         Directions of the bones (5, 3, 3), normals of the discs (5, 3, 3), joint centres (5, 4, 3) from the root's to
         the tip, and discs (5, 3, 3).
     """
-    s: cython.const[cython.double][:, ::1] = given(pose, "poses", (5, 16))
-    root: cython.const[cython.double][:, ::1] = given(root_m, "roots", (5, 3))
+    s: cython.const[cython.double][:, ::1] = require_array(pose, "poses", (5, 16))
+    root: cython.const[cython.double][:, ::1] = require_array(root_m, "roots", (5, 3))
     out = np.empty((5, 3, 3)), np.empty((5, 3, 3)), np.empty((5, 4, 3)), np.empty((5, 3, 3))
     bone: cython.double[:, :, ::1] = out[0]
     normal: cython.double[:, :, ::1] = out[1]
@@ -149,8 +149,8 @@ def place_digits(pose: Array, root_m: Array) -> tuple[Array, Array, Array, Array
 
 def place_discs(pose: Array, root_m: Array, digits: list[int]) -> Array:
     """Place the discs (R, S, 3, 3) of R ``digits`` in S poses (R, S, 16) of each, under ``root_m`` (R, 3)."""
-    s: cython.const[cython.double][:, :, ::1] = given(pose, "poses", (len(digits), pose.shape[1], 16))
-    root: cython.const[cython.double][:, ::1] = given(root_m, "roots", (len(digits), 3))
+    s: cython.const[cython.double][:, :, ::1] = require_array(pose, "poses", (len(digits), pose.shape[1], 16))
+    root: cython.const[cython.double][:, ::1] = require_array(root_m, "roots", (len(digits), 3))
     out = np.empty((pose.shape[0], pose.shape[1], 3, 3))
     disc: cython.double[:, :, :, ::1] = out
     joint: cython.double[:, :, ::1] = np.empty((3, 4, 3))
@@ -163,7 +163,7 @@ def place_discs(pose: Array, root_m: Array, digits: list[int]) -> Array:
     return out
 
 
-def move_digits(motion: Any, dt_s: float, scale2: Array, forgetting: Any | None) -> tuple[Array, Array]:
+def compute_digit_transition(motion: Any, dt_s: float, scale2: Array, forgetting: Any | None) -> tuple[Array, Array]:
     """
     Move the digits a step: x <- F x + w with w ~ N(0, Q).
 
@@ -187,18 +187,20 @@ def move_digits(motion: Any, dt_s: float, scale2: Array, forgetting: Any | None)
         F (5, 21, 21) and Q (5, K, 21, 21).
     """
     modes: cython.Py_ssize_t = scale2.shape[1]
-    density: cython.const[cython.double][:, ::1] = given(motion.density, "densities", (5, 5))
-    drift: cython.const[cython.double][:, ::1] = given(motion.drift, "drifts", (5, 11))
-    lasting: cython.const[cython.double][:, ::1] = given(motion.stationary2, "variances in the long run", (5, 5))
-    scale: cython.const[cython.double][:, ::1] = given(scale2, "scales", (5, modes))
+    density: cython.const[cython.double][:, ::1] = require_array(motion.density, "densities", (5, 5))
+    drift: cython.const[cython.double][:, ::1] = require_array(motion.drift, "drifts", (5, 11))
+    lasting: cython.const[cython.double][:, ::1] = require_array(
+        motion.stationary2, "variances in the long run", (5, 5)
+    )
+    scale: cython.const[cython.double][:, ::1] = require_array(scale2, "scales", (5, modes))
     fades: cython.bint = forgetting is not None
-    keep_rate: cython.const[cython.double][:, ::1] = given(
+    keep_rate: cython.const[cython.double][:, ::1] = require_array(
         forgetting.keep_rate if fades else motion.density, "shares kept", (5, 5)
     )
-    angle2: cython.const[cython.double][:, ::1] = given(
+    angle2: cython.const[cython.double][:, ::1] = require_array(
         forgetting.angle2 if fades else motion.density, "variances of angles", (5, 5)
     )
-    rate2: cython.const[cython.double][:, ::1] = given(
+    rate2: cython.const[cython.double][:, ::1] = require_array(
         forgetting.rate2 if fades else motion.density, "variances of rates", (5, 5)
     )
     dt: cython.double = dt_s
@@ -259,9 +261,9 @@ def spread_points(
     numpy.linalg.LinAlgError
         When a covariance is not positive definite.
     """
-    state: cython.const[cython.double][:, ::1] = given(mean, "states", (5, 21))
-    wide: cython.const[cython.double][:, :, ::1] = given(covariance, "covariances", (5, 21, 21))
-    root: cython.const[cython.double][:, ::1] = given(root_m, "roots", (5, 3))
+    state: cython.const[cython.double][:, ::1] = require_array(mean, "states", (5, 21))
+    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "covariances", (5, 21, 21))
+    root: cython.const[cython.double][:, ::1] = require_array(root_m, "roots", (5, 3))
     out = (
         np.empty((5, 13, 3, 3)), np.empty((5, 6, 6)), np.zeros((5, 6, 10)), np.zeros((5, 3, 3, 10)),
         np.empty((5, 3, 3)),
@@ -384,10 +386,12 @@ def apply_limits(
         Means (5, K, 21) and covariances (5, K, 21, 21); None where no limit is near.
     """
     modes: cython.Py_ssize_t = mixture.mean.shape[1]
-    mean: cython.const[cython.double][:, :, ::1] = given(mixture.mean, "states", (5, modes, 21))
-    wide: cython.const[cython.double][:, :, :, ::1] = given(mixture.covariance, "covariances", (5, modes, 21, 21))
-    limit: cython.const[cython.double][:, :, ::1] = given(limits, "limits", (5, 5, 2))
-    turn: cython.const[cython.double][:, :, ::1] = given(direction, "directions of angles", (5, 5, 5))
+    mean: cython.const[cython.double][:, :, ::1] = require_array(mixture.mean, "states", (5, modes, 21))
+    wide: cython.const[cython.double][:, :, :, ::1] = require_array(
+        mixture.covariance, "covariances", (5, modes, 21, 21)
+    )
+    limit: cython.const[cython.double][:, :, ::1] = require_array(limits, "limits", (5, 5, 2))
+    turn: cython.const[cython.double][:, :, ::1] = require_array(direction, "directions of angles", (5, 5, 5))
     soft2: cython.double = soft_rad * soft_rad
     reach: cython.double = near_sd
     across: cython.double[:, ::1] = np.empty((5, 21))  # of the angles with all

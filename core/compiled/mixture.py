@@ -20,13 +20,13 @@ from cython.cimports.carpus.core.compiled.small_matrices import (
 from cython.cimports.libc.math import INFINITY, exp, isfinite, log, sqrt
 from numpy.typing import NDArray
 
-LEAST_PROBABILITY = cython.declare(cython.double, 1e-6)
+MIN_PROBABILITY = cython.declare(cython.double, 1e-6)
 """No mode ever falls to zero."""
 
 Array = NDArray[np.float64]
 
 
-def sized(mixture: Any) -> tuple[Array, Array, Array]:
+def require_mixture(mixture: Any) -> tuple[Array, Array, Array]:
     """The arrays of a mixture, row by row. Raises ``ValueError`` where they are not of one size."""
     mean, covariance = np.ascontiguousarray(mixture.mean), np.ascontiguousarray(mixture.covariance)
     probability = np.ascontiguousarray(mixture.probability)
@@ -35,9 +35,9 @@ def sized(mixture: Any) -> tuple[Array, Array, Array]:
     return mean, covariance, probability
 
 
-def merged(mixture: Any) -> tuple[Array, Array]:
+def merge_modes(mixture: Any) -> tuple[Array, Array]:
     """Mean (C, n) and covariance (C, n, n) over the modes: the sum of w (P + a a'), a from the mean."""
-    arrays = sized(mixture)
+    arrays = require_mixture(mixture)
     mean: cython.const[cython.double][:, :, ::1] = arrays[0]
     covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
     weight: cython.const[cython.double][:, ::1] = arrays[2]
@@ -64,10 +64,10 @@ def merged(mixture: Any) -> tuple[Array, Array]:
     return out_mean, out_covariance
 
 
-def mixed(mixture: Any, switch: Array) -> tuple[Array, Array, Array]:
+def mix_modes(mixture: Any, switch: Array) -> tuple[Array, Array, Array]:
     """Each mode's start from all that may have switched to it, ``switch`` (K, K) from row to column: the interaction of
     an interacting multiple model (Blom and Bar-Shalom 1988)."""
-    arrays = sized(mixture)
+    arrays = require_mixture(mixture)
     mean: cython.const[cython.double][:, :, ::1] = arrays[0]
     covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
     chains, modes, n = mean.shape[0], mean.shape[1], mean.shape[2]
@@ -106,9 +106,9 @@ def mixed(mixture: Any, switch: Array) -> tuple[Array, Array, Array]:
     return arrays[0][:, :1] + shifts, out, probability
 
 
-def predicted(mixture: Any, forward: Array, noise: Array) -> tuple[Array, Array]:
+def predict_modes(mixture: Any, forward: Array, noise: Array) -> tuple[Array, Array]:
     """Mean F m and covariance F P F' + Q, ``forward`` F (C, n, n) and ``noise`` Q (C, K, n, n)."""
-    arrays = sized(mixture)
+    arrays = require_mixture(mixture)
     covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
     chains, modes, n = covariance.shape[0], covariance.shape[1], covariance.shape[2]
     if forward.shape != (chains, n, n) or noise.shape != (chains, modes, n, n):
@@ -133,11 +133,11 @@ def predicted(mixture: Any, forward: Array, noise: Array) -> tuple[Array, Array]
     return (forward[:, None] @ arrays[0][..., None])[..., 0], out
 
 
-def transitioned(mixture: Any, step: Any, nominal: Array) -> tuple[Array, Array]:
+def predict_palm_modes(mixture: Any, step: Any, nominal: Array) -> tuple[Array, Array]:
     """Mean and covariance after a ``Transition``, of errors from a ``nominal`` (n,): F P F' + Q where F is
     ``moving`` (m, m) for the first m numbers and ``kept`` (K, n) of all others, Q is ``driven`` (K, m, m) of the first
     and ``relaxing`` (K, r, r) of the last r."""
-    arrays = sized(mixture)
+    arrays = require_mixture(mixture)
     moving: cython.const[cython.double][:, ::1] = np.ascontiguousarray(step.moving)
     turned: cython.const[cython.double][:, ::1] = np.ascontiguousarray(step.moving.T)
     driven: cython.const[cython.double][:, :, ::1] = np.ascontiguousarray(step.driven)
@@ -185,7 +185,7 @@ def transitioned(mixture: Any, step: Any, nominal: Array) -> tuple[Array, Array]
 
 @cython.final
 @cython.cclass
-class Measured:
+class InnovationWorkspace:
     """What was measured, of one chain at a time in units of its noise: y = H (x - about) + e with the covariance
     ``own`` of e, and what a correction works out of it. A number that was not measured has no slope and the noise
     alone."""
@@ -229,7 +229,7 @@ class Measured:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def take(self, c: cython.Py_ssize_t) -> cython.Py_ssize_t:
+    def select_chain(self, c: cython.Py_ssize_t) -> cython.Py_ssize_t:
         """What was measured of a chain; of how many numbers."""
         i: cython.Py_ssize_t
         j: cython.Py_ssize_t
@@ -315,7 +315,7 @@ class Measured:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def surprise(self, out: cython.double[::1]) -> cython.void:
+    def fill_residuals(self, out: cython.double[::1]) -> cython.void:
         """Each measured number's residual given all others, in its own standard deviations: of S^-1 innovation."""
         a: cython.Py_ssize_t
         i: cython.Py_ssize_t
@@ -364,14 +364,14 @@ def reweigh(
         total += out[k]
     for k in range(modes):
         out[k] /= total
-        if out[k] < LEAST_PROBABILITY:
-            out[k] = LEAST_PROBABILITY
+        if out[k] < MIN_PROBABILITY:
+            out[k] = MIN_PROBABILITY
         again += out[k]
     for k in range(modes):
         out[k] /= again
 
 
-def corrected(
+def correct_mixture(
     mixture: Any,
     linearised: Any,
     measured: Array,
@@ -388,7 +388,7 @@ def corrected(
     The corrected mixture, NIS (C,) over all modes with its degrees of freedom (C,), residuals (C, m) in their own
     standard deviations. Raises ``numpy.linalg.LinAlgError`` where a scatter is not positive definite.
     """
-    arrays = sized(mixture)
+    arrays = require_mixture(mixture)
     out = arrays[0].copy(), arrays[1].copy(), np.empty_like(arrays[2])
     mean: cython.const[cython.double][:, :, ::1] = arrays[0]
     covariance: cython.const[cython.double][:, :, :, ::1] = arrays[1]
@@ -400,7 +400,7 @@ def corrected(
     share: cython.const[cython.double][::1] = np.ones(n) if partial is None else np.ascontiguousarray(partial)
     if share.shape[0] != n or measured.shape[0] != chains:
         raise ValueError("what was measured, or the shares, are not of the mixture's size")
-    one: Measured = Measured(linearised, shared, measured, variance, n)
+    one: InnovationWorkspace = InnovationWorkspace(linearised, shared, measured, variance, n)
     tests, dof, residuals = np.zeros(chains), np.empty(chains, dtype=np.int64), np.zeros((chains, m))
     nis: cython.double[::1] = tests
     residual: cython.double[:, ::1] = residuals

@@ -14,7 +14,7 @@ from cython.cimports.carpus.core.compiled.small_matrices import add_product, inv
 from cython.cimports.libc.math import cos, exp, expm1, sin, sqrt
 from numpy.typing import NDArray
 
-from carpus.core.compiled.mixture import merged
+from carpus.core.compiled.mixture import merge_modes
 
 SIZE = cython.declare(cython.Py_ssize_t, 54)
 POSITION = cython.declare(cython.Py_ssize_t, 0)
@@ -33,7 +33,9 @@ FLOOR = cython.declare(cython.double, 1e-14)
 _NONE = np.zeros((3, 3))
 
 
-def switch_modes(motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, digits: Any) -> NDArray[np.float64]:
+def compute_mode_transition(
+    motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, digits: Any
+) -> NDArray[np.float64]:
     """
     Probability to go over from one mode of the palm to another.
 
@@ -58,8 +60,8 @@ def switch_modes(motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, digi
     """
     tissue = motion.tissue
     count: cython.Py_ssize_t = tissue.count
-    rates: cython.const[cython.double][:, ::1] = given(tissue.rates, "rates of the tissue", (count, count))
-    omega: cython.const[cython.double][::1] = given(rate_rad_s, "the palm's rate", (3,))
+    rates: cython.const[cython.double][:, ::1] = require_array(tissue.rates, "rates of the tissue", (count, count))
+    omega: cython.const[cython.double][::1] = require_array(rate_rad_s, "the palm's rate", (3,))
     tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
     modes: cython.Py_ssize_t = motion.modes
     resting: cython.Py_ssize_t = tissue.resting
@@ -103,7 +105,7 @@ def switch_modes(motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, digi
     return out
 
 
-def move_palm(
+def compute_palm_transition(
     motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, unseen: NDArray[np.float64] | None, digits: Any
 ) -> tuple[NDArray[np.float64], ...]:
     """
@@ -135,12 +137,16 @@ def move_palm(
     noise, tissue = motion.noise, motion.tissue
     count: cython.Py_ssize_t = tissue.count
     modes: cython.Py_ssize_t = motion.modes
-    omega: cython.const[cython.double][::1] = given(rate_rad_s, "the palm's rate", (3,))
-    lasts: cython.const[cython.double][:, ::1] = given(tissue.lasts_s, "how long tissue lasts", (count, SOFT))
-    rest: cython.const[cython.double][:, :, ::1] = given(tissue.stationary, "scatter of tissue", (count, SOFT, SOFT))
-    scale_of: cython.const[cython.double][::1] = given(motion.scale_of, "the modes' scales", (modes,))
+    omega: cython.const[cython.double][::1] = require_array(rate_rad_s, "the palm's rate", (3,))
+    lasts: cython.const[cython.double][:, ::1] = require_array(tissue.lasts_s, "how long tissue lasts", (count, SOFT))
+    rest: cython.const[cython.double][:, :, ::1] = require_array(
+        tissue.stationary, "scatter of tissue", (count, SOFT, SOFT)
+    )
+    scale_of: cython.const[cython.double][::1] = require_array(motion.scale_of, "the modes' scales", (modes,))
     tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
-    hidden: cython.const[cython.double][:, ::1] = given(_NONE if unseen is None else unseen, "turns not seen", (3, 3))
+    hidden: cython.const[cython.double][:, ::1] = require_array(
+        _NONE if unseen is None else unseen, "turns not seen", (3, 3)
+    )
     dt: cython.double = dt_s
     push: cython.double = noise.push
     turning: cython.double = noise.turning
@@ -204,7 +210,7 @@ def move_palm(
     return moving, driven, left, relaxing, turns[0]
 
 
-def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDArray[np.float64], ...]:
+def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDArray[np.float64], ...]:
     """
     Predict what the camera sees of the palm's discs: h linearised, by sigma points of the pose.
 
@@ -230,16 +236,22 @@ def see_palm(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDAr
         (6, 3, 3).
     """
     modes: cython.Py_ssize_t = mixture.mean.shape[1]
-    state: cython.const[cython.double][::1] = given(estimate.value, "the palm's state", (SIZE,))
-    spread: cython.const[cython.double][:, ::1] = given(estimate.covariance, "the palm's covariance", (SIZE, SIZE))
-    rotation: cython.const[cython.double][:, ::1] = given(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
-    mean: cython.const[cython.double][:, :, ::1] = given(mixture.mean, "means of the modes", (1, modes, SIZE))
-    weight: cython.const[cython.double][:, ::1] = given(mixture.probability, "the modes' probability", (1, modes))
-    palm: cython.const[cython.double][:, ::1] = given(view.palm_m, "places of the discs", (DISCS, 3))
-    hidden: cython.const[cython.double][:, ::1] = given(view.hidden, "what calibration hides", (DISCS, SEEN))
-    w0_cam: cython.const[cython.double][:, ::1] = given(view.rotation_w0_cam, "the camera's rotation", (3, 3))
-    at: cython.const[cython.double][::1] = given(view.translation_w0_cam_m, "the camera's place", (3,))
-    numbers: cython.const[cython.double][::1] = given(weights.numbers, "weights of the sigma points", (5,))
+    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
+    spread: cython.const[cython.double][:, ::1] = require_array(
+        estimate.covariance, "the palm's covariance", (SIZE, SIZE)
+    )
+    rotation: cython.const[cython.double][:, ::1] = require_array(
+        estimate.rotation_w2_w0, "the palm's rotation", (3, 3)
+    )
+    mean: cython.const[cython.double][:, :, ::1] = require_array(mixture.mean, "means of the modes", (1, modes, SIZE))
+    weight: cython.const[cython.double][:, ::1] = require_array(
+        mixture.probability, "the modes' probability", (1, modes)
+    )
+    palm: cython.const[cython.double][:, ::1] = require_array(view.palm_m, "places of the discs", (DISCS, 3))
+    hidden: cython.const[cython.double][:, ::1] = require_array(view.hidden, "what calibration hides", (DISCS, SEEN))
+    w0_cam: cython.const[cython.double][:, ::1] = require_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
+    at: cython.const[cython.double][::1] = require_array(view.translation_w0_cam_m, "the camera's place", (3,))
+    numbers: cython.const[cython.double][::1] = require_array(weights.numbers, "weights of the sigma points", (5,))
     of_middle: cython.double = numbers[0]
     of_others: cython.double = numbers[1]
     scatter_of_middle: cython.double = numbers[2]
@@ -390,10 +402,10 @@ def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
         The estimate's rotation (3, 3), value (54,) and covariance (54, 54); mean (1, K, 54) of the modes' errors.
     """
     modes: cython.Py_ssize_t = mixture.mean.shape[1]
-    mean: cython.const[cython.double][:, :, ::1] = given(mixture.mean, "means of the modes", (1, modes, SIZE))
-    state: cython.const[cython.double][::1] = given(nominal.value, "the palm's state", (SIZE,))
-    rotation: cython.const[cython.double][:, ::1] = given(nominal.rotation_w2_w0, "the palm's rotation", (3, 3))
-    whole_mean, whole = merged(mixture)
+    mean: cython.const[cython.double][:, :, ::1] = require_array(mixture.mean, "means of the modes", (1, modes, SIZE))
+    state: cython.const[cython.double][::1] = require_array(nominal.value, "the palm's state", (SIZE,))
+    rotation: cython.const[cython.double][:, ::1] = require_array(nominal.rotation_w2_w0, "the palm's rotation", (3, 3))
+    whole_mean, whole = merge_modes(mixture)
     middle: cython.const[cython.double][::1] = whole_mean[0]
     turned, value, apart = np.empty((3, 3)), np.empty(SIZE), np.empty((1, modes, SIZE))
     there: cython.double[:, ::1] = turned
@@ -489,7 +501,7 @@ def multiply_transposed(
             out[i, j] = a[i, 0] * b[j, 0] + a[i, 1] * b[j, 1] + a[i, 2] * b[j, 2]
 
 
-def given(array: NDArray[np.float64], name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
+def require_array(array: NDArray[np.float64], name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """The array stored row by row, refused where it has another shape; of another type it is by the view of it."""
     if array.shape != shape:
         raise ValueError(f"{name}: {array.shape} where {shape} is read")

@@ -13,7 +13,7 @@ from cython.cimports.carpus.core.compiled.palm import fill_rotation, multiply, m
 from cython.cimports.libc.math import asin, atan2, cos, fabs, hypot, sin, sqrt
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import given
+from carpus.core.compiled.palm import require_array
 
 # Where the numbers stand in the palm's error vector.
 SIZE = cython.declare(cython.Py_ssize_t, 54)
@@ -68,11 +68,15 @@ def read_wrist(
         Axes (3, 3) as they are now; rotation (3, 3) as shown; place of the WRIST disc, rate, angles, their standard
         deviations and ZYZ angles, each (3,).
     """
-    state: cython.const[cython.double][::1] = given(estimate.value, "the palm's state", (SIZE,))
-    rotation: cython.const[cython.double][:, ::1] = given(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
-    covariance: cython.const[cython.double][:, ::1] = given(estimate.covariance, "the palm's covariance", (SIZE, SIZE))
-    disc: cython.const[cython.double][:, ::1] = given(disc_m, "places of the discs", (DISCS, 3))
-    by_shape: cython.const[cython.double][:, ::1] = given(known.sensitivity, "turns by the shape", (3, SHAPES))
+    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
+    rotation: cython.const[cython.double][:, ::1] = require_array(
+        estimate.rotation_w2_w0, "the palm's rotation", (3, 3)
+    )
+    covariance: cython.const[cython.double][:, ::1] = require_array(
+        estimate.covariance, "the palm's covariance", (SIZE, SIZE)
+    )
+    disc: cython.const[cython.double][:, ::1] = require_array(disc_m, "places of the discs", (DISCS, 3))
+    by_shape: cython.const[cython.double][:, ::1] = require_array(known.sensitivity, "turns by the shape", (3, SHAPES))
     vectors, matrices = np.empty((5, 3)), np.empty((8, 3, 3))
     vector: cython.double[:, ::1] = vectors
     matrix: cython.double[:, :, ::1] = matrices
@@ -101,7 +105,7 @@ def read_wrist(
             left[i, j] = (1.0 if i == j else 0.0) - own[j, i]
     fill_turn_covariance(back, left, by_shape, covariance, spread)
     if stays is not None:
-        further: cython.const[cython.double][:, ::1] = given(stays, "what stays of the turn", (3, 3))
+        further: cython.const[cython.double][:, ::1] = require_array(stays, "what stays of the turn", (3, 3))
         multiply(back, further, half)
         multiply(half, axes, left)
         for i in range(3):
@@ -109,7 +113,7 @@ def read_wrist(
                 spread[i, j] += left[i, j]
     shown[:] = own
     if start is not None:
-        neutral: cython.const[cython.double][:, ::1] = given(start, "the neutral pose", (3, 3))
+        neutral: cython.const[cython.double][:, ::1] = require_array(start, "the neutral pose", (3, 3))
         multiply(neutral, own, shown)
 
     s: cython.double = sign
@@ -135,7 +139,7 @@ def read_wrist(
     return matrices[0], matrices[1], vectors[0], vectors[1], vectors[2], vectors[3], vectors[4]
 
 
-def seat_fingers(
+def compute_finger_base(
     known: Any, disc_m: Array, estimate: Any, view: Any, sign: float, metacarpal_m: float
 ) -> tuple[Array, ...]:
     """
@@ -162,16 +166,21 @@ def seat_fingers(
     -------
     tuple of numpy.ndarray
         Axes (3, 3), origin (3,), discs (6, 3), flexion (5,) of the metacarpals and its standard deviation (5,) of a
-        ``PalmInBody``; from there into camera axes rotation (3, 3) and translation (3,); in camera axes the covariances
+        ``PalmGeometry``; from there into camera axes rotation (3, 3) and translation (3,); in camera axes the
+        covariances
         of the body's place and turn (6, 6) and of the turn of the axes (3, 3).
     """
-    state: cython.const[cython.double][::1] = given(estimate.value, "the palm's state", (SIZE,))
-    rotation: cython.const[cython.double][:, ::1] = given(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
-    covariance: cython.const[cython.double][:, ::1] = given(estimate.covariance, "the palm's covariance", (SIZE, SIZE))
-    disc: cython.const[cython.double][:, ::1] = given(disc_m, "places of the discs", (DISCS, 3))
-    by_shape: cython.const[cython.double][:, ::1] = given(known.sensitivity, "turns by the shape", (3, SHAPES))
-    w0_cam: cython.const[cython.double][:, ::1] = given(view.rotation_w0_cam, "the camera's rotation", (3, 3))
-    at: cython.const[cython.double][::1] = given(view.translation_w0_cam_m, "the camera's place", (3,))
+    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
+    rotation: cython.const[cython.double][:, ::1] = require_array(
+        estimate.rotation_w2_w0, "the palm's rotation", (3, 3)
+    )
+    covariance: cython.const[cython.double][:, ::1] = require_array(
+        estimate.covariance, "the palm's covariance", (SIZE, SIZE)
+    )
+    disc: cython.const[cython.double][:, ::1] = require_array(disc_m, "places of the discs", (DISCS, 3))
+    by_shape: cython.const[cython.double][:, ::1] = require_array(known.sensitivity, "turns by the shape", (3, SHAPES))
+    w0_cam: cython.const[cython.double][:, ::1] = require_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
+    at: cython.const[cython.double][::1] = require_array(view.translation_w0_cam_m, "the camera's place", (3,))
     matrices, places, cups, pose = np.empty((7, 3, 3)), np.empty((2 * DISCS + 1, 3)), np.zeros((2, 5)), np.zeros((6, 6))
     matrix: cython.double[:, :, ::1] = matrices
     axes: cython.double[:, ::1] = matrix[0]
@@ -245,8 +254,8 @@ def turn_axes(
     out: cython.double[:, ::1],
 ) -> cython.void:
     """``out`` = axes Exp(S s) for a shape that has moved by s since they were worked out."""
-    axes: cython.const[cython.double][:, ::1] = given(axes_known, "the wrist's axes", (3, 3))
-    about: cython.const[cython.double][::1] = given(shape_known, "the shape of the axes", (SHAPES,))
+    axes: cython.const[cython.double][:, ::1] = require_array(axes_known, "the wrist's axes", (3, 3))
+    about: cython.const[cython.double][::1] = require_array(shape_known, "the shape of the axes", (SHAPES,))
     x: cython.double = 0.0
     y: cython.double = 0.0
     z: cython.double = 0.0

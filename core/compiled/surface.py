@@ -9,7 +9,7 @@ import numpy as np
 from cython.cimports.carpus.core.compiled.palm import fill_rotation, multiply
 from cython.cimports.libc.math import fabs
 
-from carpus.core.compiled.palm import given
+from carpus.core.compiled.palm import require_array
 
 # Where the numbers stand in the palm's error vector.
 SIZE = cython.declare(cython.Py_ssize_t, 54)
@@ -50,16 +50,16 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
     count: cython.Py_ssize_t = len(samples.depth_m)
     rows: cython.Py_ssize_t = surface.height_m.shape[0]
     columns: cython.Py_ssize_t = surface.height_m.shape[1]
-    pixel: cython.const[cython.double][:, ::1] = given(samples.pixel, "the readings' pixels", (count, 2))
-    depth: cython.const[cython.double][::1] = given(samples.depth_m, "the readings' depths", (count,))
-    state: cython.const[cython.double][::1] = given(estimate.value, "the palm's state", (SIZE,))
-    started: cython.const[cython.double][:, ::1] = given(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
-    in_w0: cython.const[cython.double][:, ::1] = given(view.rotation_w0_cam, "the camera's rotation", (3, 3))
-    origin: cython.const[cython.double][::1] = given(view.translation_w0_cam_m, "the camera's place", (3,))
+    pixel: cython.const[cython.double][:, ::1] = require_array(samples.pixel, "the readings' pixels", (count, 2))
+    depth: cython.const[cython.double][::1] = require_array(samples.depth_m, "the readings' depths", (count,))
+    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
+    started: cython.const[cython.double][:, ::1] = require_array(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
+    in_w0: cython.const[cython.double][:, ::1] = require_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
+    origin: cython.const[cython.double][::1] = require_array(view.translation_w0_cam_m, "the camera's place", (3,))
     nodes = (rows + 2) * (columns + 2)
-    plane: cython.const[cython.double][:, ::1] = given(surface.plane, "the planes of the surface", (nodes, 4))
-    node: cython.const[cython.double][:, ::1] = given(surface.to_node, "the grid of the surface", (4, 2))
-    middle: cython.const[cython.double][::1] = given(surface.middle_m, "the middle of the surface", (3,))
+    plane: cython.const[cython.double][:, ::1] = require_array(surface.plane, "the planes of the surface", (nodes, 4))
+    node: cython.const[cython.double][:, ::1] = require_array(surface.to_node, "the grid of the surface", (4, 2))
+    middle: cython.const[cython.double][::1] = require_array(surface.middle_m, "the middle of the surface", (3,))
     camera, sensor = view.camera, view.camera.sensor
     fx: cython.double = camera.fx_px
     fy: cython.double = camera.fy_px
@@ -108,8 +108,8 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
             x = rotation[0, 0] * ahead + rotation[1, 0] * across + rotation[2, 0] * up - middle[0]
             y = rotation[0, 1] * ahead + rotation[1, 1] * across + rotation[2, 1] * up - middle[1]
             z = rotation[0, 2] * ahead + rotation[1, 2] * across + rotation[2, 2] * up - middle[2]
-            j = round_within(x * node[0, 1] + y * node[1, 1] + z * node[2, 1] + node[3, 1], rows + 1) * (columns + 2)
-            j += round_within(x * node[0, 0] + y * node[1, 0] + z * node[2, 0] + node[3, 0], columns + 1)
+            j = round_to_index(x * node[0, 1] + y * node[1, 1] + z * node[2, 1] + node[3, 1], rows + 1) * (columns + 2)
+            j += round_to_index(x * node[0, 0] + y * node[1, 0] + z * node[2, 0] + node[3, 0], columns + 1)
             nx, ny, nz = plane[j, 0], plane[j, 1], plane[j, 2]
             h = x * nx + y * ny + z * nz + plane[j, 3]
             w = huber / max(fabs(h), huber) if fabs(h) < most else 0.0
@@ -218,7 +218,7 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
 @cython.cfunc
 @cython.inline
 @cython.exceptval(check=False)
-def round_within(x: cython.double, most: cython.Py_ssize_t) -> cython.Py_ssize_t:
+def round_to_index(x: cython.double, most: cython.Py_ssize_t) -> cython.Py_ssize_t:
     """Whole number from 0 to ``most`` nearest to x; 0 where that is unknown."""
     return cython.cast(cython.Py_ssize_t, min(x, most) + 0.5) if x > 0.0 else 0
 

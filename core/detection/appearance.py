@@ -11,29 +11,29 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import nearest_within
+from carpus.core.assignment import assign_nearest
 from carpus.core.camera import Camera
 from carpus.core.compiled.blobs import BlobWindows, mask_paper
-from carpus.core.detection.components import Components, components
+from carpus.core.detection.components import Components, find_components
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.stencil import stencil_for
+from carpus.core.detection.stencil import get_stencil
 from carpus.core.types import ByteImage, FloatArray, Frame
 
 SMALL_RADIUS_M = 0.004
 """Radius of the small paper discs (reference 2)."""
 PAPER_SHARE = 0.5
 """A pixel belongs to a marker when its colour is so much likelier on paper than on the skin around."""
-DARKEST_SHARE = 0.25
+MIN_BRIGHTNESS_SHARE = 0.25
 """Brightness below this share of the clicked markers' is no marker."""
-LEAST_SIMILARITY = 0.5
+MIN_SIMILARITY = 0.5
 """That a blob needs, as long as the clicked discs do not show that it is less."""
-CLICK_REACH_RADII = 2.2
+MAX_CLICK_DISTANCE_RADII = 2.2
 """A disc is found so far from its click: about 10 px at 0.7 m."""
-PAPER_REACH_RADII = 0.8
+PAPER_CORE_RADII = 0.8
 """Up to here a disc's pixels are paper; those at its edge more paper than skin."""
-LEARNING_ROUNDS = 3
+MAX_LEARNING_ROUNDS = 3
 """At most; the colours have settled before."""
-FALLBACK_RADIUS_PX = 5.0
+DEFAULT_RADIUS_PX = 5.0
 """Of a disc where there is no depth."""
 
 BINS = 32
@@ -47,7 +47,7 @@ def to_hsv(color_rgb: ByteImage) -> ByteImage:
     return np.asarray(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2HSV), dtype=np.uint8)
 
 
-def histogram(hsv: ByteImage, mask: NDArray[np.bool_], smooth_bins: float = 0.0) -> FloatArray:
+def compute_histogram(hsv: ByteImage, mask: NDArray[np.bool_], smooth_bins: float = 0.0) -> FloatArray:
     """Normalised histogram (BINS, BINS) of the masked pixels; hue wraps round when smoothed."""
     pixels = hsv[mask]
     hue = np.minimum((pixels[:, 0] / _HUE_WIDTH).astype(np.int64), BINS - 1)
@@ -61,12 +61,12 @@ def histogram(hsv: ByteImage, mask: NDArray[np.bool_], smooth_bins: float = 0.0)
     return np.asarray(counts / total if total > 0 else counts)
 
 
-def back_project(hsv: ByteImage, lookup: NDArray[np.float32]) -> ByteImage:
+def backproject_histogram(hsv: ByteImage, lookup: NDArray[np.float32]) -> ByteImage:
     """Value 0-255 of the bin of every pixel; ``lookup`` (BINS, BINS) holds 0 to 255."""
     return np.asarray(cv2.calcBackProject([hsv], [0, 1], lookup, _RANGES, 1.0), dtype=np.uint8)
 
 
-def bhattacharyya(a: FloatArray, b: FloatArray) -> FloatArray:
+def compute_bhattacharyya(a: FloatArray, b: FloatArray) -> FloatArray:
     """Bhattacharyya coefficient of normalised histograms (..., n), 0 for none in common, 1 for equal.
 
     >>> float(bhattacharyya(np.array([0.5, 0.5]), np.array([0.5, 0.5])))
@@ -81,19 +81,19 @@ class MarkerAppearance:
 
     ``paper_histogram`` (BINS, BINS) is the reference of the Bhattacharyya coefficient; ``paper_lookup`` and
     ``skin_lookup`` (BINS, BINS) are 0-255 tables for back-projection: how much likelier than the other a
-    colour is; ``darkest_value`` 0-255; ``radius_m`` of most of the clicked discs, large or small ones (reference 2);
-    ``least_share`` and ``most_share`` of the ideal area of such a disc facing the camera that the clicked ones
-    showed (some are of the other size, some turned away); ``least_similarity`` that a blob needs.
+    colour is; ``min_brightness`` 0-255; ``radius_m`` of most of the clicked discs, large or small ones (reference 2);
+    ``min_area_share`` and ``max_area_share`` of the ideal area of such a disc facing the camera that the clicked ones
+    showed (some are of the other size, some turned away); ``min_similarity`` that a blob needs.
     """
 
     paper_histogram: FloatArray
     paper_lookup: NDArray[np.float32]
     skin_lookup: NDArray[np.float32]
-    darkest_value: float
+    min_brightness: float
     radius_m: float
-    least_share: float
-    most_share: float
-    least_similarity: float
+    min_area_share: float
+    max_area_share: float
+    min_similarity: float
 
 
 def disc_mask(shape: tuple[int, ...], centre_px: FloatArray, radius_px: float) -> NDArray[np.bool_]:
@@ -102,15 +102,15 @@ def disc_mask(shape: tuple[int, ...], centre_px: FloatArray, radius_px: float) -
     return np.asarray((u - centre_px[0]) ** 2 + (v - centre_px[1]) ** 2 <= radius_px**2)
 
 
-def expected_radius_px(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> float:
+def estimate_radius_px(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> float:
     """Radius of a disc facing the camera at the depth found about ``pixel``; a guess where there is none."""
     if frame.depth_raw is None:
-        return FALLBACK_RADIUS_PX
+        return DEFAULT_RADIUS_PX
     near = disc_mask(frame.depth_raw.shape, pixel, 12.0)
     depth_raw = frame.depth_raw[near]
     depth_raw = depth_raw[depth_raw > 0]
     if depth_raw.size == 0:
-        return FALLBACK_RADIUS_PX
+        return DEFAULT_RADIUS_PX
     return float(camera.fx_px * settings.marker_radius_m / (float(np.median(depth_raw)) * frame.depth_unit_m))
 
 
@@ -124,7 +124,7 @@ def learn_appearance(
     """
     hsv = to_hsv(frame.color_rgb)
     shape = hsv.shape[:2]
-    radius_px = np.array([expected_radius_px(frame, click, camera, settings) for click in click_px])
+    radius_px = np.array([estimate_radius_px(frame, click, camera, settings) for click in click_px])
     on_paper = np.zeros(shape, dtype=bool)
     ring = np.zeros(shape, dtype=bool)
     for click, radius in zip(click_px, radius_px, strict=True):
@@ -132,100 +132,105 @@ def learn_appearance(
         ring |= disc_mask(shape, click, 5.0 * radius) & ~disc_mask(shape, click, 2.4 * radius)
     ring &= ~on_paper
     centre = np.full(click_px.shape, np.nan)
-    looks = _appearance(hsv, on_paper, ring, settings)
+    looks = _learn_colors(hsv, on_paper, ring, settings)
     middle_radius, size = float(np.median(radius_px)), 1.0
-    for _ in range(LEARNING_ROUNDS):
-        blobs = _paper_blobs(hsv, looks, middle_radius * size)
-        found = _blobs_under(click_px, CLICK_REACH_RADII * radius_px, blobs)
+    for _ in range(MAX_LEARNING_ROUNDS):
+        blobs = _find_paper_blobs(hsv, looks, middle_radius * size)
+        found = _match_blobs_to_clicks(click_px, MAX_CLICK_DISTANCE_RADII * radius_px, blobs)
         if not np.any(found >= 0):
             break
         centre = np.full(click_px.shape, np.nan)
         there = found >= 0
-        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], middle_radius * size)
-        size = _size(radius / radius_px[there], settings)
+        centre[there], radius = _measure_discs(frame.color_rgb, blobs, found[there], middle_radius * size)
+        size = _estimate_size_ratio(radius / radius_px[there], settings)
         on_paper, around = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
         for point, reach in zip(centre[there], radius, strict=True):
-            on_paper |= disc_mask(shape, point, PAPER_REACH_RADII * reach)
+            on_paper |= disc_mask(shape, point, PAPER_CORE_RADII * reach)
             around |= disc_mask(shape, point, 2.2 * reach) & ~disc_mask(shape, point, 1.45 * reach)
-        looks = _appearance(hsv, on_paper, around & ~_grown(blobs.labels > 0), settings)
+        looks = _learn_colors(hsv, on_paper, around & ~_dilate(blobs.labels > 0), settings)
     looks = replace(looks, radius_m=size * settings.marker_radius_m)
-    return _measured_by_discs(looks, hsv, centre, size * radius_px), centre
+    return _learn_limits(looks, hsv, centre, size * radius_px), centre
 
 
-def _paper_blobs(hsv: ByteImage, looks: MarkerAppearance, radius_px: float) -> Components:
-    return components(paper_mask(hsv, paper_looks(looks), looks.darkest_value), lambda at: np.full(len(at), radius_px))
+def _find_paper_blobs(hsv: ByteImage, looks: MarkerAppearance, radius_px: float) -> Components:
+    return find_components(
+        build_paper_mask(hsv, classify_paper_colors(looks), looks.min_brightness),
+        lambda at: np.full(len(at), radius_px),
+    )
 
 
-def _size(ratio: FloatArray, settings: DetectionSettings) -> float:
+def _estimate_size_ratio(ratio: FloatArray, settings: DetectionSettings) -> float:
     """Radius of most discs over that of the large ones, from the measured ratios (B,), which blur changes."""
     small = SMALL_RADIUS_M / settings.marker_radius_m
     return small if float(np.median(ratio)) < np.sqrt(small) else 1.0
 
 
-def _measured(
+def _measure_discs(
     color_rgb: ByteImage, blobs: Components, found: NDArray[np.int64], radius_px: float
 ) -> tuple[FloatArray, FloatArray]:
     """Centres (B, 2) and radii (B,) of the discs under the blobs ``found``, by unmixing at their edges.
 
     While the paper's colours are only partly known a blob is smaller than its disc.
     """
-    centre, area = BlobWindows(blobs.select(found), stencil_for(radius_px)).locate_centres(color_rgb)
+    centre, area = BlobWindows(blobs.subset(found), get_stencil(radius_px)).locate_centres(color_rgb)
     return centre, np.sqrt(area / np.pi)
 
 
-def _measured_by_discs(
+def _learn_limits(
     looks: MarkerAppearance, hsv: ByteImage, centre: FloatArray, radius_px: FloatArray
 ) -> MarkerAppearance:
     """The appearance with what the found discs reach by it: share of area, likeness to the reference."""
     there = np.isfinite(centre[:, 0])
-    blobs = _paper_blobs(hsv, looks, float(np.median(radius_px)))
-    found = _blobs_under(centre[there], CLICK_REACH_RADII * radius_px[there], blobs)
+    blobs = _find_paper_blobs(hsv, looks, float(np.median(radius_px)))
+    found = _match_blobs_to_clicks(centre[there], MAX_CLICK_DISTANCE_RADII * radius_px[there], blobs)
     found = found[found >= 0]
     if found.size == 0:
         return looks
     ratio = blobs.area_px[found] / (np.pi * np.median(radius_px) ** 2)
     reached = [
-        float(bhattacharyya(histogram(hsv, blobs.labels == label).ravel(), looks.paper_histogram.ravel()))
+        float(
+            compute_bhattacharyya(compute_histogram(hsv, blobs.labels == label).ravel(), looks.paper_histogram.ravel())
+        )
         for label in blobs.label[found]
     ]
     # Half of what the least alike of the clicked discs reaches: a blob in other light still counts.
-    least = min(LEAST_SIMILARITY, 0.5 * min(reached))
-    return replace(looks, least_share=float(ratio.min()), most_share=float(ratio.max()), least_similarity=least)
+    least = min(MIN_SIMILARITY, 0.5 * min(reached))
+    return replace(looks, min_area_share=float(ratio.min()), max_area_share=float(ratio.max()), min_similarity=least)
 
 
-def paper_looks(looks: MarkerAppearance) -> NDArray[np.uint8]:
+def classify_paper_colors(appearance: MarkerAppearance) -> NDArray[np.uint8]:
     """255 for each look (65536,), hue + 256 saturation, that is likelier on paper, else 0."""
-    likely = back_project(EVERY_LOOK[None], looks.paper_lookup)[0]
+    likely = backproject_histogram(HUE_SATURATION_CODES[None], appearance.paper_lookup)[0]
     return np.asarray(255 * (likely > 255.0 * PAPER_SHARE), dtype=np.uint8)
 
 
-def paper_mask(hsv: ByteImage, is_paper: NDArray[np.uint8], darkest_value: float) -> ByteImage:
+def build_paper_mask(hsv: ByteImage, is_paper: NDArray[np.uint8], darkest_value: float) -> ByteImage:
     """255 where a pixel has a look of the paper and is lit, speckle removed."""
     return np.asarray(
         cv2.morphologyEx(mask_paper(hsv, is_paper, darkest_value), cv2.MORPH_OPEN, _CROSS), dtype=np.uint8
     )
 
 
-_LOOK = np.arange(1 << 16)
-EVERY_LOOK = np.stack((_LOOK & 255, _LOOK >> 8, 0 * _LOOK), axis=1).astype(np.uint8)
+_CODE = np.arange(1 << 16)
+HUE_SATURATION_CODES = np.stack((_CODE & 255, _CODE >> 8, 0 * _CODE), axis=1).astype(np.uint8)
 """Hue and saturation of each look (65536, 3)."""
 _CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
 
 
-def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _dilate(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
 
 
-def _appearance(
+def _learn_colors(
     hsv: ByteImage, on_paper: NDArray[np.bool_], ring: NDArray[np.bool_], settings: DetectionSettings
 ) -> MarkerAppearance:
-    paper = histogram(hsv, on_paper, smooth_bins=1.2)
-    skin = histogram(hsv, ring, smooth_bins=1.2)
+    paper = compute_histogram(hsv, on_paper, smooth_bins=1.2)
+    skin = compute_histogram(hsv, ring, smooth_bins=1.2)
     floor = 0.02 / paper.size  # a colour never seen is neither
     paper_share = paper / (paper + skin + floor)
     skin_share = skin / (paper + skin + floor)
     value = hsv[..., 2][on_paper]
-    darkest = DARKEST_SHARE * float(np.median(value)) if value.size else 0.0
+    darkest = MIN_BRIGHTNESS_SHARE * float(np.median(value)) if value.size else 0.0
     return MarkerAppearance(
         paper,
         (255.0 * paper_share).astype(np.float32),
@@ -234,13 +239,13 @@ def _appearance(
         settings.marker_radius_m,
         1.0,
         1.0,
-        LEAST_SIMILARITY,
+        MIN_SIMILARITY,
     )
 
 
-def _blobs_under(click_px: FloatArray, reach_px: FloatArray, blobs: Components) -> NDArray[np.int64]:
+def _match_blobs_to_clicks(click_px: FloatArray, reach_px: FloatArray, blobs: Components) -> NDArray[np.int64]:
     """Disc-sized blob of every click (M,), -1 when none is within its reach; each blob once, nearest overall."""
     full = np.pi * blobs.radius_px**2
     fits = (blobs.area_px > 0.2 * full) & (blobs.area_px < 3.0 * full)
     distance = np.linalg.norm(click_px[:, None] - blobs.centre_px[None], axis=-1)
-    return nearest_within(np.where(fits, distance, np.inf), reach_px)
+    return assign_nearest(np.where(fits, distance, np.inf), reach_px)

@@ -24,20 +24,22 @@ class Components:
     area_px: FloatArray
     radius_px: FloatArray
 
-    def select(self, kept: NDArray[np.int64]) -> Components:
+    def subset(self, indices: NDArray[np.int64]) -> Components:
         """Keep the blobs at these indices alone."""
-        return Components(self.labels, self.label[kept], self.centre_px[kept], self.area_px[kept], self.radius_px[kept])
+        return Components(
+            self.labels, self.label[indices], self.centre_px[indices], self.area_px[indices], self.radius_px[indices]
+        )
 
 
-def components(
+def find_components(
     mask: ByteImage,
-    radius_at: Callable[[FloatArray], FloatArray],
+    estimate_radius: Callable[[FloatArray], FloatArray],
     min_share: float = 0.0,
     max_share: float = math.inf,
 ) -> Components:
     """Find the blobs of a mask, touching discs taken apart.
 
-    ``radius_at`` gives the radius (N,) of a disc facing the camera at pixels (N, 2). A blob has ``min_share`` to
+    ``estimate_radius`` gives the radius (N,) of a disc facing the camera at pixels (N, 2). A blob has ``min_share`` to
     ``max_share`` of such a disc's area.
     """
-    return Components(*find_blobs(mask, radius_at, min_share, max_share))
+    return Components(*find_blobs(mask, estimate_radius, min_share, max_share))

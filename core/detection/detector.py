@@ -13,27 +13,27 @@ from numpy.typing import NDArray
 from carpus.core.camera import Camera
 from carpus.core.compiled.blobs import BlobWindows
 from carpus.core.detection import appearance
-from carpus.core.detection.appearance import MarkerAppearance, paper_looks, paper_mask
-from carpus.core.detection.components import components
+from carpus.core.detection.appearance import MarkerAppearance, build_paper_mask, classify_paper_colors
+from carpus.core.detection.components import find_components
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.stencil import stencil_for
+from carpus.core.detection.stencil import get_stencil
 from carpus.core.types import ByteImage, DepthImage, Detections, FloatArray, Frame, Region
 
 REGION_SD = 4.0
 """A disc is looked for within so many standard deviations of where it is expected."""
-MAX_UNSURE_PX = 120.0
+MAX_SEARCH_RADIUS_PX = 120.0
 """However little is known of where a disc is, it is looked for no further away."""
-COARSE = 4
+COARSE_FACTOR = 4
 """Without a prediction the hand is looked for in a picture so many times smaller."""
 SKIN_LEVEL = 128
 """Of 255: what is of skin's colour from here on."""
 PAPER_LEVEL = 96
 """Of 255: what is of paper's colour from here on, in that picture."""
-USUAL_DEPTH_M = 0.7
+DEFAULT_DEPTH_M = 0.7
 """Distance of the hand where none is read."""
 
 _SIMILARITY_BINS = 16
-_NEAREST_M = 0.2
+_MIN_DEPTH_M = 0.2
 """No hand is held nearer to a camera."""
 
 
@@ -51,30 +51,30 @@ class Detector:
     """Finds blobs of the learnt colour. Keeps no memory between pictures."""
 
     def __init__(self, looks: MarkerAppearance, camera: Camera, settings: DetectionSettings) -> None:
-        self._looks = looks
+        self._appearance = looks
         self._camera = camera
         self._settings = settings
-        self._table, self._is_paper = _color_table(looks), paper_looks(looks)
-        self._least_area = settings.least_area * looks.least_share
-        self._most_area = settings.most_area * looks.most_share
+        self._table, self._is_paper = _build_color_table(looks), classify_paper_colors(looks)
+        self._min_area = settings.least_area * looks.min_area_share
+        self._max_area = settings.most_area * looks.max_area_share
 
-    def region_about(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
+    def compute_search_region(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
         """Rectangle that holds all predicted discs (M, 2) with their uncertainty (M, 2, 2)."""
         disc_px_m, region_sd = self._camera.fx_px * self._settings.marker_radius_m, REGION_SD
         variance = np.maximum(covariance_px2.diagonal(axis1=1, axis2=2), 0.0)
-        reach = np.minimum(region_sd * np.sqrt(variance), MAX_UNSURE_PX)
-        reach += (2.2 * disc_px_m / np.maximum(depth_m, _NEAREST_M) + 3.0)[:, None]
-        return self._region(*(pixel - reach).min(axis=0).tolist(), *(pixel + reach).max(axis=0).tolist())
+        reach = np.minimum(region_sd * np.sqrt(variance), MAX_SEARCH_RADIUS_PX)
+        reach += (2.2 * disc_px_m / np.maximum(depth_m, _MIN_DEPTH_M) + 3.0)[:, None]
+        return self._clip_to_image(*(pixel - reach).min(axis=0).tolist(), *(pixel + reach).max(axis=0).tolist())
 
-    def _region(self, left: float, top: float, right: float, bottom: float) -> Region:
-        return Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1).clipped(
+    def _clip_to_image(self, left: float, top: float, right: float, bottom: float) -> Region:
+        return Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1).clip(
             self._camera.width_px, self._camera.height_px
         )
 
     def detect(self, frame: Frame, region: Region | None = None) -> Detections:
         """Blobs inside a region, or in the whole picture when there is none."""
         height, width = frame.color_rgb.shape[:2]
-        region = self._hand_region(frame.color_rgb) if region is None else region.clipped(width, height)
+        region = self._find_hand_region(frame.color_rgb) if region is None else region.clip(width, height)
         if region is None or region.is_empty:
             return Detections.none()
         if frame.depth_raw is not None and frame.depth_raw.shape != (height, width):
@@ -83,15 +83,15 @@ class Detector:
         color = frame.color_rgb[rows, columns]
         raw = None if frame.depth_raw is None else frame.depth_raw[rows, columns]
         hsv, sensor = appearance.to_hsv(color), self._camera.sensor
-        mask = paper_mask(hsv, self._is_paper, self._looks.darkest_value)
-        blobs = components(
-            mask, lambda at: self._radius_at(raw, frame.depth_unit_m, at), self._least_area, self._most_area
+        mask = build_paper_mask(hsv, self._is_paper, self._appearance.min_brightness)
+        blobs = find_components(
+            mask, lambda at: self._estimate_radius(raw, frame.depth_unit_m, at), self._min_area, self._max_area
         )
         if not blobs.label.size:
             return Detections.none()
         if blobs.label.size > self._settings.most_blobs:
-            blobs = blobs.select(np.argsort(-blobs.area_px, kind="stable")[: self._settings.most_blobs])
-        windows = BlobWindows(blobs, stencil_for(median(blobs.radius_px.tolist()), sensor.edge_px))
+            blobs = blobs.subset(np.argsort(-blobs.area_px, kind="stable")[: self._settings.most_blobs])
+        windows = BlobWindows(blobs, get_stencil(median(blobs.radius_px.tolist()), sensor.edge_px))
         similarity, skin_share = windows.compare_colors(hsv, self._table)
         centre, area = windows.locate_centres(color)
         centre += (region.left, region.top)
@@ -100,28 +100,28 @@ class Detector:
         else:
             depth, depth_sd = windows.read_depths(raw, frame.depth_unit_m, sensor)
         # Those that look like a disc and lie on skin.
-        return Detections(centre, depth, depth_sd, area, similarity).only(
-            (similarity >= self._looks.least_similarity) & (skin_share >= self._settings.skin_share)
+        return Detections(centre, depth, depth_sd, area, similarity).subset(
+            (similarity >= self._appearance.min_similarity) & (skin_share >= self._settings.skin_share)
         )
 
-    def _radius_at(self, raw: DepthImage | None, unit_m: float, centre_px: FloatArray) -> FloatArray:
+    def _estimate_radius(self, raw: DepthImage | None, unit_m: float, centre_px: FloatArray) -> FloatArray:
         """Radius in pixels (B,) of a disc facing the camera at the depth ``raw`` (H, W) of each place; NaN-free."""
-        scale = self._camera.fx_px * self._looks.radius_m
+        scale = self._camera.fx_px * self._appearance.radius_m
         if raw is None:
-            return np.full(len(centre_px), scale / USUAL_DEPTH_M)
+            return np.full(len(centre_px), scale / DEFAULT_DEPTH_M)
         column, row = np.rint(centre_px).astype(np.int64).T
         depth_m = raw[row, column] * unit_m
-        return np.asarray(scale / np.where(depth_m > _NEAREST_M, depth_m, USUAL_DEPTH_M))
+        return np.asarray(scale / np.where(depth_m > _MIN_DEPTH_M, depth_m, DEFAULT_DEPTH_M))
 
-    def _hand_region(self, color_rgb: ByteImage) -> Region | None:
+    def _find_hand_region(self, color_rgb: ByteImage) -> Region | None:
         """Rectangle about the skin and paper of the largest hand-like region, None when there is no paper."""
-        coarse = COARSE
+        coarse = COARSE_FACTOR
         small = cv2.resize(color_rgb, None, fx=1 / coarse, fy=1 / coarse, interpolation=cv2.INTER_AREA)
         hsv = appearance.to_hsv(np.asarray(small, dtype=np.uint8))
-        paper = appearance.back_project(hsv, self._looks.paper_lookup) >= PAPER_LEVEL
+        paper = appearance.backproject_histogram(hsv, self._appearance.paper_lookup) >= PAPER_LEVEL
         if not paper.any():
             return None
-        skin = appearance.back_project(hsv, self._looks.skin_lookup) >= SKIN_LEVEL
+        skin = appearance.backproject_histogram(hsv, self._appearance.skin_lookup) >= SKIN_LEVEL
         near_skin = cv2.dilate(skin.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
         row, column = np.nonzero(paper & near_skin)
         if row.size == 0:
@@ -132,16 +132,16 @@ class Detector:
             int((row.min() - margin) * coarse),
             int((column.max() + 1 + margin) * coarse),
             int((row.max() + 1 + margin) * coarse),
-        ).clipped(color_rgb.shape[1], color_rgb.shape[0])
+        ).clip(color_rgb.shape[1], color_rgb.shape[0])
 
 
-def _color_table(looks: MarkerAppearance) -> ColorTable:
+def _build_color_table(marker_appearance: MarkerAppearance) -> ColorTable:
     bins = appearance.BINS
     look = np.arange(1 << 16)
     hue, saturation = np.minimum((look & 255) * bins // 180, bins - 1), (look >> 8) * bins // 256
-    coarse = looks.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
+    coarse = marker_appearance.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
     return ColorTable(
         ((hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)).astype(np.uint8),
-        looks.skin_lookup[hue, saturation] >= SKIN_LEVEL,
+        marker_appearance.skin_lookup[hue, saturation] >= SKIN_LEVEL,
         np.sqrt(coarse.ravel()),
     )

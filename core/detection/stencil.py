@@ -19,9 +19,9 @@ CORE_RADII = 0.62
 """Up to so many disc radii a window has the paper's own colour."""
 REACH_RADII = 1.35
 """Up to here pixels may belong to the disc."""
-RIM_FROM_RADII = 1.35
+RIM_INNER_RADII = 1.35
 """From here on is what surrounds it."""
-RIM_TO_RADII = 1.9
+RIM_OUTER_RADII = 1.9
 """Up to here."""
 EDGE_PX = 6
 """How far about an edge a sensor's readings are of neither side, where none is asked."""
@@ -46,23 +46,23 @@ class Stencil:
     direction: NDArray[np.uint8]
 
 
-def stencil_for(radius_px: float, edge_px: int | None = None) -> Stencil:
+def get_stencil(radius_px: float, edge_px: int | None = None) -> Stencil:
     """The stencil of discs of about this radius (to a quarter of a pixel), for a sensor with edges so wide."""
-    return _stencil(max(4, round(4.0 * radius_px)), EDGE_PX if edge_px is None else edge_px)
+    return _build_stencil(max(4, round(4.0 * radius_px)), EDGE_PX if edge_px is None else edge_px)
 
 
 @lru_cache(maxsize=64)
-def _stencil(quarters: int, edge_px: int) -> Stencil:
+def _build_stencil(quarters: int, edge_px: int) -> Stencil:
     radius = quarters / 4.0
-    half = max(int(np.ceil(RIM_TO_RADII * radius)), edge_px)
+    half = max(int(np.ceil(RIM_OUTER_RADII * radius)), edge_px)
     offset = np.arange(-half, half + 1)
     row, column = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
     distance = np.hypot(row, column)
     core, reach, rim_from, rim_to = (
         CORE_RADII * radius + 0.25,
         REACH_RADII * radius + 0.5,
-        RIM_FROM_RADII * radius,
-        RIM_TO_RADII * radius,
+        RIM_INNER_RADII * radius,
+        RIM_OUTER_RADII * radius,
     )
     used = distance <= max(reach, rim_to, edge_px)
     row, column, distance = row[used], column[used], distance[used]
@@ -71,10 +71,10 @@ def _stencil(quarters: int, edge_px: int) -> Stencil:
     order = np.argsort(ring + (distance >= rim_from), kind="stable")
     row, column, distance = row[order], column[order], distance[order]
 
-    def first(reach_px: float) -> slice:
+    def slice_below(reach_px: float) -> slice:
         return slice(int(np.count_nonzero(distance <= reach_px)))
 
-    rim = slice(int(np.count_nonzero(distance < rim_from)), first(rim_to).stop)
+    rim = slice(int(np.count_nonzero(distance < rim_from)), slice_below(rim_to).stop)
     angle = np.arctan2(row, column)
     width = 2.0 * np.pi / WEDGES
     middle = np.arange(WEDGES) * width
@@ -82,9 +82,9 @@ def _stencil(quarters: int, edge_px: int) -> Stencil:
     is_seen = width + 1e-9 >= apart[:, rim].T
     return Stencil(
         np.stack((row, column), axis=1).astype(np.int32),
-        first(core),
+        slice_below(core),
         distance <= reach,
-        first(max(edge_px, core)),
+        slice_below(max(edge_px, core)),
         rim,
         np.ascontiguousarray(is_seen, dtype=np.float64),
         apart.argmin(axis=0).astype(np.uint8),

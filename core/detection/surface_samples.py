@@ -6,35 +6,35 @@ import numpy as np
 
 from carpus.core.compiled.samples import sample_discs, sample_outline
 from carpus.core.types import (
-    FINGER_READINGS,
-    FINGER_STEP_PX,
-    SURFACE_READINGS,
+    FINGER_SAMPLE_STEP_PX,
+    MAX_FINGER_READINGS,
+    MAX_SURFACE_READINGS,
     FloatArray,
     Frame,
     Region,
     SurfaceSamples,
 )
 
-STEP_PX = 3
+SURFACE_SAMPLE_STEP_PX = 3
 """Between two readings."""
-WIDER = 1.2
+OUTLINE_SCALE = 1.2
 """Readings are taken within so many times the outline of the discs that span the back."""
-MARGIN_PX = 4.0
+OUTLINE_MARGIN_PX = 4.0
 """And so much about it."""
-MAX_READINGS = SURFACE_READINGS // 2
+MAX_DORSAL_READINGS = MAX_SURFACE_READINGS // 2
 """On the back of the hand; more only cost time, since neighbours share their errors."""
 FINGER_MARGIN_PX = 12.0
 """So far about the discs of fingers readings are taken."""
-MAX_FINGER_READINGS = FINGER_READINGS
+FINGER_READING_LIMIT = MAX_FINGER_READINGS
 """About the fingers."""
 
 
-def part_read(region: Region, corner_px: FloatArray, disc_px: FloatArray) -> Region | None:
+def compute_read_region(region: Region, outline_px: FloatArray, disc_px: FloatArray) -> Region | None:
     """What of a picture holds ``region`` and all that the two functions below read; None where places are not known."""
     part = region
     for pixel, wider, margin_px in (
-        (corner_px, WIDER - 1.0, MARGIN_PX),
-        (disc_px, 0.0, FINGER_MARGIN_PX + FINGER_STEP_PX),
+        (outline_px, OUTLINE_SCALE - 1.0, OUTLINE_MARGIN_PX),
+        (disc_px, 0.0, FINGER_MARGIN_PX + FINGER_SAMPLE_STEP_PX),
     ):
         if not np.isfinite(pixel).all():
             return None
@@ -49,20 +49,28 @@ def part_read(region: Region, corner_px: FloatArray, disc_px: FloatArray) -> Reg
     return part
 
 
-def surface_samples(frame: Frame, corner_px: FloatArray) -> SurfaceSamples | None:
-    """The readings within discs expected at ``corner_px`` (C, 2); None where there is no depth picture."""
+def sample_surface(frame: Frame, outline_px: FloatArray) -> SurfaceSamples | None:
+    """The readings within discs expected at ``outline_px`` (C, 2); None where there is no depth picture."""
     if frame.depth_raw is None:
         return None
-    found = sample_outline(frame.depth_raw, frame.depth_unit_m, corner_px, WIDER, MARGIN_PX, STEP_PX, MAX_READINGS)
+    found = sample_outline(
+        frame.depth_raw,
+        frame.depth_unit_m,
+        outline_px,
+        OUTLINE_SCALE,
+        OUTLINE_MARGIN_PX,
+        SURFACE_SAMPLE_STEP_PX,
+        MAX_DORSAL_READINGS,
+    )
     return None if found is None else SurfaceSamples(*found)
 
 
-def finger_samples(frame: Frame, disc_px: FloatArray) -> SurfaceSamples | None:
+def sample_fingers(frame: Frame, disc_px: FloatArray) -> SurfaceSamples | None:
     """Readings on a wider lattice about the fingers' discs expected at ``disc_px`` (C, 2); None where there is no
     depth picture."""
     if frame.depth_raw is None or not len(disc_px):
         return None
     found = sample_discs(
-        frame.depth_raw, frame.depth_unit_m, disc_px, FINGER_MARGIN_PX, FINGER_STEP_PX, MAX_FINGER_READINGS
+        frame.depth_raw, frame.depth_unit_m, disc_px, FINGER_MARGIN_PX, FINGER_SAMPLE_STEP_PX, FINGER_READING_LIMIT
     )
     return None if found is None else SurfaceSamples(*found)

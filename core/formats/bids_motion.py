@@ -18,9 +18,17 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.errors import OutputExists
-from carpus.core.formats.new_output import TABS, new_json, new_table, new_text
-from carpus.core.formats.provenance import DAY_NOUGHT
-from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number, rate_of
+from carpus.core.formats.new_output import TAB_DIALECT, write_new_json, write_new_table, write_new_text
+from carpus.core.formats.provenance import DAY_ZERO
+from carpus.core.formats.take import (
+    ANGLE_DEFINITIONS,
+    CAMERA_AXES,
+    W0_AXES,
+    ExportItem,
+    format_number,
+    frame_rate_hz,
+    is_measured,
+)
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
@@ -56,7 +64,7 @@ def check(folder: Path) -> None:
         raise OutputExists(left.parents[2])
 
 
-def write(take: Take, folder: Path) -> list[Path]:
+def write(take: ExportItem, folder: Path) -> list[Path]:
     """Write the files of one session; the data set's own come by :func:`complete`."""
     session = take.session
     subject, day = f"sub-{subject_label(session.header.subject_id)}", f"ses-{session_label(take)}"
@@ -66,41 +74,41 @@ def write(take: Take, folder: Path) -> list[Path]:
     while any(place.glob(f"*_task-{task}_tracksys-{TRACKSYS}_acq-{session.header.hand}_run-{run}_motion.tsv")):
         run += 1
     stem = f"{subject}_{day}_task-{task}_tracksys-{TRACKSYS}_acq-{session.header.hand}_run-{run}"
-    found = channels(session)
+    found = list_channels(session)
     table = np.column_stack([channel.values for channel in found])
     digits = [channel.digits for channel in found]
-    rows = ([number(v, d) or MISSING for v, d in zip(row, digits, strict=True)] for row in table.tolist())
+    rows = ([format_number(v, d) or MISSING for v, d in zip(row, digits, strict=True)] for row in table.tolist())
     out = [
-        new_table(place / f"{stem}_motion.tsv", (), rows, TABS),
-        new_json(place / f"{stem}_motion.json", _about(take, found, task)),
-        new_table(
+        write_new_table(place / f"{stem}_motion.tsv", (), rows, TAB_DIALECT),
+        write_new_json(place / f"{stem}_motion.json", _motion_metadata(take, found, task)),
+        write_new_table(
             place / f"{stem}_channels.tsv",
             ("name", "component", "type", "tracked_point", "units", "reference_frame", "description"),
             (channel[:7] for channel in found),
-            TABS,
+            TAB_DIALECT,
         ),
-        new_json(place / f"{stem}_channels.json", _REFERENCE_FRAMES),
+        write_new_json(place / f"{stem}_channels.json", _REFERENCE_FRAMES),
     ]
     start_s = float(session.timestamp_s[0]) if len(session) else 0.0
     events = [(e.time_s - start_s, math.nan, e.kind, e.text, math.nan, math.nan, MISSING) for e in session.events]
     events += [
         (row.start_s, row.end_s - row.start_s, "repetition", str(n), row.peak_s, math.degrees(row.arc_rad),
          "yes" if row.counted else f"no: {row.reason.replace('_', ' ')}")
-        for n, row in enumerate((one.row for one in take.figures.repetitions), 1) if row is not None
+        for n, row in enumerate((one.row for one in take.results.repetitions), 1) if row is not None
     ]  # fmt: skip
     lines = (
         [_event_cell(value) for value in event] for event in sorted(events, key=lambda e: (math.isnan(e[0]), e[0]))
     )
     head = ("onset", "duration", "trial_type", "value", "peak", "arc", "counted")
-    out.append(new_table(place / f"{stem}_events.tsv", head, lines, TABS))
-    out.append(new_json(place / f"{stem}_events.json", _EVENTS))
+    out.append(write_new_table(place / f"{stem}_events.tsv", head, lines, TAB_DIALECT))
+    out.append(write_new_json(place / f"{stem}_events.json", _EVENTS))
     scans = place.parent / f"{subject}_{day}_scans.tsv"
-    line = f"motion/{stem}_motion.tsv\t{_moment(take)}\n"
+    line = f"motion/{stem}_motion.tsv\t{_acquisition_time(take)}\n"
     if scans.exists():  # made by this export: the folder held no data set before
         with scans.open("a", encoding="utf-8", newline="") as file:
             file.write(line)
     else:
-        out.append(new_text(scans, f"filename\tacq_time\n{line}"))
+        out.append(write_new_text(scans, f"filename\tacq_time\n{line}"))
     return out
 
 
@@ -110,12 +118,12 @@ def complete(folder: Path, written: Sequence[Mapping[str, Any]]) -> list[Path]:
     for one in written:
         people.setdefault(subject_label(one["of"]["subject_id"]), one["of"])
     rows = [
-        (f"sub-{label}", _cell(of["subject_id"]), "yes" if of["simulated"] else "no")
+        (f"sub-{label}", _text_cell(of["subject_id"]), "yes" if of["simulated"] else "no")
         for label, of in sorted(people.items())
     ]
     made_by = written[0]["made_by"]
     return [
-        new_json(
+        write_new_json(
             folder / DESCRIPTION,
             {
                 "Name": "Movements of the hand, measured by Carpus",
@@ -127,9 +135,9 @@ def complete(folder: Path, written: Sequence[Mapping[str, Any]]) -> list[Path]:
                 "SourceDatasets": [],
             },
         ),
-        new_text(folder / "README", _README),
-        new_table(folder / "participants.tsv", ("participant_id", "pseudonym", "simulated"), rows, TABS),
-        new_json(
+        write_new_text(folder / "README", _README),
+        write_new_table(folder / "participants.tsv", ("participant_id", "pseudonym", "simulated"), rows, TAB_DIALECT),
+        write_new_json(
             folder / "participants.json",
             {
                 "participant_id": {"Description": "letters and digits of the pseudonym"},
@@ -143,7 +151,7 @@ def complete(folder: Path, written: Sequence[Mapping[str, Any]]) -> list[Path]:
     ]
 
 
-def channels(session: Session) -> list[BidsChannel]:
+def list_channels(session: Session) -> list[BidsChannel]:
     """Every column: time, status, discs, hand, angles and their standard deviations."""
     motion, header = session.motion, session.header
     count = len(session)
@@ -160,7 +168,7 @@ def channels(session: Session) -> list[BidsChannel]:
                 BidsChannel(f"{marker}_POS_{letter}", letter, "POS", marker, "m", "camera",
                         "centre of the paper disc", session.markers.position_cam_m[:, m, axis])
             )  # fmt: skip
-        seen = measured(session)[:, m].astype(np.float64)
+        seen = is_measured(session)[:, m].astype(np.float64)
         out.append(
             BidsChannel(f"{marker}_seen", MISSING, "MISC", marker, MISSING, MISSING, "1 seen in this picture, else 0",
                     seen, 0)
@@ -207,14 +215,14 @@ def subject_label(subject_id: str) -> str:
     return _label(subject_id) + told_apart or "unknown"
 
 
-def session_label(take: Take) -> str:
+def session_label(take: ExportItem) -> str:
     """Day and time of the recording; of a de-identified one the day counted from the first session."""
-    moment = _moment(take)
+    moment = _acquisition_time(take)
     if moment == MISSING:
         return f"id{_label(take.session.header.session_id)[:8]}"
     when = datetime.fromisoformat(moment)
     if take.provenance["deidentified"]:
-        return f"day{(when - DAY_NOUGHT.replace(tzinfo=None)).days:04d}"
+        return f"day{(when - DAY_ZERO.replace(tzinfo=None)).days:04d}"
     return when.strftime("%Y%m%dT%H%M%S")
 
 
@@ -232,21 +240,21 @@ def _label(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9]", "", text)
 
 
-def _cell(text: str) -> str:
+def _text_cell(text: str) -> str:
     return " ".join(text.split()) or MISSING
 
 
 def _event_cell(value: float | str) -> str:
-    return _cell(value) if isinstance(value, str) else number(value, 6) or MISSING
+    return _text_cell(value) if isinstance(value, str) else format_number(value, 6) or MISSING
 
 
-def _moment(take: Take) -> str:
+def _acquisition_time(take: ExportItem) -> str:
     """When the hand moved, as BIDS writes it: the clock of the clinic, no zone."""
     recorded = take.session.header.recorded
     return datetime.fromisoformat(recorded).strftime("%Y-%m-%dT%H:%M:%S") if recorded else MISSING
 
 
-def _about(take: Take, found: Sequence[BidsChannel], task: str) -> dict[str, Any]:
+def _motion_metadata(take: ExportItem, found: Sequence[BidsChannel], task: str) -> dict[str, Any]:
     session = take.session
     counts = {
         kind: sum(channel.type == kind for channel in found)
@@ -257,7 +265,7 @@ def _about(take: Take, found: Sequence[BidsChannel], task: str) -> dict[str, Any
     out: dict[str, Any] = {
         "TaskName": task,
         "TaskDescription": f"exercise {session.header.exercise or 'not given'}, {session.header.hand} hand",
-        "SamplingFrequency": rate_of(session),
+        "SamplingFrequency": frame_rate_hz(session),
         "SamplingFrequencyEffective": (len(session) - 1) / span_s if span_s else MISSING,
         "TrackingSystemName": "Carpus: paper discs on a hand, one camera of colour and depth",
         "Manufacturer": str(source.get("vendor", "not known")),
@@ -267,7 +275,7 @@ def _about(take: Take, found: Sequence[BidsChannel], task: str) -> dict[str, Any
         "MissingValues": MISSING,
         "MotionChannelCount": len(found),
         "TrackedPointsCount": len({channel.tracked_point for channel in found} - {MISSING}),
-        "Angles": ANGLES_MEAN,
+        "Angles": ANGLE_DEFINITIONS,
         "Provenance": take.provenance,
     }
     # The name of one count differs between the versions of the standard.
@@ -285,7 +293,7 @@ _REFERENCE_FRAMES = {
             "w2": {"SpatialAxes": "FLU", "RotationRule": "right-hand", "RotationOrder": MISSING,
                    "Description": "the hand's own axes as they move, built as W0"},
             "joints": {"SpatialAxes": MISSING, "RotationRule": "right-hand", "RotationOrder": "XYZ",
-                       "Description": ANGLES_MEAN},
+                       "Description": ANGLE_DEFINITIONS},
         },
     }
 }  # fmt: skip

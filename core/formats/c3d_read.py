@@ -17,35 +17,35 @@ from carpus.core.types import FloatArray
 
 BLOCK = 512
 INTEL, DEC, SGI = 84, 85, 86
-MOST_BYTES = 1 << 31
+MAX_BYTES = 1 << 31
 _METRES = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "dm": 1e-1, "in": 0.0254}
 
 
 @dataclass(frozen=True, slots=True)
 class PointTrack:
-    """Points of another program: ``time_s`` (K,), ``names`` (P,), ``place_m`` (K, P, 3), NaN where there is none."""
+    """Points of another program: ``time_s`` (K,), ``names`` (P,), ``position_m`` (K, P, 3), NaN where there is none."""
 
     time_s: FloatArray
     names: tuple[str, ...]
-    place_m: FloatArray
+    position_m: FloatArray
     unit: str
 
 
 def read_c3d(path: Path) -> PointTrack:
     """The points of a C3D file. Raises :class:`ReferenceUnreadable`."""
     try:
-        if path.stat().st_size > MOST_BYTES:
+        if path.stat().st_size > MAX_BYTES:
             raise ReferenceUnreadable(path, phrase("larger than 2 GB"))
         content = path.read_bytes()
     except OSError as cause:
         raise ReferenceUnreadable(path, cause.strerror or "") from cause
     try:
-        return _points(content, path)
+        return _parse_points(content, path)
     except (ValueError, IndexError, KeyError, struct.error, OverflowError) as cause:
         raise ReferenceUnreadable(path, phrase("damaged, or no C3D")) from cause
 
 
-def _points(content: bytes, path: Path) -> PointTrack:
+def _parse_points(content: bytes, path: Path) -> PointTrack:
     if len(content) < 2 * BLOCK or content[1] != 0x50:
         raise ReferenceUnreadable(path, "no C3D")
     at = (content[0] - 1) * BLOCK
@@ -53,7 +53,7 @@ def _points(content: bytes, path: Path) -> PointTrack:
     if processor not in (INTEL, DEC, SGI):
         raise ReferenceUnreadable(path, phrase("made by an unknown processor {processor}", processor=processor))
     order = ">" if processor == SGI else "<"
-    said = _parameters(content, at, order, processor == DEC)
+    said = _read_parameters(content, at, order, processor == DEC)
     point = said["POINT"]
     used = int(point["USED"][0])
     scale = float(point["SCALE"][0])
@@ -67,11 +67,11 @@ def _points(content: bytes, path: Path) -> PointTrack:
     if not used or rate_hz <= 0.0 or not np.isfinite(rate_hz):
         raise ReferenceUnreadable(path, phrase("it holds no points, or says no rate"))
     there = (len(content) - begin * BLOCK) // row_bytes
-    frames = min(_frames(said, last - first + 1), there)
+    frames = min(_frame_count(said, last - first + 1), there)
     if frames < 1:
         raise ReferenceUnreadable(path, phrase("it holds no frame"))
     raw = np.frombuffer(content, np.uint8, frames * row_bytes, begin * BLOCK).reshape(frames, row_bytes)
-    values = _numbers(raw[:, : 4 * used * word], order, processor == DEC, is_float).reshape(frames, used, 4)
+    values = _to_numbers(raw[:, : 4 * used * word], order, processor == DEC, is_float).reshape(frames, used, 4)
     place = values[..., :3] if is_float else values[..., :3] * np.float32(scale)
     unit = str(point.get("UNITS", ["mm"])[0]).strip().lower() or "mm"
     if unit not in _METRES:
@@ -80,15 +80,15 @@ def _points(content: bytes, path: Path) -> PointTrack:
     place_m = np.where(known[..., None], place.astype(np.float64) * _METRES[unit], np.nan)
     names = [str(name).strip() for k in ("", *map(str, range(2, 99))) for name in point.get(f"LABELS{k}", [])]
     names = (names + [f"point {k + 1}" for k in range(used)][len(names) :])[:used]
-    return PointTrack(np.arange(frames) / rate_hz, tuple(names), without_zeros(place_m), unit)
+    return PointTrack(np.arange(frames) / rate_hz, tuple(names), zeros_to_nan(place_m), unit)
 
 
-def without_zeros(place_m: FloatArray) -> FloatArray:
+def zeros_to_nan(position_m: FloatArray) -> FloatArray:
     """Places (K, P, 3) with a gap where a program wrote 0, 0, 0 for a marker that it did not see."""
-    return np.where((place_m == 0.0).all(axis=-1, keepdims=True), np.nan, place_m)
+    return np.where((position_m == 0.0).all(axis=-1, keepdims=True), np.nan, position_m)
 
 
-def _frames(said: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:
+def _frame_count(said: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:
     """Frames as the file says it where the header's 16 bits do not hold them."""
     trial = said.get("TRIAL", {})
     ends = [trial.get(f"ACTUAL_{which}_FIELD", []) for which in ("START", "END")]
@@ -100,7 +100,7 @@ def _frames(said: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:
     return by_header
 
 
-def _parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dict[str, list[Any]]]:
+def _read_parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dict[str, list[Any]]]:
     end = min(len(content), at + BLOCK * content[at + 2])
     groups: dict[int, str] = {}
     found: dict[int, dict[str, list[Any]]] = {}
@@ -116,7 +116,7 @@ def _parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dic
         if number < 0:
             groups[-number] = name
         else:
-            values, size = _values(content, here + 2, order, dec)
+            values, size = _read_values(content, here + 2, order, dec)
             left -= size
             if left < 0:  # values that lie over each other: a small file must not become a large one
                 raise ValueError("more values than the section holds")
@@ -130,7 +130,7 @@ def _parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dic
     return out
 
 
-def _values(content: bytes, here: int, order: str, dec: bool) -> tuple[list[Any], int]:
+def _read_values(content: bytes, here: int, order: str, dec: bool) -> tuple[list[Any], int]:
     """A parameter's values and how many bytes they take; ValueError where the file does not hold them."""
     kind, dimensions = struct.unpack_from("bB", content, here)
     shape = list(content[here + 2 : here + 2 + dimensions])
@@ -148,10 +148,10 @@ def _values(content: bytes, here: int, order: str, dec: bool) -> tuple[list[Any]
     raw = np.frombuffer(content, np.uint8, size, here)
     if kind == 1:
         return list(raw.tolist()), size
-    return list(_numbers(raw, order, dec, kind == 4).tolist()), size
+    return list(_to_numbers(raw, order, dec, kind == 4).tolist()), size
 
 
-def _numbers(raw: np.ndarray, order: str, dec: bool, is_float: bool) -> np.ndarray:
+def _to_numbers(raw: np.ndarray, order: str, dec: bool, is_float: bool) -> np.ndarray:
     """Bytes (..., count) as 16-bit integers or 32-bit floats of the machine that wrote them."""
     raw = np.ascontiguousarray(raw)
     if not is_float:

@@ -16,8 +16,15 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.new_output import new_bytes
-from carpus.core.formats.take import CAMERA_AXES, EvenTimes, Take, joint_centres_cam_m, measured, repetition_events
+from carpus.core.formats.new_output import open_new_file
+from carpus.core.formats.take import (
+    CAMERA_AXES,
+    ExportItem,
+    UniformTimes,
+    is_measured,
+    joint_centres_cam_m,
+    repetition_events,
+)
 from carpus.core.session.values import Event, Session
 from carpus.core.types import FloatArray
 
@@ -25,53 +32,54 @@ BLOCK = 512
 INTEL = 84
 RESIDUAL_STEP_MM = 0.05
 """Of one count of a residual; with the minus sign that means float it is POINT:SCALE."""
-MOST_COUNTS = 127
-SEEN_BY_THE_CAMERA = 1
+MAX_RESIDUAL_COUNT = 127
+CAMERA_MASK = 1
 """The mask: Carpus has one camera."""
-LONGEST_COUNT = 65535
-MOST_IN_A_ROW = 255
+MAX_HEADER_COUNT = 65535
+MAX_DIMENSION = 255
 """No dimension of a parameter is longer."""
-LONGEST_TEXT = 96
+MAX_TEXT_BYTES = 96
 JOINT_PREFIX = "J_"
 
 
 @dataclass(frozen=True, slots=True)
 class C3dPoints:
-    """``labels`` and ``descriptions`` of P points; ``place_mm`` (K, P, 3), NaN for none; ``residual_mm`` (K, P), above
+    """``labels`` and ``descriptions`` of P points; ``position_mm`` (K, P, 3), NaN for none; ``residual_mm`` (K, P),
+    above
     0 for what was seen, else 0."""
 
     labels: tuple[str, ...]
     descriptions: tuple[str, ...]
-    place_mm: FloatArray
+    position_mm: FloatArray
     residual_mm: FloatArray
 
 
-def write(take: Take, folder: Path) -> list[Path]:
+def write(take: ExportItem, folder: Path) -> list[Path]:
     """Write ``NAME.c3d``; the file."""
     path = folder / f"{take.name}.c3d"
-    even = take.even
-    points = points_of(take.session, even)
-    with new_bytes(path) as file:
-        head = _head(take, even, points)
+    even = take.times
+    points = build_points(take.session, even)
+    with open_new_file(path) as file:
+        head = _header_and_parameters(take, even, points)
         file.write(head)
-        for some in _data(points):
+        for some in _point_data(points):
             file.write(some)
         file.write(b"\0" * (-file.tell() % BLOCK))
     return [path]
 
 
-def points_of(session: Session, even: EvenTimes) -> C3dPoints:
+def build_points(session: Session, times: UniformTimes) -> C3dPoints:
     """The discs, then the joint centres of the whole hand, which are computed and never seen."""
     names = session.header.protocol.markers
-    discs = even.of(session.markers.position_cam_m)
-    nearest = even.nearest
-    seen = measured(session)[nearest] & (nearest >= 0)[:, None] if len(nearest) else np.zeros((0, len(names)), bool)
-    residual = even_residual_mm(session)[nearest] if len(nearest) else np.zeros((0, len(names)))
+    discs = times.interpolate(session.markers.position_cam_m)
+    nearest = times.row_index
+    seen = is_measured(session)[nearest] & (nearest >= 0)[:, None] if len(nearest) else np.zeros((0, len(names)), bool)
+    residual = model_residual_mm(session)[nearest] if len(nearest) else np.zeros((0, len(names)))
     # What was seen has a residual, however well it fits.
     residual = np.where(seen, np.maximum(np.nan_to_num(residual, nan=RESIDUAL_STEP_MM), RESIDUAL_STEP_MM), 0.0)
     labels, words = names, tuple(f"paper disc {name} on the skin" for name in names)
     if session.header.joint_names:
-        joints = even.of(joint_centres_cam_m(session))
+        joints = times.interpolate(joint_centres_cam_m(session))
         discs = np.concatenate((discs, joints), axis=1)
         residual = np.concatenate((residual, np.zeros(joints.shape[:2])), axis=1)
         labels += tuple(f"{JOINT_PREFIX}{name}" for name in names)
@@ -79,7 +87,7 @@ def points_of(session: Session, even: EvenTimes) -> C3dPoints:
     return C3dPoints(labels, words, 1e3 * discs, residual)
 
 
-def even_residual_mm(session: Session) -> FloatArray:
+def model_residual_mm(session: Session) -> FloatArray:
     """How far the model's disc lies beside the blob, across the line of sight, (N, M)."""
     place, camera = session.markers.position_cam_m, session.camera
     ideal = camera.project(np.where(place[..., 2:] > 0.0, place, np.nan))
@@ -88,48 +96,48 @@ def even_residual_mm(session: Session) -> FloatArray:
     return np.asarray(1e3 * off_px * place[..., 2] / math.sqrt(camera.fx_px * camera.fy_px))
 
 
-def _data(points: C3dPoints, at_once: int = 4096) -> Iterator[bytes]:
-    for begin in range(0, len(points.place_mm), at_once):
-        place = points.place_mm[begin : begin + at_once]
+def _point_data(points: C3dPoints, batch_rows: int = 4096) -> Iterator[bytes]:
+    for begin in range(0, len(points.position_mm), batch_rows):
+        place = points.position_mm[begin : begin + batch_rows]
         known = np.asarray(np.isfinite(place).all(axis=-1))
-        counts = np.ceil(points.residual_mm[begin : begin + at_once] / RESIDUAL_STEP_MM - 1e-9)
-        counts = np.clip(counts, 0, MOST_COUNTS)
-        word = np.where(counts > 0, SEEN_BY_THE_CAMERA * 256 + counts, 0.0)
+        counts = np.ceil(points.residual_mm[begin : begin + batch_rows] / RESIDUAL_STEP_MM - 1e-9)
+        counts = np.clip(counts, 0, MAX_RESIDUAL_COUNT)
+        word = np.where(counts > 0, CAMERA_MASK * 256 + counts, 0.0)
         out = np.zeros((*known.shape, 4), dtype="<f4")
         out[..., :3] = np.where(known[..., None], place, 0.0)
         out[..., 3] = np.where(known, word, -1.0)
         yield out.tobytes()
 
 
-def _head(take: Take, even: EvenTimes, points: C3dPoints) -> bytes:
+def _header_and_parameters(take: ExportItem, times: UniformTimes, points: C3dPoints) -> bytes:
     """Header and parameters; the parameters say where the data begin, and are laid out twice to know it."""
-    first = b"".join(_groups(take, even, points, 0))
+    first = b"".join(_parameter_groups(take, times, points, 0))
     blocks = -(-(len(first) + 4 + 1) // BLOCK)
     data_block = 2 + blocks
-    parameters = b"".join(_groups(take, even, points, data_block))
+    parameters = b"".join(_parameter_groups(take, times, points, data_block))
     section = struct.pack("<BBBB", 1, 0x50, blocks, INTEL) + parameters
-    return _header(len(points.labels), len(even), even.rate_hz, data_block) + section.ljust(blocks * BLOCK, b"\0")
+    return _header(len(points.labels), len(times), times.rate_hz, data_block) + section.ljust(blocks * BLOCK, b"\0")
 
 
 def _header(points: int, frames: int, rate_hz: float, data_block: int) -> bytes:
     head = struct.pack(
         "<BBHHHHHfHHf",
-        2, 0x50, points, 0, 1, min(max(frames, 1), LONGEST_COUNT), 0, -RESIDUAL_STEP_MM, data_block, 0, rate_hz,
+        2, 0x50, points, 0, 1, min(max(frames, 1), MAX_HEADER_COUNT), 0, -RESIDUAL_STEP_MM, data_block, 0, rate_hz,
     )  # fmt: skip
     out = bytearray(head.ljust(BLOCK, b"\0"))
     struct.pack_into("<H", out, 2 * 149, 12345)  # labels of events have four letters
     return bytes(out)
 
 
-def _groups(take: Take, even: EvenTimes, points: C3dPoints, data_block: int) -> Iterator[bytes]:
+def _parameter_groups(take: ExportItem, times: UniformTimes, points: C3dPoints, data_block: int) -> Iterator[bytes]:
     session, header = take.session, take.session.header
-    frames = len(even)
+    frames = len(times)
     yield _group(1, "POINT", "three-dimensional points")
     yield _integers(1, "USED", [len(points.labels)])
     yield _floats(1, "SCALE", [-RESIDUAL_STEP_MM])
-    yield _floats(1, "RATE", [even.rate_hz])
+    yield _floats(1, "RATE", [times.rate_hz])
     yield _integers(1, "DATA_START", [data_block])
-    yield _integers(1, "FRAMES", [min(frames, LONGEST_COUNT)])
+    yield _integers(1, "FRAMES", [min(frames, MAX_HEADER_COUNT)])
     yield _floats(1, "LONG_FRAMES", [float(frames)])
     yield _texts(1, "LABELS", points.labels)
     yield _texts(1, "DESCRIPTIONS", points.descriptions)
@@ -147,7 +155,7 @@ def _groups(take: Take, even: EvenTimes, points: C3dPoints, data_block: int) -> 
     yield _group(4, "TRIAL", "length of long recordings")
     yield _integers(4, "ACTUAL_START_FIELD", [1, 0])
     yield _integers(4, "ACTUAL_END_FIELD", [frames & 0xFFFF, frames >> 16])
-    yield _floats(4, "CAMERA_RATE", [even.rate_hz])
+    yield _floats(4, "CAMERA_RATE", [times.rate_hz])
     yield _group(5, "SUBJECTS", "pseudonym")
     yield _integers(5, "USED", [1])
     yield _integers(5, "IS_STATIC", [0])
@@ -157,7 +165,7 @@ def _groups(take: Take, even: EvenTimes, points: C3dPoints, data_block: int) -> 
     yield _text(6, "COMPANY", "Carpus")
     yield _text(6, "SOFTWARE", "Carpus")
     yield _text(6, "VERSION_LABEL", made_by["version"])
-    yield from _events((*session.events, *repetition_events(take)), header.hand, even.start_s)
+    yield from _events((*session.events, *repetition_events(take)), header.hand, times.start_s)
     yield _group(8, "CARPUS", "of what, by what")
     said = {
         "FRAME": CAMERA_AXES,
@@ -188,9 +196,9 @@ def _events(happened: Sequence[Event], hand: str, start_s: float) -> Iterator[by
     events = sorted(happened, key=lambda event: event.time_s)
     yield _group(7, "EVENT", "what happened")
     yield _integers(7, "USED", [min(len(events), 32767)])
-    for place in range(0, len(events), MOST_IN_A_ROW):
-        some: Sequence[Event] = events[place : place + MOST_IN_A_ROW]
-        suffix = "" if not place else str(place // MOST_IN_A_ROW + 1)
+    for place in range(0, len(events), MAX_DIMENSION):
+        some: Sequence[Event] = events[place : place + MAX_DIMENSION]
+        suffix = "" if not place else str(place // MAX_DIMENSION + 1)
         side = "Right" if hand == "right" else "Left"
         yield _texts(7, f"CONTEXTS{suffix}", [side] * len(some))
         yield _texts(7, f"LABELS{suffix}", [event.kind for event in some])
@@ -221,18 +229,18 @@ def _floats(number: int, name: str, values: Sequence[float]) -> bytes:
 
 
 def _text(number: int, name: str, text: str, as_list: bool = False) -> bytes:
-    data = _bytes(text, MOST_IN_A_ROW)
+    data = _to_bytes(text, MAX_DIMENSION)
     return _parameter(number, name, -1, (len(data), 1) if as_list else (len(data),), data)
 
 
 def _texts(number: int, name: str, texts: Sequence[str]) -> bytes:
-    each = [_bytes(text, LONGEST_TEXT) for text in texts]
+    each = [_to_bytes(text, MAX_TEXT_BYTES) for text in texts]
     length = max(map(len, each), default=0)
     data = b"".join(one.ljust(length) for one in each)
     return _parameter(number, name, -1, (length, len(each)), data)
 
 
-def _bytes(text: str, longest: int) -> bytes:
+def _to_bytes(text: str, max_bytes: int) -> bytes:
     """A text as bytes that is cut between letters, and on one line."""
-    data = " ".join(text.split()).encode()[:longest]
+    data = " ".join(text.split()).encode()[:max_bytes]
     return data.decode("utf-8", "ignore").encode()

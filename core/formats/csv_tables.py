@@ -16,17 +16,21 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.measures_files import HEAD, csv_rows
-from carpus.core.formats.new_output import FOR_PROGRAMS, cell, new_json, new_table
-from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
+from carpus.core.formats.measures_files import MEASURES_HEADER, to_csv_rows
+from carpus.core.formats.new_output import MACHINE_DIALECT, format_cell, write_new_json, write_new_table
+from carpus.core.formats.take import ANGLE_DEFINITIONS, CAMERA_AXES, W0_AXES, ExportItem, format_number, is_measured
 from carpus.core.hand.exercises import PRONOSUPINATION
-from carpus.core.hand.forearm_rotation import is_from_thumb_up, read_wrist_angles, supination_from_thumb_up
+from carpus.core.hand.forearm_rotation import (
+    is_counted_from_thumb_up,
+    supination_from_thumb_up,
+    to_clinical_wrist_angles,
+)
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.by_hand import COLUMNS, rows_of
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measures_table import MEASURE_COLUMNS, measure_rows, positive_of
+from carpus.core.measures.by_hand import COLUMNS, to_rows
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.measures_table import MEASURE_COLUMNS, build_measure_rows, positive_direction
 from carpus.core.results.motion_curves import motion_columns
-from carpus.core.results.repetition_rows import trained_name
+from carpus.core.results.repetition_rows import trained_angle_name
 from carpus.core.session.values import Motion, RepetitionRow, Session
 from carpus.core.types import TrackStatus
 
@@ -38,7 +42,7 @@ WRIST_COLUMNS = {
     "timestamp_s": "time of the picture as in the recording",
     "status": STATUS,
     "filter_... smoother_...": ESTIMATES,
-    "..._deviation_deg ..._flexion_deg ..._pronosupination_deg": ANGLES_MEAN,
+    "..._deviation_deg ..._flexion_deg ..._pronosupination_deg": ANGLE_DEFINITIONS,
     "..._supination_from_thumb_up_deg ..._rotation_from_start_deg": "tables for a spreadsheet have one of these in the "
     "place of pronosupination: supination, 0 is thumb up, or beside another movement the rotation from the start",
     "..._sd_deg": "their standard deviations, calibration included",
@@ -117,72 +121,72 @@ Table = dict[str, Column]
 """Columns of equal length by their names: numbers, NaN where not known, or texts."""
 
 
-def write(take: Take, folder: Path) -> list[Path]:
+def write(take: ExportItem, folder: Path) -> list[Path]:
     """Write the tables; the files written."""
     out = []
-    end = ".for-programs.csv" if take.form == FOR_PROGRAMS else ".csv"
+    end = ".for-programs.csv" if take.dialect == MACHINE_DIALECT else ".csv"
     said = {
         "wrist": WRIST_COLUMNS, "joints": JOINT_COLUMNS, "markers": MARKER_COLUMNS, "events": EVENT_COLUMNS,
         "repetitions": REPETITION_COLUMNS, "measures": MEASURE_COLUMNS,
     }  # fmt: skip
-    made = tables(take.session) | {"repetitions": repetition_table(take.session, take.figures)}
-    if take.form != FOR_PROGRAMS:
-        made = _as_read(made, take)
+    made = build_tables(take.session) | {"repetitions": build_repetition_table(take.session, take.results)}
+    if take.dialect != MACHINE_DIALECT:
+        made = _with_clinical_rotation(made, take)
     for name, table in made.items():
-        out.append(new_table(folder / f"{take.name}.{name}{end}", list(table), _rows(table), take.form))
-    measures = csv_rows(measure_rows(take.figures, take.name))
-    out.append(new_table(folder / f"{take.name}.measures{end}", HEAD, measures, take.form))
-    if take.by_hand:
-        rows = ([cell(text) for text in row] for row in rows_of(take.by_hand))
-        out.append(new_table(folder / f"{take.name}.by-hand{end}", list(COLUMNS), rows, take.form))
+        out.append(write_new_table(folder / f"{take.name}.{name}{end}", list(table), _text_rows(table), take.dialect))
+    measures = to_csv_rows(build_measure_rows(take.results, take.name))
+    out.append(write_new_table(folder / f"{take.name}.measures{end}", MEASURES_HEADER, measures, take.dialect))
+    if take.manual_measurements:
+        rows = ([format_cell(text) for text in row] for row in to_rows(take.manual_measurements))
+        out.append(write_new_table(folder / f"{take.name}.by-hand{end}", list(COLUMNS), rows, take.dialect))
         said["by-hand"] = COLUMNS
     content = {
         "provenance": take.provenance,
         "missing": "empty",
-        "separator": take.form.separator,
-        "decimal": take.form.decimal,
+        "separator": take.dialect.separator,
+        "decimal": take.dialect.decimal,
         "tables": {path.name: said[path.name.removesuffix(end).split(".")[-1]] for path in out},
     }
-    return [*out, new_json(folder / f"{take.name}.csv.json", content)]
+    return [*out, write_new_json(folder / f"{take.name}.csv.json", content)]
 
 
-READ_NAMES = {True: "supination_from_thumb_up", False: "rotation_from_start"}
+CLINICAL_ROTATION_NAMES = {True: "supination_from_thumb_up", False: "rotation_from_start"}
 """What ``pronosupination`` is called where it is counted as clinicians do, by whether it is from thumb up."""
 
 
-def _as_read(made: dict[str, Table], take: Take) -> dict[str, Table]:
+def _with_clinical_rotation(made: dict[str, Table], take: ExportItem) -> dict[str, Table]:
     """Tables with the forearm's rotation as a clinician reads it, under another name than that of the files."""
-    exercise, start_rad = take.figures.exercise, take.session.calibration.start_angles_rad
-    thumb_up = is_from_thumb_up(exercise)
+    exercise, start_rad = take.results.exercise, take.session.calibration.start_angles_rad
+    thumb_up = is_counted_from_thumb_up(exercise)
     out = dict(made)
     out["wrist"] = {}
     for name, values in made["wrist"].items():
-        named = name.replace("pronosupination", READ_NAMES[thumb_up])
+        named = name.replace("pronosupination", CLINICAL_ROTATION_NAMES[thumb_up])
         if named != name and not name.endswith("_sd_deg"):
             angles = np.radians(np.column_stack((values, values, values)))
-            values = np.degrees(read_wrist_angles(angles, exercise, start_rad)[:, PRONOSUPINATION])
+            values = np.degrees(to_clinical_wrist_angles(angles, exercise, start_rad)[:, PRONOSUPINATION])
         out["wrist"][named] = values
-    if trained_name(take.session) == WRIST_ANGLES[PRONOSUPINATION]:
+    if trained_angle_name(take.session) == WRIST_ANGLES[PRONOSUPINATION]:
         rows = made["repetitions"]
         count = len(rows["angle_deg"])
         out["repetitions"] = rows | {
-            "angle": np.array([READ_NAMES[True]] * count, dtype=np.str_),
+            "angle": np.array([CLINICAL_ROTATION_NAMES[True]] * count, dtype=np.str_),
             "positive": np.array(["supinated, 0 is thumb up"] * count, dtype=np.str_),
             "angle_deg": np.degrees(supination_from_thumb_up(np.radians(rows["angle_deg"]))),
         }
     return out
 
 
-def tables(session: Session) -> dict[str, Table]:
+def build_tables(session: Session) -> dict[str, Table]:
     """Wrist, joints (of the whole hand), markers and events as columns."""
-    out = {"wrist": _wrist(session)}
+    out = {"wrist": _wrist_table(session)}
     if session.header.joint_names:
-        out["joints"] = _joints(session)
-    return out | {"markers": _markers(session), "events": _events(session)}
+        out["joints"] = _joint_table(session)
+    return out | {"markers": _marker_table(session), "events": _event_table(session)}
 
 
-def _wrist(session: Session) -> Table:
-    out: Table = {"timestamp_s": session.timestamp_s, "status": _statuses(session)}
+def _wrist_table(session: Session) -> Table:
+    out: Table = {"timestamp_s": session.timestamp_s, "status": _status_names(session)}
     for motion, estimate in ((session.motion, "filter"), (session.smoothed, "smoother")):
         if motion is not None:
             for values, suffix in ((motion.angles_rad, "deg"), (motion.angles_sd_rad, "sd_deg")):
@@ -192,13 +196,13 @@ def _wrist(session: Session) -> Table:
     return out
 
 
-def _joints(session: Session) -> Table:
+def _joint_table(session: Session) -> Table:
     names, smoothed = session.header.joint_names, session.smoothed
     share = session.quality.measured_share
     unknown = np.full_like(session.motion.joint_angles_rad, math.nan)
-    out = _of_each(session, names) | {
+    out = _repeat_for_names(session, names) | {
         "joint": np.tile(np.array(names), len(session)),
-        "positive": np.tile(np.array([positive_of(name) for name in names]), len(session)),
+        "positive": np.tile(np.array([positive_direction(name) for name in names]), len(session)),
         **_joint_columns("filter", session.motion),
         "measured_share": share if share.shape == unknown.shape else unknown,
         **(_joint_columns("smoother", smoothed) if smoothed else dict.fromkeys(_SMOOTHER_JOINTS, unknown)),
@@ -217,17 +221,17 @@ def _joint_columns(estimate: str, motion: Motion) -> Table:
     }
 
 
-def repetition_table(session: Session, figures: SessionFigures) -> Table:
+def build_repetition_table(session: Session, figures: SessionResults) -> Table:
     """The repetitions as they are shown, with a person's choices: one row each, degrees and seconds."""
     rows = [one.row for one in figures.repetitions if one.row is not None]
-    angle = trained_name(session)
+    angle = trained_angle_name(session)
     turned = {name: f"{name.removesuffix('_rad')}_deg" for name in ("angle_rad", "arc_rad", "arc_sd_rad")}
     turned |= {f"peak_speed{part}_rad_s": f"peak_speed{part}_deg_s" for part in ("", "_sd")}
     out: Table = {
         "repetition": np.arange(1, len(rows) + 1),
         "angle": np.array([angle] * len(rows), dtype=np.str_),
-        "positive": np.array([positive_of(angle)] * len(rows), dtype=np.str_),
-        "estimate": np.array(["smoother" if figures.smoothed else "filter"] * len(rows), dtype=np.str_),
+        "positive": np.array([positive_direction(angle)] * len(rows), dtype=np.str_),
+        "estimate": np.array(["smoother" if figures.is_smoothed else "filter"] * len(rows), dtype=np.str_),
     }
     for field in fields(RepetitionRow):
         values = [getattr(row, field.name) for row in rows]
@@ -241,14 +245,14 @@ def repetition_table(session: Session, figures: SessionFigures) -> Table:
     return out
 
 
-def _markers(session: Session) -> Table:
+def _marker_table(session: Session) -> Table:
     names, markers = session.header.protocol.markers, session.markers
     joints = session.motion.joint_position_m
     if joints.shape[1] != len(names):
         joints = np.full((len(session), len(names), 3), math.nan)
-    out = _of_each(session, names) | {
+    out = _repeat_for_names(session, names) | {
         "marker": np.tile(np.array(names), len(session)),
-        "measured": measured(session).astype(np.int64),
+        "measured": is_measured(session).astype(np.int64),
         **{f"filter_{axis}_mm": 1e3 * markers.position_cam_m[..., k] for k, axis in enumerate("xyz")},
         "u_px": markers.measured_px[..., 0],
         "v_px": markers.measured_px[..., 1],
@@ -259,15 +263,15 @@ def _markers(session: Session) -> Table:
     return {name: values.ravel() for name, values in out.items()}
 
 
-def _of_each(session: Session, names: Sequence[str]) -> Table:
+def _repeat_for_names(session: Session, names: Sequence[str]) -> Table:
     """Time and status of each picture, once for each of the names."""
     return {
         "timestamp_s": np.repeat(session.timestamp_s, len(names)),
-        "status": np.repeat(_statuses(session), len(names)),
+        "status": np.repeat(_status_names(session), len(names)),
     }
 
 
-def _events(session: Session) -> Table:
+def _event_table(session: Session) -> Table:
     time_s = np.array([event.time_s for event in session.events], dtype=np.float64)
     return {
         "timestamp_s": time_s,
@@ -277,24 +281,24 @@ def _events(session: Session) -> Table:
     }
 
 
-def _statuses(session: Session) -> Column:
+def _status_names(session: Session) -> Column:
     words = np.array([status.name.lower() for status in sorted(TrackStatus)])
     return np.asarray(words[np.asarray(session.status)])
 
 
-def _rows(table: Table) -> Iterator[tuple[str, ...]]:
+def _text_rows(table: Table) -> Iterator[tuple[str, ...]]:
     """Every row as texts: times to the microsecond, other numbers to a thousandth."""
 
-    def texts(name: str, values: Column) -> list[str]:
+    def format_column(name: str, values: Column) -> list[str]:
         if values.dtype.kind == "f":
             digits = 6 if name in ("timestamp_s", "since_start_s") else 3
-            return [number(value, digits) for value in values.tolist()]
-        return [cell(value) for value in values.tolist()]
+            return [format_number(value, digits) for value in values.tolist()]
+        return [format_cell(value) for value in values.tolist()]
 
     count = max((len(values) for values in table.values()), default=0)
-    for begin in range(0, count, _AT_ONCE):
-        some = {name: values[begin : begin + _AT_ONCE] for name, values in table.items()}
-        yield from zip(*(texts(name, values) for name, values in some.items()), strict=True)
+    for begin in range(0, count, _BATCH_ROWS):
+        some = {name: values[begin : begin + _BATCH_ROWS] for name, values in table.items()}
+        yield from zip(*(format_column(name, values) for name, values in some.items()), strict=True)
 
 
-_AT_ONCE = 8192
+_BATCH_ROWS = 8192

@@ -17,20 +17,20 @@ from typing import Any, NamedTuple
 
 from carpus.core.durable import write_fault
 from carpus.core.errors import CarpusFault
-from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, new_text
-from carpus.core.formats.provenance import LEGAL, Deidentification, provenance
-from carpus.core.formats.take import Take
-from carpus.core.measures.by_hand import HandValue, of_session
-from carpus.core.results.figures import session_figures
+from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect, write_new_text
+from carpus.core.formats.provenance import LEGAL, Deidentifier, build_provenance
+from carpus.core.formats.take import ExportItem
+from carpus.core.measures.by_hand import ManualValue, session_values
+from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.session.values import Session
 
 
 class Format(NamedTuple):
-    """``words`` say what it is for."""
+    """``description`` say what it is for."""
 
     module: str
-    words: str
+    description: str
 
 
 FORMATS = {
@@ -47,13 +47,13 @@ FORMATS = {
 }
 
 
-class Writer:
+class FormatWriter:
     """One format in one export."""
 
-    def __init__(self, name: str, folder: Path, alone: bool) -> None:
+    def __init__(self, name: str, folder: Path, is_only: bool) -> None:
         self._module: Any = import_module(f"{__package__}.{FORMATS[name].module}")
         own = getattr(self._module, "OWN_FOLDER", "")
-        self.name, self.folder = name, folder / own if own and not alone else folder
+        self.name, self.folder = name, folder / own if own and not is_only else folder
         self._written: list[Mapping[str, Any]] = []
 
     def check(self) -> None:
@@ -62,7 +62,7 @@ class Writer:
         if check is not None:
             check(self.folder)
 
-    def write(self, take: Take) -> Sequence[Path]:
+    def write(self, take: ExportItem) -> Sequence[Path]:
         out: Sequence[Path] = self._module.write(take, self.folder)
         self._written.append(take.provenance)
         return out
@@ -77,17 +77,17 @@ README = "README.txt"
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class ExportRequest:
     """One session to export: ``path`` of its file; ``read`` gives it as it shall be written, with a person's choices
     of its repetitions."""
 
     path: Path
     read: Callable[[], tuple[Session, RepetitionChoices | None]]
-    by_hand: tuple[HandValue, ...] = ()
+    manual_measurements: tuple[ManualValue, ...] = ()
     """All that was ever measured by hand of the patient; what counts of the session's day and hand goes along."""
 
     @classmethod
-    def stored(cls, path: Path, choices: Callable[[Path], RepetitionChoices] | None = None) -> Wanted:
+    def from_file(cls, path: Path, choices: Callable[[Path], RepetitionChoices] | None = None) -> ExportRequest:
         """A session file as it is, with what a person chose of its repetitions as ``choices`` reads that."""
         # The list of formats is read by windows, which load nothing that reads files.
         from carpus.core.session.reader import read_session
@@ -95,7 +95,7 @@ class Wanted:
         return cls(path, lambda: (read_session(path), None if choices is None else choices(path)))
 
 
-class Refused(NamedTuple):
+class RefusedSession(NamedTuple):
     """A session that could not be exported, and why."""
 
     path: Path
@@ -103,53 +103,54 @@ class Refused(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Exported:
-    """``files`` written, ``refused`` sessions; ``cancelled`` when somebody stopped it on the way. ``parts`` the files
+class ExportResult:
+    """``files`` written, ``refused`` sessions; ``cancelled`` when somebody stopped it on the way.
+    ``files_by_session`` the files
     of each session by its path; the others are of all of them."""
 
     folder: Path
     files: tuple[Path, ...]
-    refused: tuple[Refused, ...]
+    refused: tuple[RefusedSession, ...]
     cancelled: bool = False
-    parts: Mapping[Path, tuple[Path, ...]] = field(default_factory=dict)
+    files_by_session: Mapping[Path, tuple[Path, ...]] = field(default_factory=dict)
 
 
 def export_sessions(
-    wanted: Iterable[Wanted],
+    requests: Iterable[ExportRequest],
     folder: Path,
     formats: Sequence[str],
     *,
     deidentified: bool = False,
-    form: TableForm = FOR_PROGRAMS,
+    dialect: TableDialect = MACHINE_DIALECT,
     progress: Callable[[int, int], None] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
-) -> Exported:
+) -> ExportResult:
     """Write sessions in formats into a folder. A session that cannot be read or written is told, the others go on.
 
-    ``form`` is that of the tables (CSV).
+    ``dialect`` is that of the tables (CSV).
     ``progress`` hears (done, total) steps, one for each session and format; ``cancelled`` is asked before each. Raises
     :class:`OutputExists` or :class:`OutputNotWritable` for what is known before the first session.
     """
-    sessions = list(wanted)
+    sessions = list(requests)
     unknown = [name for name in formats if name not in FORMATS]
     if unknown:
         raise ValueError(f"no format {', '.join(unknown)}: there are {', '.join(FORMATS)}")
-    writers = [Writer(name, folder, alone=len(formats) == 1) for name in formats]
+    writers = [FormatWriter(name, folder, is_only=len(formats) == 1) for name in formats]
     for writer in writers:
         writer.check()
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
         raise write_fault(folder, cause) from cause
-    refused: list[Refused] = []
-    nobody = _nobody(sessions) if deidentified else None
+    refused: list[RefusedSession] = []
+    nobody = _prepare_deidentifier(sessions) if deidentified else None
     files: list[Path] = []
     parts: dict[Path, tuple[Path, ...]] = {}
     done, total, stopped = 0, len(sessions) * len(writers), False
     names: set[str] = set()
     for one in sessions:
         try:
-            take = replace(_take(one, nobody, names), form=form)
+            take = replace(_build_item(one, nobody, names), dialect=dialect)
             for writer in writers:
                 stopped = stopped or cancelled()
                 if stopped:
@@ -161,50 +162,50 @@ def export_sessions(
                 if progress is not None:
                     progress(done, total)
         except CarpusFault as fault:
-            refused.append(Refused(one.path, fault))
+            refused.append(RefusedSession(one.path, fault))
         if stopped:
             break
     for writer in writers:
         files += writer.complete()
     if len(writers) > 1 and files and not (folder / README).exists():
-        files.append(new_text(folder / README, _readme(formats, deidentified)))
-    return Exported(folder, tuple(files), tuple(refused), stopped, parts)
+        files.append(write_new_text(folder / README, _readme(formats, deidentified)))
+    return ExportResult(folder, tuple(files), tuple(refused), stopped, parts)
 
 
-def _nobody(sessions: Iterable[Wanted]) -> Deidentification:
+def _prepare_deidentifier(sessions: Iterable[ExportRequest]) -> Deidentifier:
     """Names that are nobody's for those whose sessions these are."""
     from carpus.core.session.reader import read_outline
 
-    nobody = Deidentification()
+    nobody = Deidentifier()
     for one in sessions:
         with suppress(CarpusFault):  # told when it is read
-            nobody.know(read_outline(one.path))
+            nobody.register(read_outline(one.path))
     return nobody
 
 
-def _take(one: Wanted, nobody: Deidentification | None, names: set[str]) -> Take:
-    session, choices = one.read()
+def _build_item(request: ExportRequest, deidentifier: Deidentifier | None, names: set[str]) -> ExportItem:
+    session, choices = request.read()
     camera = session.camera
     # Before anybody's days are moved.
-    day = session.header.when.date()
-    name = one.path.stem
-    if nobody is not None:
-        session = nobody.session(session)
+    day = session.header.recording_time.date()
+    name = request.path.stem
+    if deidentifier is not None:
+        session = deidentifier.deidentify(session)
         if choices is not None:  # a reason is a person's own words
-            kept = {n: why if why in ("", PASSIVE) else "left out" for n, why in choices.left_out.items()}
-            choices = replace(choices, left_out=kept, not_counted_reason="")
-        name = nobody.name(session.header)
+            kept = {n: why if why in ("", PASSIVE) else "left out" for n, why in choices.excluded.items()}
+            choices = replace(choices, excluded=kept, session_exclusion_reason="")
+        name = deidentifier.new_file_stem(session.header)
     base, number = name, 1
     while name in names:  # sessions of several folders may share a name
         number += 1
         name = f"{base}-{number}"
     names.add(name)
-    said = provenance(session, deidentified=nobody is not None)
-    figures = session_figures(session, choices)
-    by_hand = of_session(one.by_hand, figures.side, day)
-    if nobody is not None:  # day, place and initials are a person's own
-        by_hand = tuple(replace(value, day=date.min, where="", by="", entered=None) for value in by_hand)
-    return Take(session, figures, name, said, by_hand, camera)
+    said = build_provenance(session, deidentified=deidentifier is not None)
+    figures = compute_session_results(session, choices)
+    by_hand = session_values(request.manual_measurements, figures.side, day)
+    if deidentifier is not None:  # day, place and initials are a person's own
+        by_hand = tuple(replace(value, day=date.min, location="", rater="", entered_at=None) for value in by_hand)
+    return ExportItem(session, figures, name, said, by_hand, camera)
 
 
 def _readme(formats: Sequence[str], deidentified: bool) -> str:
@@ -213,7 +214,7 @@ def _readme(formats: Sequence[str], deidentified: bool) -> str:
         "Sessions of Carpus in open formats.",
         of_whom if deidentified else "Patients are pseudonyms; who they are stays with the clinic.",
         "",
-        *(f"{name:6} {FORMATS[name].words}" for name in formats),
+        *(f"{name:6} {FORMATS[name].description}" for name in formats),
         "",
         "Lengths and angles carry their units in names, headers or the .json beside each file; what is not known is",
         "NaN, an empty cell, n/a or a residual of -1, never 0. Wrist: + radial, + flexion, + supination on both hands.",

@@ -11,18 +11,26 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.errors import ExtraMissing, OutputExists
-from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm, cell, new_bytes, new_table, plain_cell
-from carpus.core.results.measures_table import SessionFigure
+from carpus.core.formats.new_output import (
+    MACHINE_DIALECT,
+    TableDialect,
+    escape_formula,
+    format_cell,
+    open_new_file,
+    write_new_table,
+)
+from carpus.core.results.measures_table import MeasureRow
 
 PARQUET = ".parquet"
-ROWS_AT_ONCE = 10_000
-HEAD = tuple(field.name for field in fields(SessionFigure))
+BATCH_ROWS = 10_000
+MEASURES_HEADER = tuple(field.name for field in fields(MeasureRow))
 
 
-def check_place(path: Path) -> None:
-    """Raise now what :func:`measures_file` would raise of a place after hours of work: a table of measures is replaced,
+def check_measures_path(path: Path) -> None:
+    """Raise now what :func:`open_measures_file` would raise of a place after hours of work: a table of measures is
+    replaced,
     anything else is somebody else's."""
-    parquet = _parquet()[1] if path.suffix.lower() == PARQUET else None
+    parquet = _import_pyarrow()[1] if path.suffix.lower() == PARQUET else None
     if not path.exists():
         return
     try:
@@ -33,11 +41,11 @@ def check_place(path: Path) -> None:
                 head = tuple(next(csv.reader(file), ()))
     except (OSError, ValueError, csv.Error) as cause:  # pyarrow's own are of these
         raise OutputExists(path) from cause
-    if head != HEAD:
+    if head != MEASURES_HEADER:
         raise OutputExists(path)
 
 
-def _parquet() -> tuple[Any, Any]:
+def _import_pyarrow() -> tuple[Any, Any]:
     try:
         import pyarrow
         from pyarrow import parquet
@@ -47,51 +55,51 @@ def _parquet() -> tuple[Any, Any]:
 
 
 @contextmanager
-def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[Sequence[SessionFigure]], None]]:
+def open_measures_file(path: Path, *, overwrite: bool = False) -> Iterator[Callable[[Sequence[MeasureRow]], None]]:
     """A table that takes rows as they come and holds few of them in memory, by the ending of its name ``.parquet`` or
     else CSV; it has its name when all is written.
 
     Raises :class:`OutputExists`, :class:`OutputNotWritable`, or :class:`ExtraMissing` without pyarrow.
     """
     if path.suffix.lower() != PARQUET:
-        with new_bytes(path, replaces=replaces) as file:
+        with open_new_file(path, overwrite=overwrite) as file:
             text = io.TextIOWrapper(file, "utf-8", newline="")
             table = csv.writer(text, lineterminator="\n")
-            table.writerow(HEAD)
-            yield lambda rows: table.writerows(csv_rows(rows))
+            table.writerow(MEASURES_HEADER)
+            yield lambda rows: table.writerows(to_csv_rows(rows))
             text.detach()
         return
-    pyarrow, parquet = _parquet()
+    pyarrow, parquet = _import_pyarrow()
     by_kind = {"str": pyarrow.string(), "float": pyarrow.float64(), "int": pyarrow.int64(), "bool": pyarrow.bool_()}
-    schema = pyarrow.schema([(field.name, by_kind[str(field.type)]) for field in fields(SessionFigure)])
-    waiting: list[SessionFigure] = []
-    with new_bytes(path, replaces=replaces) as file, parquet.ParquetWriter(file, schema) as writer:
+    schema = pyarrow.schema([(field.name, by_kind[str(field.type)]) for field in fields(MeasureRow)])
+    waiting: list[MeasureRow] = []
+    with open_new_file(path, overwrite=overwrite) as file, parquet.ParquetWriter(file, schema) as writer:
 
-        def store() -> None:
+        def write_batch() -> None:
             columns = list(zip(*map(astuple, waiting), strict=True))
             arrays = [pyarrow.array(values, kind.type) for values, kind in zip(columns, schema, strict=True)]
             writer.write_table(pyarrow.table(arrays, schema=schema))
             waiting.clear()
 
-        def take(rows: Sequence[SessionFigure]) -> None:
+        def add_rows(rows: Sequence[MeasureRow]) -> None:
             waiting.extend(rows)
-            if len(waiting) >= ROWS_AT_ONCE:
-                store()
+            if len(waiting) >= BATCH_ROWS:
+                write_batch()
 
-        yield take
+        yield add_rows
         if waiting:
-            store()
+            write_batch()
 
 
-def write_measures(rows: Sequence[SessionFigure], path: Path, form: TableForm = FOR_PROGRAMS) -> Path:
-    """Write the whole table, as :func:`measures_file`; ``form`` of a CSV."""
+def write_measures(rows: Sequence[MeasureRow], path: Path, dialect: TableDialect = MACHINE_DIALECT) -> Path:
+    """Write the whole table, as :func:`open_measures_file`; ``dialect`` of a CSV."""
     if path.suffix.lower() != PARQUET:
-        return new_table(path, HEAD, csv_rows(rows), form)
-    with measures_file(path) as take:
+        return write_new_table(path, MEASURES_HEADER, to_csv_rows(rows), dialect)
+    with open_measures_file(path) as take:
         take(rows)
     return path
 
 
-def csv_rows(rows: Sequence[SessionFigure]) -> list[list[str]]:
+def to_csv_rows(rows: Sequence[MeasureRow]) -> list[list[str]]:
     """Every row as texts: unknown is empty, numbers to six digits that count."""
-    return [[plain_cell(cell(value)) for value in astuple(row)] for row in rows]
+    return [[escape_formula(format_cell(value)) for value in astuple(row)] for row in rows]

@@ -11,50 +11,53 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.new_output import new_bytes, new_json
-from carpus.core.formats.take import ANGLES_MEAN, Take
+from carpus.core.formats.new_output import open_new_file, write_new_json
+from carpus.core.formats.take import ANGLE_DEFINITIONS, ExportItem
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.measures_table import positive_of
+from carpus.core.results.measures_table import positive_direction
 from carpus.core.session.values import Motion, Session
 
 
-def write(take: Take, folder: Path) -> list[Path]:
+def write(take: ExportItem, folder: Path) -> list[Path]:
     """Write ``NAME.mot``, ``NAME.smoothed.mot`` where there is one, and ``NAME.mot.json``; the files."""
-    session, even = take.session, take.even
+    session, even = take.session, take.times
     out = []
     for motion, name in ((session.motion, take.name), (session.smoothed, f"{take.name}.smoothed")):
         if motion is not None:
             path = folder / f"{name}.mot"
-            with new_bytes(path) as file:
+            with open_new_file(path) as file:
                 for line in _lines(take, motion, name):
                     file.write(line.encode() + b"\n")
             out.append(path)
     about = {
-        "columns": columns(session),
-        "angles": ANGLES_MEAN,
-        "positive": {column: positive_of(name) for column, name in zip(columns(session), _names(session), strict=True)},
+        "columns": column_names(session),
+        "angles": ANGLE_DEFINITIONS,
+        "positive": {
+            column: positive_direction(name)
+            for column, name in zip(column_names(session), _angle_names(session), strict=True)
+        },
         "estimate": {path.name: "smoother" if path.name.endswith(".smoothed.mot") else "filter" for path in out},
         "sampling": f"even, {even.rate_hz:.6g} a second, on the line between two pictures; NaN across a gap",
         "time_zero_timestamp_s": even.start_s,
         "missing": "NaN",
         "provenance": take.provenance,
     }
-    return [*out, new_json(folder / f"{take.name}.mot.json", about)]
+    return [*out, write_new_json(folder / f"{take.name}.mot.json", about)]
 
 
-def columns(session: Session) -> list[str]:
+def column_names(session: Session) -> list[str]:
     """Names of the angles as OpenSim writes them, in file order."""
     side = session.header.hand[0]
-    return [f"{'wrist_' if name in WRIST_ANGLES else ''}{name.lower()}_{side}" for name in _names(session)]
+    return [f"{'wrist_' if name in WRIST_ANGLES else ''}{name.lower()}_{side}" for name in _angle_names(session)]
 
 
-def _names(session: Session) -> tuple[str, ...]:
+def _angle_names(session: Session) -> tuple[str, ...]:
     return (*WRIST_ANGLES, *session.header.joint_names)
 
 
-def _lines(take: Take, motion: Motion, name: str) -> Iterator[str]:
-    session, even = take.session, take.even
-    labels = columns(session)
+def _lines(take: ExportItem, motion: Motion, name: str) -> Iterator[str]:
+    session, even = take.session, take.times
+    labels = column_names(session)
     yield name
     yield "version=1"
     yield f"nRows={len(even)}"
@@ -62,13 +65,13 @@ def _lines(take: Take, motion: Motion, name: str) -> Iterator[str]:
     yield "inDegrees=yes"
     yield ""
     yield f"Carpus {take.provenance['made_by']['version']}, session {session.header.session_id}."
-    yield f"Angles by the {'filter' if motion is session.motion else 'smoother'}: {ANGLES_MEAN}."
+    yield f"Angles by the {'filter' if motion is session.motion else 'smoother'}: {ANGLE_DEFINITIONS}."
     yield "The line with 'inDegrees' says that rotational values are in degrees."
     yield ""
     yield "endheader"
     yield "\t".join(("time", *labels))
-    angles = np.degrees(np.column_stack([even.of(values, angular=True) for values in _angles(motion)]))
-    for time_s, row in zip(even.since_start_s.tolist(), angles.tolist(), strict=True):
+    angles = np.degrees(np.column_stack([even.interpolate(values, is_angular=True) for values in _angles(motion)]))
+    for time_s, row in zip(even.elapsed_s.tolist(), angles.tolist(), strict=True):
         yield f"{time_s:.6f}\t" + "\t".join("NaN" if value != value else f"{value:.6f}" for value in row)
 
 

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Protocol
 
-from carpus.core.durable import private, write_fault
+from carpus.core.durable import open_private, write_fault
 from carpus.core.errors import OutputExists, OutputNotWritable
 
-HALF = ".half"
-_CALCULATED = tuple("=+-@\t\r\n")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+PART_SUFFIX = ".half"
+_FORMULA_STARTS = tuple("=+-@\t\r\n")
+_NUMBER_PATTERN = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
 class SupportsWrite(Protocol):
@@ -29,24 +29,24 @@ class SupportsWrite(Protocol):
 
 
 @contextmanager
-def new_bytes(path: Path, *, replaces: bool = False) -> Iterator[IO[bytes]]:
-    """A file to write, which gets its name only when all of it is written; ``replaces`` the one that has it.
+def open_new_file(path: Path, *, overwrite: bool = False) -> Iterator[IO[bytes]]:
+    """A file to write, which gets its name only when all of it is written; ``overwrite`` the one that has it.
 
     Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-done stays.
     """
-    if path.exists() and not replaces:
+    if path.exists() and not overwrite:
         raise OutputExists(path)
-    half = path.with_name(path.name + HALF)
+    half = path.with_name(path.name + PART_SUFFIX)
     try:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             half.unlink(missing_ok=True)  # of a run that was killed
-            with open(half, "xb", opener=private) as file:
+            with open(half, "xb", opener=open_private) as file:
                 yield file
-            if replaces:
+            if overwrite:
                 half.replace(path)
             else:
-                _named(half, path)
+                _publish(half, path)
         except FileExistsError as cause:
             raise OutputExists(path) from cause
         except OSError as cause:
@@ -56,7 +56,7 @@ def new_bytes(path: Path, *, replaces: bool = False) -> Iterator[IO[bytes]]:
             half.unlink(missing_ok=True)
 
 
-def look_for_folder(path: Path) -> None:
+def require_folder(path: Path) -> None:
     """Where a person names one file its folder is there; none is made: its name may be misspelt.
 
     Raises :class:`OutputNotWritable`.
@@ -65,26 +65,28 @@ def look_for_folder(path: Path) -> None:
         raise OutputNotWritable(path, os.strerror(errno.ENOENT))
 
 
-def new_text(path: Path, text: str, *, replaces: bool = False) -> Path:
+def write_new_text(path: Path, text: str, *, overwrite: bool = False) -> Path:
     """Write a text as a new file, lines ended by a line feed alone."""
-    with new_bytes(path, replaces=replaces) as file:
+    with open_new_file(path, overwrite=overwrite) as file:
         file.write(text.encode("utf-8"))
     return path
 
 
-def new_json(path: Path, content: Any, *, replaces: bool = False) -> Path:
+def write_new_json(path: Path, content: Any, *, overwrite: bool = False) -> Path:
     """Write JSON that every reader takes: what is not known is null, never NaN."""
-    return new_text(path, json.dumps(without_nan(content), indent=2, ensure_ascii=False) + "\n", replaces=replaces)
+    return write_new_text(
+        path, json.dumps(nan_to_none(content), indent=2, ensure_ascii=False) + "\n", overwrite=overwrite
+    )
 
 
 @dataclass(frozen=True, slots=True)
-class TableForm:
-    """How a table of texts is written. ``has_mark``: begins with the byte order mark, by which a spreadsheet knows
+class TableDialect:
+    """How a table of texts is written. ``has_bom``: begins with the byte order mark, by which a spreadsheet knows
     UTF-8."""
 
     separator: str = ","
     decimal: str = "."
-    has_mark: bool = False
+    has_bom: bool = False
 
     def to_cell(self, text: str) -> str:
         """A cell as a spreadsheet shows it and does not calculate it, numbers with the form's decimal sign.
@@ -92,48 +94,48 @@ class TableForm:
         >>> TableForm(";", ",").to_cell("-1.5"), TableForm(";", ",").to_cell("=1+2")
         ('-1,5', "'=1+2")
         """
-        text = plain_cell(text)
-        return text.replace(".", self.decimal) if self.decimal != "." and _NUMBER.fullmatch(text) else text
+        text = escape_formula(text)
+        return text.replace(".", self.decimal) if self.decimal != "." and _NUMBER_PATTERN.fullmatch(text) else text
 
 
-FOR_PROGRAMS = TableForm()
+MACHINE_DIALECT = TableDialect()
 """The same in every country."""
-TABS = TableForm("\t")
+TAB_DIALECT = TableDialect("\t")
 
 
-def new_table(
-    path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], form: TableForm = FOR_PROGRAMS, *,
-    replaces: bool = False,
+def write_new_table(
+    path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], dialect: TableDialect = MACHINE_DIALECT, *,
+    overwrite: bool = False,
 ) -> Path:  # fmt: skip
     """Write a table row by row; ``head`` may be empty. No cell is calculated by a spreadsheet that opens it."""
-    with new_bytes(path, replaces=replaces) as file:
-        text = _Encoded(file)
-        if form.has_mark:
+    with open_new_file(path, overwrite=overwrite) as file:
+        text = _Utf8Writer(file)
+        if dialect.has_bom:
             text.write("\ufeff")
-        write_rows(text, head, rows, form)
+        write_rows(text, head, rows, dialect)
     return path
 
 
 def write_rows(
-    text: SupportsWrite, head: Sequence[str], rows: Iterable[Iterable[str]], form: TableForm = FOR_PROGRAMS
+    text: SupportsWrite, head: Sequence[str], rows: Iterable[Iterable[str]], dialect: TableDialect = MACHINE_DIALECT
 ) -> None:
     """Write a table into a text; ``head`` may be empty."""
-    table = csv.writer(text, delimiter=form.separator, lineterminator="\n")
+    table = csv.writer(text, delimiter=dialect.separator, lineterminator="\n")
     if head:
         table.writerow(head)
-    table.writerows([form.to_cell(cell) for cell in row] for row in rows)
+    table.writerows([dialect.to_cell(cell) for cell in row] for row in rows)
 
 
-def plain_cell(text: str) -> str:
+def escape_formula(text: str) -> str:
     """A cell that a spreadsheet shows and does not calculate; numbers are left as they are.
 
     >>> plain_cell("=1+2"), plain_cell("fist"), plain_cell("-1.5e3")
     ("'=1+2", 'fist', '-1.5e3')
     """
-    return text if text[:1] not in _CALCULATED or not text or _NUMBER.fullmatch(text) else f"'{text}"
+    return text if text[:1] not in _FORMULA_STARTS or not text or _NUMBER_PATTERN.fullmatch(text) else f"'{text}"
 
 
-def cell(value: Any) -> str:
+def format_cell(value: Any) -> str:
     """A value as a table has it: unknown is empty, numbers to six digits that count."""
     if isinstance(value, bool):
         return "yes" if value else "no"
@@ -142,22 +144,22 @@ def cell(value: Any) -> str:
     return str(value)
 
 
-def without_nan(value: Any) -> Any:
+def nan_to_none(value: Any) -> Any:
     """The same with None for every number that is not finite, and plain numbers for NumPy's.
 
     >>> without_nan({"a": [1.0, float("nan")]})
     {'a': [1.0, None]}
     """
     if isinstance(value, Mapping):
-        return {str(name): without_nan(one) for name, one in value.items()}
+        return {str(name): nan_to_none(one) for name, one in value.items()}
     if isinstance(value, (list, tuple)):
-        return [without_nan(one) for one in value]
+        return [nan_to_none(one) for one in value]
     if hasattr(value, "tolist"):
-        return without_nan(value.tolist())
+        return nan_to_none(value.tolist())
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-class _Encoded:
+class _Utf8Writer:
     """What :mod:`csv` writes to, over a file of bytes."""
 
     def __init__(self, file: IO[bytes]) -> None:
@@ -167,7 +169,7 @@ class _Encoded:
         return self._file.write(text.encode("utf-8"))
 
 
-def _named(half: Path, path: Path) -> None:
+def _publish(half: Path, path: Path) -> None:
     """The name in one step that does not replace; on file systems without links by a look before."""
     try:
         os.link(half, path)

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.errors import ReferenceUnreadable
-from carpus.core.formats.c3d_read import PointTrack, without_zeros
-from carpus.core.formats.table_read import is_no_number, parse_number, read_text
+from carpus.core.formats.c3d_read import PointTrack, zeros_to_nan
+from carpus.core.formats.table_read import is_non_numeric, parse_number, read_text
 from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
@@ -17,7 +17,7 @@ _METRES = {"mm": 1e-3, "m": 1.0, "cm": 1e-2}
 
 
 @dataclass(frozen=True, slots=True)
-class Columns:
+class TimeTable:
     """A table over time: ``time_s`` (K,), ``values`` of each named column (K,), NaN for none; ``in_degrees`` whether
     its angles are, None where it does not say."""
 
@@ -42,14 +42,14 @@ def read_trc(path: Path) -> PointTrack:
     if not names or not rows:
         raise ReferenceUnreadable(path, phrase("it holds no points"))
     try:
-        table = np.array([[_number(cell) for cell in (row + [""] * width)[:width]] for row in rows])
+        table = np.array([[_parse_cell(cell) for cell in (row + [""] * width)[:width]] for row in rows])
     except ValueError as cause:
         raise ReferenceUnreadable(path, str(cause)) from cause
     place_m = table[:, 2:].reshape(len(rows), len(names), 3) * _METRES[unit]
-    return PointTrack(_times(table[:, 1], path), tuple(names), without_zeros(place_m), unit)
+    return PointTrack(_check_times(table[:, 1], path), tuple(names), zeros_to_nan(place_m), unit)
 
 
-def read_mot(path: Path) -> Columns:
+def read_mot(path: Path) -> TimeTable:
     """The columns of a MOT or STO file. Raises :class:`ReferenceUnreadable`."""
     lines = read_text(path).splitlines()
     ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
@@ -60,24 +60,24 @@ def read_mot(path: Path) -> Columns:
     names = lines[ends[0] + 1].split(tab)
     rows = [line.split(tab) for line in lines[ends[0] + 2 :] if line.strip(", ")]
     try:
-        table = np.array([[_number(cell) for cell in row] for row in rows])
+        table = np.array([[_parse_cell(cell) for cell in row] for row in rows])
     except ValueError as cause:
         raise ReferenceUnreadable(path, phrase("rows of different length, or no numbers")) from cause
     if table.ndim != 2 or table.shape[1] != len(names) or names[0].lower() != "time":
         raise ReferenceUnreadable(path, phrase("its columns are not what its names say"))
     columns = {name: table[:, k] for k, name in enumerate(names) if k}
     told = said.get("indegrees")
-    return Columns(_times(table[:, 0], path), columns, None if told is None else told.startswith("y"))
+    return TimeTable(_check_times(table[:, 0], path), columns, None if told is None else told.startswith("y"))
 
 
-def _number(cell: str) -> float:
+def _parse_cell(cell: str) -> float:
     """NaN of an empty cell; raises ValueError where it holds something else than a number."""
-    if is_no_number(cell):
+    if is_non_numeric(cell):
         raise ValueError(f"“{cell[:20]}” is no number")
     return parse_number(cell)
 
 
-def _times(time_s: FloatArray, path: Path) -> FloatArray:
+def _check_times(time_s: FloatArray, path: Path) -> FloatArray:
     if not np.isfinite(time_s).all() or (np.diff(time_s) <= 0.0).any():
         raise ReferenceUnreadable(path, phrase("its times do not rise"))
     return time_s

@@ -23,21 +23,21 @@ LEGAL = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
     "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
 )
-OF_NO_ONE = (
+ANONYMOUS_SOURCE_FIELDS = (
     "depth_sensor", "depth_unit_m", "format", "intrinsics", "nominal_fps", "registered", "mirrored", "simulated",
     "driver",
 )  # fmt: skip
 """What a de-identified export says of the source: nothing that names a device, a file or a day."""
-FOCAL_STEP = 25.0 / 640.0
+FOCAL_STEP_SHARE = 25.0 / 640.0
 """Of the picture's width: units of one kind differ by less."""
 
 
-def provenance(session: Session, deidentified: bool = False) -> dict[str, Any]:
+def build_provenance(session: Session, deidentified: bool = False) -> dict[str, Any]:
     """As plain values for JSON. De-identified: no hash, name or date leads back."""
     header = session.header
-    source, settings = (made_by.said_in(header.parameters, part) for part in ("source", "settings"))
+    source, settings = (made_by.parameter_section(header.parameters, part) for part in ("source", "settings"))
     out: dict[str, Any] = {
-        "made_by": {"program": "Carpus", "version": __version__, "revision": made_by.revision()},
+        "made_by": {"program": "Carpus", "version": __version__, "revision": made_by.source_revision()},
         "of": {
             "subject_id": header.subject_id,
             "session_id": header.session_id,
@@ -46,11 +46,11 @@ def provenance(session: Session, deidentified: bool = False) -> dict[str, Any]:
             "hand": header.hand,
             "protocol": header.protocol.name,
             "exercise": header.exercise,
-            "simulated": header.simulated,
+            "simulated": header.is_simulated,
         },
         "tracked_by": {
             "version": header.software_version,
-            "revision": made_by.said_in(header.parameters, "provenance").get("revision", ""),
+            "revision": made_by.parameter_section(header.parameters, "provenance").get("revision", ""),
             "settings_sha256": made_by.sha256_of_settings(settings) if settings else "",
         },
         "camera": asdict(session.camera) | {"source": {name: source[name] for name in sorted(source)}},
@@ -58,7 +58,7 @@ def provenance(session: Session, deidentified: bool = False) -> dict[str, Any]:
         "legal": LEGAL,
     }
     if deidentified:
-        out["camera"]["source"] = {name: source[name] for name in OF_NO_ONE if name in source}
+        out["camera"]["source"] = {name: source[name] for name in ANONYMOUS_SOURCE_FIELDS if name in source}
         return out
     out["made"] = datetime.now(UTC).isoformat(timespec="seconds")
     out["of"]["session_sha256"] = made_by.sha256_of_file(session.path) if session.path.is_file() else ""
@@ -67,14 +67,14 @@ def provenance(session: Session, deidentified: bool = False) -> dict[str, Any]:
     return out
 
 
-def round_camera(camera: Camera) -> Camera:
+def generic_camera(camera: Camera) -> Camera:
     """A camera of this kind that could be any unit: no lens errors, the middle of the picture, a rounded focal length.
 
     >>> camera = round_camera(Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.0, 0.001, 0.0)))
     >>> camera.fx_px, camera.fy_px, camera.cx_px, camera.is_distorted
     (525.0, 525.0, 319.5, False)
     """
-    step_px = FOCAL_STEP * camera.width_px
+    step_px = FOCAL_STEP_SHARE * camera.width_px
     focal_px = step_px * round((camera.fx_px + camera.fy_px) / 2.0 / step_px)
     sensor = replace(camera.sensor, focal_px=step_px * round(camera.sensor.focal_px / step_px))
     return Camera(
@@ -83,23 +83,23 @@ def round_camera(camera: Camera) -> Camera:
     )  # fmt: skip
 
 
-def move_pixels(pixel: FloatArray, old: Camera, new: Camera) -> FloatArray:
+def reproject_pixels(pixel: FloatArray, old: Camera, new: Camera) -> FloatArray:
     """Pixels (..., 2) of one camera as another one at its place sees them; NaN stays."""
     out = np.asarray(pixel, dtype=np.float64).reshape(-1, 2).copy()
     known = np.isfinite(out).all(axis=1)
     ideal = old.undistort(out[known])
-    out[known] = new.distort(new.project(old.back_project(ideal, np.ones(len(ideal)))))
+    out[known] = new.distort(new.project(old.backproject(ideal, np.ones(len(ideal)))))
     return out.reshape(np.shape(pixel))
 
 
-DAY_NOUGHT = datetime(1900, 1, 1, tzinfo=UTC)
+DAY_ZERO = datetime(1900, 1, 1, tzinfo=UTC)
 """Day of a patient's first session; BIDS marks a shifted date by a year before 1925."""
-_SET_UP_KEPT = ("targets_deg", "repetitions", "ends_free")
-_LEARNT_TIME = "neutral_ends_s"
+_SETUP_FIELDS = ("targets_deg", "repetitions", "ends_free")
+_LEARNT_TIME_FIELD = "neutral_ends_s"
 
 
 @dataclass(slots=True)
-class Deidentification:
+class Deidentifier:
     """New names for one export; the same patient and recording get the same ones, and no list of them is kept."""
 
     _subjects: dict[str, str] = field(default_factory=dict)
@@ -107,24 +107,24 @@ class Deidentification:
     _first_day: dict[str, datetime] = field(default_factory=dict)
     _names: dict[str, int] = field(default_factory=dict)
 
-    def know(self, outline: SessionOutline) -> None:
+    def register(self, outline: SessionOutline) -> None:
         """Told of every session before the first is written, so that days count from the earliest."""
         header = outline.header
         if header.recorded:
             day = _day(header.recorded)
             self._first_day[header.subject_id] = min(day, self._first_day.get(header.subject_id, day))
 
-    def session(self, session: Session) -> Session:
+    def deidentify(self, session: Session) -> Session:
         """The same movement of nobody: times from nought, no text that a person wrote, nothing of the device.
 
         The camera is a rounded one, and every pixel lies where that one would see it: from exact pixels and places the
         exact camera could be worked out, which is the same in every export of a clinic.
         """
         start_s = float(session.timestamp_s[0]) if len(session) else 0.0
-        old, new = session.camera, round_camera(session.camera)
+        old, new = session.camera, generic_camera(session.camera)
         clicks, verdict = session.calibration.clicks, session.calibration.verdict
         findings = tuple(
-            replace(one, spot_px=tuple(move_pixels(np.array(one.spot_px), old, new))) if one.spot_px else one
+            replace(one, spot_px=tuple(reproject_pixels(np.array(one.spot_px), old, new))) if one.spot_px else one
             for one in verdict.findings
         )
         return replace(
@@ -132,10 +132,10 @@ class Deidentification:
             camera=new,
             calibration=replace(
                 session.calibration,
-                clicks=replace(clicks, pixel=move_pixels(clicks.pixel, old, new)),
+                clicks=replace(clicks, pixel=reproject_pixels(clicks.pixel, old, new)),
                 verdict=replace(verdict, findings=findings),
             ),
-            markers=replace(session.markers, measured_px=move_pixels(session.markers.measured_px, old, new)),
+            markers=replace(session.markers, measured_px=reproject_pixels(session.markers.measured_px, old, new)),
             header=self._header(session.header, start_s),
             timestamp_s=session.timestamp_s - start_s,
             events=tuple(
@@ -146,9 +146,9 @@ class Deidentification:
             repetitions=None,  # counted again where they are asked for
         )
 
-    def name(self, header: SessionHeader) -> str:
+    def new_file_stem(self, header: SessionHeader) -> str:
         """A file name from a header that is de-identified already."""
-        day = f"day{(_day(header.recorded) - DAY_NOUGHT).days:04d}" if header.recorded else "day"
+        day = f"day{(_day(header.recorded) - DAY_ZERO).days:04d}" if header.recorded else "day"
         stem = f"{header.subject_id}_{day}"
         self._names[stem] = self._names.get(stem, 0) + 1
         return f"{stem}_{self._names[stem]}"
@@ -158,7 +158,7 @@ class Deidentification:
         if header.recorded:
             day = _day(header.recorded)
             offset = day - self._first_day.setdefault(header.subject_id, day)
-            recorded = (DAY_NOUGHT + offset).isoformat(timespec="seconds")
+            recorded = (DAY_ZERO + offset).isoformat(timespec="seconds")
         known = {exercise.id for exercise in EXERCISES}
         return replace(
             header,
@@ -166,10 +166,10 @@ class Deidentification:
             recording_id=self._id(header.recording_id),
             subject_id=self._subjects.setdefault(header.subject_id, f"S{secrets.token_hex(4)}"),
             recorded=recorded,
-            created=recorded or DAY_NOUGHT.isoformat(timespec="seconds"),
+            created=recorded or DAY_ZERO.isoformat(timespec="seconds"),
             exercise=header.exercise if header.exercise in known else "",
             origin="",
-            parameters=_parameters(header.parameters, start_s),
+            parameters=_deidentify_parameters(header.parameters, start_s),
         )
 
     def _id(self, old: str) -> str:
@@ -181,11 +181,11 @@ def _day(moment: str) -> datetime:
     return datetime.fromisoformat(moment).replace(hour=0, minute=0, second=0, microsecond=0, tzinfo=UTC)
 
 
-def _parameters(text: str, start_s: float) -> str:
-    kept = {part: told for part in ("settings", "learnt") if (told := made_by.said_in(text, part))}
-    if isinstance(kept.get("learnt", {}).get(_LEARNT_TIME), (int, float)):
-        kept["learnt"][_LEARNT_TIME] -= start_s
-    for part, names in (("source", OF_NO_ONE), (SET_UP, _SET_UP_KEPT), ("provenance", ("revision",))):
-        if told := made_by.said_in(text, part):
+def _deidentify_parameters(text: str, start_s: float) -> str:
+    kept = {part: told for part in ("settings", "learnt") if (told := made_by.parameter_section(text, part))}
+    if isinstance(kept.get("learnt", {}).get(_LEARNT_TIME_FIELD), (int, float)):
+        kept["learnt"][_LEARNT_TIME_FIELD] -= start_s
+    for part, names in (("source", ANONYMOUS_SOURCE_FIELDS), (SET_UP, _SETUP_FIELDS), ("provenance", ("revision",))):
+        if told := made_by.parameter_section(text, part):
             kept[part] = {name: told[name] for name in names if name in told}
     return json.dumps(kept, sort_keys=True)

@@ -9,52 +9,52 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.formats.provenance import move_pixels
-from carpus.core.formats.take import Take
-from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.formats.provenance import reproject_pixels
+from carpus.core.formats.take import ExportItem
+from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.session.reader import read_detections
-from carpus.core.session.values import DetectionTable, moments_of
+from carpus.core.session.values import DetectionTable, iter_states
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackedFrame, TrackStatus
 
 
-def write(take: Take, folder: Path) -> list[Path]:
+def write(take: ExportItem, folder: Path) -> list[Path]:
     """Write ``NAME.h5`` with a seal of its own; the file. Raises :class:`OutputExists`."""
     path = folder / f"{take.name}.h5"
     session = take.session
     folder.mkdir(parents=True, exist_ok=True)
     with SessionWriter.create(path, session.header, session.camera, session.calibration) as writer:
-        for frame in _frames(take):
+        for frame in _tracked_frames(take):
             writer.append(frame)
         for event in session.events:
             writer.add_event(event.time_s, event.kind, event.text)
         if session.smoothed is not None and len(session):
-            writer.write_smoothed(session.smoothed)
+            writer.write_motion(session.smoothed)
         if len(session):
-            writer.write_repetitions(repetitions_of(session))
+            writer.write_repetitions(compute_repetitions(session))
     return [path]
 
 
-def _frames(take: Take) -> Iterator[TrackedFrame]:
+def _tracked_frames(take: ExportItem) -> Iterator[TrackedFrame]:
     session = take.session
     markers, quality = session.markers, session.quality
     table = read_detections(session.path)
-    if take.recorded_by is not None and take.recorded_by != session.camera:
-        table = _moved(table, take.recorded_by, session.camera)
+    if take.source_camera is not None and take.source_camera != session.camera:
+        table = _move_detections(table, take.source_camera, session.camera)
     count = len(session.header.protocol.markers)
     no_pixel, no_cov = np.full((count, 2), np.nan), np.full((count, 2, 2), np.nan)
-    for row, moment in enumerate(moments_of(session.motion)):
+    for row, moment in enumerate(iter_states(session.motion)):
         yield TrackedFrame(
             index=row,
             timestamp_s=float(session.timestamp_s[row]),
             status=TrackStatus(int(session.status[row])),
-            moment=moment,
+            kinematics=moment,
             marker_position_cam_m=markers.position_cam_m[row],
             marker_predicted_px=no_pixel,
             marker_predicted_cov_px2=no_cov,
             marker_measured_px=markers.measured_px[row],
             marker_measured_depth_m=markers.measured_depth_m[row],
-            detections=table.of_frame(row),
+            detections=table.get_frame(row),
             dropped_before=int(quality.dropped_before[row]),
             measured_share=quality.measured_share[row],
             nis=float(quality.nis[row]),
@@ -63,8 +63,8 @@ def _frames(take: Take) -> Iterator[TrackedFrame]:
         )
 
 
-def _moved(table: DetectionTable, old: Camera, new: Camera) -> DetectionTable:
+def _move_detections(table: DetectionTable, old: Camera, new: Camera) -> DetectionTable:
     """What was detected as the camera of the copy sees it."""
-    surface, fingers = ((move_pixels(pixel, old, new), depth) for pixel, depth in (table.surface, table.fingers))
-    blobs = replace(table.blobs, pixel=move_pixels(table.blobs.pixel, old, new))
+    surface, fingers = ((reproject_pixels(pixel, old, new), depth) for pixel, depth in (table.surface, table.fingers))
+    blobs = replace(table.blobs, pixel=reproject_pixels(table.blobs.pixel, old, new))
     return DetectionTable(table.frame, blobs, surface, fingers)

@@ -16,24 +16,25 @@ from pathlib import Path
 from carpus.core.errors import ReferenceUnreadable
 from carpus.core.phrase import phrase
 
-MOST_BYTES = 1 << 30
-MOST_LINES_BEFORE = 200
+MAX_BYTES = 1 << 30
+MAX_HEADER_LINE = 200
 """Before the header of a table."""
 _SEPARATORS = ";\t,"
-_NOTHING = ("", "-", "–", "—", "nan", "na", "n/a", "null")
-_PLAIN = str.maketrans("\N{MINUS SIGN}\N{EN DASH}", "--", " \N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}")
-_UNIT = re.compile(r"^(.*?)\s*[(\[]\s*([^()\[\]]*)\s*[)\]]$")
-_CLOCK = re.compile(r"^(?:(\d+):)?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)$")
+_EMPTY_CELLS = ("", "-", "–", "—", "nan", "na", "n/a", "null")
+_PLAIN_CHARACTERS = str.maketrans("\N{MINUS SIGN}\N{EN DASH}", "--", " \N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}")
+_UNIT_PATTERN = re.compile(r"^(.*?)\s*[(\[]\s*([^()\[\]]*)\s*[)\]]$")
+_CLOCK_PATTERN = re.compile(r"^(?:(\d+):)?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)$")
 
 
 @dataclass(frozen=True, slots=True)
 class TextTable:
-    """Cells as texts: ``names`` of the columns, each another one; ``rows`` with a cell for each name; ``line`` of each
+    """Cells as texts: ``names`` of the columns, each another one; ``rows`` with a cell for each name;
+    ``line_numbers`` of each
     row in the file."""
 
     names: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
-    line: tuple[int, ...]
+    line_numbers: tuple[int, ...]
 
     def column(self, name: str) -> list[str]:
         """The cells of a column."""
@@ -48,7 +49,7 @@ class TextTable:
 def read_text(path: Path) -> str:
     """Read a text in UTF-8, UTF-16 or, where it is neither, Windows-1252. Raises :class:`ReferenceUnreadable`."""
     try:
-        if path.stat().st_size > MOST_BYTES:
+        if path.stat().st_size > MAX_BYTES:
             raise ReferenceUnreadable(path, phrase("larger than 1 GB"))
         content = path.read_bytes()
     except OSError as cause:
@@ -64,22 +65,25 @@ def read_text(path: Path) -> str:
         return content.decode("cp1252", errors="replace")
 
 
-def read_table(path: Path, known: Collection[str]) -> TextTable:
-    """Read the table in a file: its header is the line that has one of the ``known`` names (in small letters, without
+def read_table(path: Path, known_names: Collection[str]) -> TextTable:
+    """Read the table in a file: its header is the line that has one of the ``known_names`` names (in small letters,
+    without
     unit), or else the one that most rows of numbers follow. Raises :class:`ReferenceUnreadable`."""
     text = read_text(path)
     separators = _SEPARATORS
     said = re.match(r"\s*\"?sep=(.)\"?[^\n]*\n", text, re.IGNORECASE)
     if said:
         separators, text = said[1], "\n" + text[said.end() :]
-    found = [_table(text, separator, known) for separator in separators]
+    found = [_find_table(text, separator, known_names) for separator in separators]
     best = max((one for one in found if one is not None), key=lambda one: one[0], default=None)
     if best is None:
         raise ReferenceUnreadable(path, phrase("it holds no table"))
     return best[1]
 
 
-def _table(text: str, separator: str, known: Collection[str]) -> tuple[tuple[bool, int, int], TextTable] | None:
+def _find_table(
+    text: str, separator: str, known_names: Collection[str]
+) -> tuple[tuple[bool, int, int], TextTable] | None:
     """The table by one separator, and how likely it is one; None where there is none."""
     reader = csv.reader(io.StringIO(text), delimiter=separator, skipinitialspace=True)
     try:
@@ -88,16 +92,16 @@ def _table(text: str, separator: str, known: Collection[str]) -> tuple[tuple[boo
         return None
     lines = [(number, cells) for number, cells in lines if any(cells) and not cells[0].startswith("#")]
     best: tuple[tuple[bool, int, int], int] | None = None
-    for k, (_, cells) in enumerate(lines[:MOST_LINES_BEFORE]):
+    for k, (_, cells) in enumerate(lines[:MAX_HEADER_LINE]):
         named = [cell for cell in cells if cell]
         if len(named) < 2 or any(math.isfinite(parse_number(cell)) for cell in named) or k + 1 == len(lines):
             continue
         follow = 0
-        for _, row in lines[k + 1 : k + 1 + MOST_LINES_BEFORE]:
+        for _, row in lines[k + 1 : k + 1 + MAX_HEADER_LINE]:
             if len(row) < len(named) or not any(math.isfinite(parse_number(cell)) for cell in row):
                 break
             follow += 1
-        score = (any(split_unit(cell)[0].lower() in known for cell in named), follow, len(named))
+        score = (any(split_unit(cell)[0].lower() in known_names for cell in named), follow, len(named))
         if best is None or score > best[0]:
             best = score, k
     if best is None or not (best[0][0] or best[0][1]):
@@ -121,7 +125,7 @@ def split_unit(name: str) -> tuple[str, str]:
     (('Flexion', '°'), ('time', 'ms'), ('flexion', ''))
     """
     name = re.sub(r" #\d+$", "", name)
-    found = _UNIT.match(name)
+    found = _UNIT_PATTERN.match(name)
     return (found[1], found[2].strip().lower()) if found and found[1] else (name, "")
 
 
@@ -131,7 +135,7 @@ def parse_number(text: str | None) -> float:
     >>> parse_number("−0,5"), parse_number("1.234,5"), parse_number("1,234.5"), parse_number("45°")
     (-0.5, 1234.5, 1234.5, 45.0)
     """
-    plain = (text or "").strip().translate(_PLAIN).rstrip("°")
+    plain = (text or "").strip().translate(_PLAIN_CHARACTERS).rstrip("°")
     if "," in plain:
         point = plain.rfind(".") > plain.rfind(",")
         plain = plain.replace(",", "") if point else plain.replace(".", "").replace(",", ".")
@@ -142,9 +146,9 @@ def parse_number(text: str | None) -> float:
     return value if math.isfinite(value) and "_" not in plain else math.nan
 
 
-def is_no_number(text: str) -> bool:
+def is_non_numeric(text: str) -> bool:
     """Whether a cell holds something that is neither a number nor a way to say that there is none."""
-    return text.strip().lower() not in _NOTHING and not math.isfinite(parse_number(text))
+    return text.strip().lower() not in _EMPTY_CELLS and not math.isfinite(parse_number(text))
 
 
 def parse_times(cells: Sequence[str]) -> tuple[list[float], bool]:
@@ -165,7 +169,7 @@ def parse_times(cells: Sequence[str]) -> tuple[list[float], bool]:
 
 
 def _clock_s(text: str) -> float:
-    found = _CLOCK.match(text)
+    found = _CLOCK_PATTERN.match(text)
     if found:
         return 3600.0 * int(found[1] or 0) + 60.0 * int(found[2]) + float(found[3].replace(",", "."))
     try:

@@ -10,40 +10,40 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.new_output import new_bytes, new_json
-from carpus.core.formats.take import CAMERA_AXES, Take, number
+from carpus.core.formats.new_output import open_new_file, write_new_json
+from carpus.core.formats.take import CAMERA_AXES, ExportItem, format_number
 
 ROTATION_UP_CAM = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Camera axes to OpenSim's: the camera looks down, so that away from it is down; X stays, Z is down the picture."""
-SAYS = (
+ROTATION_DESCRIPTION = (
     "X_trc = x, Y_trc = -z, Z_trc = y of the colour camera's axes: Y up for a camera that looks straight down; "
     "right-handed, origin at the camera"
 )
 
 
-def write(take: Take, folder: Path) -> list[Path]:
+def write(take: ExportItem, folder: Path) -> list[Path]:
     """Write ``NAME.trc`` and ``NAME.trc.json``; the files."""
     path = folder / f"{take.name}.trc"
-    with new_bytes(path) as file:
+    with open_new_file(path) as file:
         for line in _lines(take, path.name):
             file.write(line.encode() + b"\n")
-    even = take.even
+    even = take.times
     about = {
         "units": "mm",
         "estimate": "filter",
         "rotation_trc_from_camera": ROTATION_UP_CAM,
-        "rotation_means": SAYS,
+        "rotation_means": ROTATION_DESCRIPTION,
         "camera_axes": CAMERA_AXES,
         "sampling": f"even, {even.rate_hz:.6g} a second, on the line between two pictures; empty across a gap",
         "time_zero_timestamp_s": even.start_s,
         "missing": "empty cell",
         "provenance": take.provenance,
     }
-    return [path, new_json(folder / f"{take.name}.trc.json", about)]
+    return [path, write_new_json(folder / f"{take.name}.trc.json", about)]
 
 
-def _lines(take: Take, name: str) -> Iterator[str]:
-    session, even = take.session, take.even
+def _lines(take: ExportItem, name: str) -> Iterator[str]:
+    session, even = take.session, take.times
     markers = session.header.protocol.markers
     rate, count = f"{even.rate_hz:.6f}", len(even)
     yield f"PathFileType\t4\t(X/Y/Z)\t{name}"
@@ -52,9 +52,9 @@ def _lines(take: Take, name: str) -> Iterator[str]:
     yield "Frame#\tTime\t" + "\t\t\t".join(markers) + "\t\t"
     yield "\t\t" + "\t".join(f"{axis}{m + 1}" for m in range(len(markers)) for axis in "XYZ")
     yield ""
-    place_mm = 1e3 * even.of(session.markers.position_cam_m) @ ROTATION_UP_CAM.T
+    place_mm = 1e3 * even.interpolate(session.markers.position_cam_m) @ ROTATION_UP_CAM.T
     for k, (time_s, row) in enumerate(
-        zip(even.since_start_s.tolist(), place_mm.reshape(count, 3 * len(markers)), strict=True)
+        zip(even.elapsed_s.tolist(), place_mm.reshape(count, 3 * len(markers)), strict=True)
     ):
         # A tab ends the row: OpenSim drops an empty cell that nothing follows, and then misses a column.
-        yield f"{k + 1}\t{time_s:.6f}\t" + "".join(f"{number(value, 4)}\t" for value in row.tolist())
+        yield f"{k + 1}\t{time_s:.6f}\t" + "".join(f"{format_number(value, 4)}\t" for value in row.tolist())

@@ -150,4 +150,4 @@ def palm_axes(palm_disc_m: FloatArray, side: Side) -> FloatArray:
     """Axes X, Y, Z of W as columns (3, 3) for palm discs (6, 3) in any frame, Z by the side of the hand."""
     wrist, _, mcp2, mcp3, _, mcp5 = palm_disc_m
     dorsal = np.cross(mcp3 - wrist, mcp2 - mcp5)
-    return wrist_axes(palm_disc_m, towards=dorsal if side == "right" else -dorsal)
+    return wrist_axes(palm_disc_m, dorsal_direction=dorsal if side == "right" else -dorsal)

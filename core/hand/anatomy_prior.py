@@ -29,8 +29,8 @@ DigitModel = Callable[[FloatArray, FloatArray], FloatArray]
 """Constants (..., 11) and angles (..., 4 or 5) to the digit's three discs (..., 3, 3) in W."""
 
 _DOWN = np.array([1.0, 1.0, -1.0])
-_MOST_STEPS = 30
-_SETTLED = 1e-4
+_MAX_ITERATIONS = 30
+_COST_TOLERANCE = 1e-4
 _DIFFERENCE_STEP = 1e-5  # metres and radians alike
 
 
@@ -87,11 +87,16 @@ def fit_digit(
     a disc (or its depth) is not known.
     """
     problem = _Problem(
-        model, constants.mean, _inverse(constants.covariance), angles.mean, _inverse(angles.covariance),
-        np.where(np.isfinite(disc_m), disc_m, 0.0), _square_root(information_m2),
-    )  # fmt: skip
-    c, q = _minimum(problem, constants.mean, angles.mean)
-    c_covariance, q_covariance, cross = _NormalEquations.at(problem, c, q).covariances()
+        model,
+        constants.mean,
+        _invert_symmetric(constants.covariance),
+        angles.mean,
+        _invert_symmetric(angles.covariance),
+        np.where(np.isfinite(disc_m), disc_m, 0.0),
+        _compute_square_root(information_m2),
+    )
+    c, q = _minimise(problem, constants.mean, angles.mean)
+    c_covariance, q_covariance, cross = _NormalEquations.from_problem(problem, c, q).covariances()
     residual_m = model(c, q) - problem.disc_m
     return DigitFit(Gaussian(c, c_covariance), Gaussian(q, q_covariance), cross, residual_m, problem.cost(c, q))
 
@@ -120,21 +125,21 @@ class _Problem:
         return float(np.sum(self.residual(c, q) ** 2) + prior)
 
 
-def _minimum(problem: _Problem, c: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _minimise(problem: _Problem, c: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Levenberg-Marquardt from constants (11,) and angles (F, m)."""
     now, damping = problem.cost(c, q), 1e-4
-    normal = _NormalEquations.at(problem, c, q)
-    for _ in range(_MOST_STEPS):
+    normal = _NormalEquations.from_problem(problem, c, q)
+    for _ in range(_MAX_ITERATIONS):
         step_c, step_q = normal.step(damping)
         after = problem.cost(c + step_c, q + step_q)
         if after > now:
             damping *= 10.0
             continue
-        is_settled = now - after <= _SETTLED * (1.0 + now)
+        is_settled = now - after <= _COST_TOLERANCE * (1.0 + now)
         c, q, now, damping = c + step_c, q + step_q, after, damping * 0.1
         if is_settled:
             break
-        normal = _NormalEquations.at(problem, c, q)
+        normal = _NormalEquations.from_problem(problem, c, q)
     return c, q
 
 
@@ -149,7 +154,7 @@ class _NormalEquations:
     gradient_q: FloatArray
 
     @staticmethod
-    def at(problem: _Problem, c: FloatArray, q: FloatArray) -> _NormalEquations:
+    def from_problem(problem: _Problem, c: FloatArray, q: FloatArray) -> _NormalEquations:
         p, m = len(c), q.shape[1]
         moves = _DIFFERENCE_STEP * np.eye(p + m)
         c_moved = np.concatenate((c + moves[:, :p], c - moves[:, :p]))
@@ -182,18 +187,18 @@ class _NormalEquations:
         """Posterior covariances of the constants (11, 11), of the angles of each pose (F, m, m), and between the
         angles and the constants (F, m, 11)."""
         carried = np.linalg.solve(self.qq, np.swapaxes(self.cq, 1, 2))
-        covariance = _inverse(self.cc - np.einsum("fij,fjk->ik", self.cq, carried))
+        covariance = _invert_symmetric(self.cc - np.einsum("fij,fjk->ik", self.cq, carried))
         cross = -carried @ covariance
-        return covariance, _inverse(self.qq) - np.asarray(cross @ np.swapaxes(carried, 1, 2)), cross
+        return covariance, _invert_symmetric(self.qq) - np.asarray(cross @ np.swapaxes(carried, 1, 2)), cross
 
 
-def _inverse(matrix: FloatArray) -> FloatArray:
+def _invert_symmetric(matrix: FloatArray) -> FloatArray:
     """Inverse of symmetric matrices (..., n, n), symmetric to the last digit."""
     inverse = np.linalg.inv(matrix)
     return np.asarray(0.5 * (inverse + np.swapaxes(inverse, -1, -2)), dtype=np.float64)
 
 
-def _square_root(information: FloatArray) -> FloatArray:
+def _compute_square_root(information: FloatArray) -> FloatArray:
     """S with S'S = information, also where it is singular."""
     value, vector = np.linalg.eigh(information)
     return np.asarray(np.sqrt(np.maximum(value, 0.0))[..., None] * np.swapaxes(vector, -1, -2))
@@ -204,7 +209,7 @@ DIGIT_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
 
 _PALM = list(PALM_SITES)
 
-_FIXED = 1e-6
+_FIXED_SD = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -292,18 +297,18 @@ def constants_prior(
     ``lateral_sd_m`` and ``depth_sd_m`` (5,) tell how well the discs CMC1 and MCP2 to MCP5, from which the digits start,
     were measured: an error there stays in the joint centres below them.
     """
-    mean, covariance = constants_of(average), np.zeros((5, 11, 11))
+    mean, covariance = constants_from_anatomy(average), np.zeros((5, 11, 11))
     shares = np.array([prior.bone_share, prior.bone_share, prior.last_bone_share])
     has_offsets = bool(np.any(average.skin_offset_m))
     for chain in range(5):
-        sd = np.full(11, _FIXED)
+        sd = np.full(11, _FIXED_SD)
         sd[:3] = shares * mean[chain, :3]
         sd[3] = prior.fan_rad if chain else prior.thumb_fan_rad
         if not chain:
             sd[4] = prior.thumb_roll_rad
         # A disc of the thumb is turned away from a camera above by the thumb's roll.
         stays_m = prior.depth_stays_m * np.array([1.0, *(3 * [1.0 if chain else math.cos(mean[0, 4])])])
-        sd[7:] = np.maximum(stays_m, _FIXED)
+        sd[7:] = np.maximum(stays_m, _FIXED_SD)
         heights = np.zeros(11)
         if has_offsets:
             sd[5:7] = np.hypot(prior.finger_start_m if chain else prior.thumb_start_m, lateral_sd_m[chain])
@@ -314,7 +319,7 @@ def constants_prior(
     return Gaussian(mean, covariance)
 
 
-def constants_of(hand: HandAnatomy) -> FloatArray:
+def constants_from_anatomy(hand: HandAnatomy) -> FloatArray:
     """The constants (5, 11) of a hand's digits, in the order of ``DIGIT_CONSTANTS``."""
     constants = np.zeros((5, 11))
     constants[:, :3] = np.vstack((hand.thumb_length_m, hand.finger_length_m))
@@ -345,7 +350,7 @@ FLEXIONS = ((2, 4), (1, 2))
 """Which angles of the thumb, and of a finger, are flexions that a straight finger has not; a finger's end follows."""
 
 
-def neutral_prior(chain: int, prior: AnatomyPrior, dip_free: bool, is_straight: bool | None = None) -> Gaussian:
+def angles_prior(chain: int, prior: AnatomyPrior, dip_free: bool, is_straight: bool | None = None) -> Gaussian:
     """Angles of one digit at the neutral pose, (1, 4 or 5): a relaxed hand on average; where a person said whether the
     finger lies straight, with that."""
     bent = prior.relaxed_flexion_rad

@@ -15,11 +15,11 @@ WRIST, CMC1, MCP2, MCP3, MCP4, MCP5 = range(6)
 _PLANE = [WRIST, MCP2, MCP3, MCP4, MCP5]
 
 
-def wrist_axes(palm_m: FloatArray, towards: FloatArray) -> FloatArray:
+def wrist_axes(palm_m: FloatArray, dorsal_direction: FloatArray) -> FloatArray:
     """Axes of W as columns (..., 3, 3), in the frame in which the six palm discs (..., 6, 3) are given.
 
     X from WRIST to MCP3; Z the normal of the least-squares plane through WRIST and MCP2..MCP5, made
-    perpendicular to X and turned to the side of the direction ``towards`` (3,); Y = Z x X.
+    perpendicular to X and turned to the side of the direction ``dorsal_direction`` (3,); Y = Z x X.
     """
     x = palm_m[..., MCP3, :] - palm_m[..., WRIST, :]
     x = x / np.linalg.norm(x, axis=-1, keepdims=True)
@@ -27,19 +27,19 @@ def wrist_axes(palm_m: FloatArray, towards: FloatArray) -> FloatArray:
     centred = plane - plane.mean(axis=-2, keepdims=True)
     _, vectors = np.linalg.eigh(np.swapaxes(centred, -1, -2) @ centred)
     normal = vectors[..., :, 0]
-    side = np.where(normal @ towards < 0.0, -1.0, 1.0)
+    side = np.where(normal @ dorsal_direction < 0.0, -1.0, 1.0)
     normal = normal * side[..., None]
     z = normal - np.sum(normal * x, axis=-1, keepdims=True) * x
     z = z / np.linalg.norm(z, axis=-1, keepdims=True)
     return np.stack((x, np.cross(z, x), z), axis=-1)
 
 
-def wrist_axes_sensitivity(palm_m: FloatArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
+def wrist_axes_sensitivity(palm_m: FloatArray, dorsal_direction: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Axes (3, 3) and the turn of those axes per metre of each disc coordinate, (3, 18), in W."""
     step_m = 1e-5
     moved = np.broadcast_to(palm_m, (19, 6, 3)).reshape(19, 18).copy()
     moved[np.arange(1, 19), np.arange(18)] += step_m
-    axes = wrist_axes(moved.reshape(19, 6, 3), towards)
+    axes = wrist_axes(moved.reshape(19, 6, 3), dorsal_direction)
     turned = axes[0].T @ axes[1:]
     vee = 0.5 * np.stack(
         (turned[:, 2, 1] - turned[:, 1, 2], turned[:, 0, 2] - turned[:, 2, 0], turned[:, 1, 0] - turned[:, 0, 1])
@@ -47,9 +47,9 @@ def wrist_axes_sensitivity(palm_m: FloatArray, towards: FloatArray) -> tuple[Flo
     return axes[0], vee / step_m
 
 
-ZYZ_UNDEFINED_BELOW_RAD = math.radians(3.0)
+ZYZ_MIN_BETA_RAD = math.radians(3.0)
 """Below this beta only alpha + gamma is defined (reference 1.4)."""
-ZYZ_MOST_SD_RAD = math.radians(30.0)
+ZYZ_MAX_SD_RAD = math.radians(30.0)
 """An alpha or gamma known worse than this is not given."""
 
 
@@ -158,7 +158,7 @@ def zyz_with_sd(
     )
     variance = np.einsum("...ij,...jk,...ik->...i", by_turn, turn, by_turn)
     sd = np.sqrt(np.maximum(variance, 0.0))
-    apart = np.isfinite(beta) & (sd[..., [0, 2]] <= ZYZ_MOST_SD_RAD).all(axis=-1)
+    apart = np.isfinite(beta) & (sd[..., [0, 2]] <= ZYZ_MAX_SD_RAD).all(axis=-1)
     known = np.stack((apart, np.isfinite(beta), apart), axis=-1)
     zyz = np.where(known, np.stack((alpha, beta, gamma), axis=-1), np.nan)
     total = np.arctan2(r[..., 1, 0] - r[..., 0, 1], r[..., 0, 0] + r[..., 1, 1])
@@ -172,10 +172,10 @@ def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:
     alpha = np.arctan2(r[..., 1, 2], r[..., 0, 2])
     gamma = np.arctan2(r[..., 2, 1], -r[..., 2, 0])
     zyz = np.stack((alpha, beta, gamma), axis=-1)
-    return np.where((beta < ZYZ_UNDEFINED_BELOW_RAD)[..., None], np.nan, zyz)
+    return np.where((beta < ZYZ_MIN_BETA_RAD)[..., None], np.nan, zyz)
 
 
-def read_one(rotation_w2_w0: FloatArray, side: Side) -> tuple[FloatArray, FloatArray, FloatArray]:
+def compute_wrist_angles(rotation_w2_w0: FloatArray, side: Side) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Clinical angles (3,) of one rotation (3, 3), their derivatives (3, 3) by a small turn, and ZYZ angles (3,).
 
     The three functions above in plain numbers: every frame needs all of them for one rotation, and arrays of one
@@ -191,6 +191,6 @@ def read_one(rotation_w2_w0: FloatArray, side: Side) -> tuple[FloatArray, FloatA
     rates = np.array([[0.0, s * sx / c, s * cx / c], [0.0, cx, -sx], [s, sx * t, cx * t]])
     beta = math.atan2(math.hypot(r02, r12), r22)
     zyz = (math.nan,) * 3
-    if beta >= ZYZ_UNDEFINED_BELOW_RAD:
+    if beta >= ZYZ_MIN_BETA_RAD:
         zyz = (math.atan2(r12, r02), beta, math.atan2(r21, -r20))
     return np.array((s * psi, theta + 0.0, s * phi)), rates, np.array(zyz)

@@ -18,11 +18,11 @@ from carpus.core.hand.anatomy_prior import (
     AnatomyPrior,
     DigitModel,
     Gaussian,
+    angles_prior,
     average_hand,
     constants_prior,
     finger_model,
     fit_digit,
-    neutral_prior,
     thumb_model,
     with_constants,
 )
@@ -31,21 +31,22 @@ from carpus.core.types import FloatArray, Side
 
 
 @dataclass(frozen=True, slots=True)
-class SeenDiscs:
+class MeasuredDiscs:
     """Discs measured in F poses, in W of the hand's own side (W2 of each pose).
 
-    ``disc_m`` (F, 21, 3), NaN when not seen; without a depth, any point on the line of sight. ``view`` (F, 21, 3)
+    ``disc_m`` (F, 21, 3), NaN when not seen; without a depth, any point on the line of sight. ``line_of_sight`` (F,
+    21, 3)
     unit line of sight; ``lateral_sd_m`` and ``depth_sd_m`` (F, 21) across and along it, infinite without a depth.
     """
 
     disc_m: FloatArray
-    view: FloatArray
+    line_of_sight: FloatArray
     lateral_sd_m: FloatArray
     depth_sd_m: FloatArray
 
     def information_m2(self) -> FloatArray:
         """Inverse covariance of each disc, (F, 21, 3, 3), zero where not seen."""
-        along = np.where(np.isfinite(self.view), self.view, 0.0)
+        along = np.where(np.isfinite(self.line_of_sight), self.line_of_sight, 0.0)
         outer = along[..., :, None] * along[..., None, :]
         across, depth = self.lateral_sd_m[..., None, None] ** -2, self.depth_sd_m[..., None, None] ** -2
         information = across * (np.eye(3) - outer) + depth * outer
@@ -60,7 +61,7 @@ class AnatomyFit:
     ``digits`` constants of the thumb and of fingers 2 to 5, mean (5, 11) and covariance (5, 11, 11), in the order of
     ``DIGIT_CONSTANTS``; ``neutral_digits`` angles of each digit at the neutral pose (4 or 5, zero is the straight
     chain) and ``neutral_cross`` (4 or 5, 11) how they err together with its constants; ``residual_m`` (21, 3) model
-    minus measurement at the neutral pose; ``absurd_depth`` markers whose depth was left out.
+    minus measurement at the neutral pose; ``outlier_depth`` markers whose depth was left out.
     """
 
     anatomy: HandAnatomy
@@ -68,53 +69,53 @@ class AnatomyFit:
     neutral_digits: tuple[Gaussian, ...]
     neutral_cross: tuple[FloatArray, ...]
     residual_m: FloatArray
-    absurd_depth: tuple[str, ...]
+    outlier_depth: tuple[str, ...]
 
 
 def fit_anatomy(
-    seen: SeenDiscs,
+    measured: MeasuredDiscs,
     side: Side,
     *,
     dip_free: bool = False,
     skin_offsets: bool = True,
     prior: AnatomyPrior | None = None,
-    straight: tuple[bool, ...] = (),
+    is_straight: tuple[bool, ...] = (),
 ) -> AnatomyFit:
     """The hand whose discs were measured at the neutral pose (F = 1); the palm's discs are taken as measured.
 
-    With ``skin_offsets=False`` discs are joints, as in the papers. ``straight`` (5,) or empty: what a person says of
+    With ``skin_offsets=False`` discs are joints, as in the papers. ``is_straight`` (5,) or empty: what a person says of
     each finger.
     """
     prior = prior or AnatomyPrior()
-    lateral = seen.lateral_sd_m.copy()
+    lateral = measured.lateral_sd_m.copy()
     if skin_offsets:
         moving = np.array(DIGIT_DISCS)
         lateral[:, moving] = np.hypot(lateral[:, moving], prior.stuck_off_m)
-    seen = replace(seen, lateral_sd_m=lateral)
-    disc, information = _right_handed(seen, side)
-    blind = replace(seen, depth_sd_m=np.full_like(seen.depth_sd_m, np.inf))
+    measured = replace(measured, lateral_sd_m=lateral)
+    disc, information = _right_handed(measured, side)
+    blind = replace(measured, depth_sd_m=np.full_like(measured.depth_sd_m, np.inf))
     across = _right_handed(blind, side)[1]
     average = average_hand(disc[0], side, skin_offsets)
     starts = list(PALM_SITES[1:])
-    digits = constants_prior(average, prior, seen.lateral_sd_m[0, starts], seen.depth_sd_m[0, starts])
+    digits = constants_prior(average, prior, measured.lateral_sd_m[0, starts], measured.depth_sd_m[0, starts])
     absurd: list[str] = []
     neutral: list[Gaussian] = []
     for chain, discs in enumerate(DIGIT_DISCS):
         own = list(discs)
         known = Gaussian(digits.mean[chain], digits.covariance[chain])
         model = _digit_model(average, chain)
-        is_straight = straight[chain] if straight else None
-        angles = _not_evidently_bent(
-            model, known, chain, prior, dip_free, is_straight, disc[:, own], information[:, own]
+        is_chain_straight = is_straight[chain] if is_straight else None
+        angles = _choose_angles_prior(
+            model, known, chain, prior, dip_free, is_chain_straight, disc[:, own], information[:, own]
         )
         neutral.append(angles)
-        for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own], prior):
+        for i in _find_depth_outliers(model, known, angles, disc[:, own], information[:, own], across[:, own], prior):
             information[:, own[i]] = across[:, own[i]]
             absurd.append(SITES[own[i]])
-    return _fitted(average, digits, neutral, disc, information, tuple(absurd))
+    return _fit_digits(average, digits, neutral, disc, information, tuple(absurd))
 
 
-def _not_evidently_bent(
+def _choose_angles_prior(
     model: DigitModel,
     known: Gaussian,
     chain: int,
@@ -126,8 +127,8 @@ def _not_evidently_bent(
 ) -> Gaussian:
     """What is expected of a digit's angles at the neutral pose, unless its discs show a finger that is bent: then it is
     not drawn towards straight."""
-    expected = neutral_prior(chain, prior, dip_free, is_straight)
-    bent = neutral_prior(chain, prior, dip_free, is_straight=False)
+    expected = angles_prior(chain, prior, dip_free, is_straight)
+    bent = angles_prior(chain, prior, dip_free, is_straight=False)
     shown = fit_digit(model, known, bent, disc_m, information_m2).angles
     flexions = list(FLEXIONS[min(chain, 1)])
     off = (shown.mean - expected.mean)[0, flexions]
@@ -135,7 +136,7 @@ def _not_evidently_bent(
     return bent if (np.abs(off) > prior.evidently_sd * np.sqrt(variance)).any() else expected
 
 
-def _fitted(
+def _fit_digits(
     hand: HandAnatomy,
     average: Gaussian,
     neutral: list[Gaussian],
@@ -163,7 +164,7 @@ def _fitted(
         neutral_digits=tuple(Gaussian(fit.angles.mean[0], fit.angles.covariance[0]) for fit in fits),
         neutral_cross=tuple(fit.cross[0] for fit in fits),
         residual_m=residual * _mirror(hand.side),
-        absurd_depth=absurd_depth,
+        outlier_depth=absurd_depth,
     )
 
 
@@ -171,7 +172,7 @@ def _mirror(side: Side) -> FloatArray:
     return np.array([1.0, 1.0 if side == "right" else -1.0, 1.0])
 
 
-def _right_handed(seen: SeenDiscs, side: Side) -> tuple[FloatArray, FloatArray]:
+def _right_handed(seen: MeasuredDiscs, side: Side) -> tuple[FloatArray, FloatArray]:
     """Discs (F, 21, 3) and their information (F, 21, 3, 3) in axes of a right hand."""
     mirror = _mirror(side)
     return seen.disc_m * mirror, seen.information_m2() * mirror[:, None] * mirror
@@ -182,7 +183,7 @@ def _digit_model(hand: HandAnatomy, chain: int) -> DigitModel:
     return finger_model(disc) if chain else thumb_model(disc)
 
 
-def _absurd_depths(
+def _find_depth_outliers(
     model: DigitModel,
     constants: Gaussian,
     angles: Gaussian,

@@ -34,7 +34,7 @@ def supination_from_thumb_up(pronosupination_rad: FloatArray) -> FloatArray:
     return np.asarray(math.pi - np.mod(math.pi - turned, 2.0 * math.pi))
 
 
-def as_read_rad(name: str, angle_rad: FloatArray) -> FloatArray:
+def to_clinical_rad(name: str, angle_rad: FloatArray) -> FloatArray:
     """An angle by its name in every file as a clinician reads it: ``pronosupination`` from thumb up, others as they
     are."""
     return supination_from_thumb_up(angle_rad) if name == WRIST_ANGLES[PRONOSUPINATION] else angle_rad
@@ -46,43 +46,43 @@ def pronosupination_from_palm_down(supination_rad: FloatArray) -> FloatArray:
     return np.asarray(math.pi - np.mod(math.pi - turned, 2.0 * math.pi))
 
 
-def is_from_thumb_up(exercise: Exercise) -> bool:
+def is_counted_from_thumb_up(exercise: Exercise) -> bool:
     """Whether pronation and supination are read in an exercise: it trains them, or no angle in particular."""
     return exercise.angle == PRONOSUPINATION or (exercise.angle is None and not exercise.joint)
 
 
-def read_wrist_angles(angles_rad: FloatArray, exercise: Exercise, start_angles_rad: FloatArray) -> FloatArray:
+def to_clinical_wrist_angles(angles_rad: FloatArray, exercise: Exercise, start_angles_rad: FloatArray) -> FloatArray:
     """The wrist's angles (..., 3) of a file as a clinician reads them.
 
     The third is supination from thumb up, or the rotation from the start where it accompanies another movement.
     """
     out = np.array(angles_rad, dtype=np.float64)
     turned = out[..., PRONOSUPINATION]
-    if is_from_thumb_up(exercise):
+    if is_counted_from_thumb_up(exercise):
         out[..., PRONOSUPINATION] = supination_from_thumb_up(turned)
     else:
         out[..., PRONOSUPINATION] = turned - start_angles_rad[PRONOSUPINATION]
     return out
 
 
-def axis_deg(angle: int, exercise: Exercise) -> tuple[float, float]:
+def axis_limits_deg(angle: int, exercise: Exercise) -> tuple[float, float]:
     """Outermost tick and end of the fixed axis of a wrist angle as it is read in an exercise."""
-    if angle == PRONOSUPINATION and is_from_thumb_up(exercise):
+    if angle == PRONOSUPINATION and is_counted_from_thumb_up(exercise):
         return PALM_DOWN_PRONATION_DEG, 1.3 * PALM_DOWN_PRONATION_DEG
     return AXIS_TICK_DEG[angle], AXIS_LIMIT_DEG[angle]
 
 
-def read_targets_deg(stored_deg: tuple[float, float], exercise: Exercise | None) -> tuple[float, float]:
+def to_clinical_targets_deg(stored_deg: tuple[float, float], exercise: Exercise | None) -> tuple[float, float]:
     """Targets as a clinician reads them, of stored ones, which are counted from the palm down; NaN for none."""
-    return _moved(stored_deg, exercise, -PALM_DOWN_PRONATION_DEG)
+    return _shift_targets(stored_deg, exercise, -PALM_DOWN_PRONATION_DEG)
 
 
-def stored_targets_deg(read_deg: tuple[float, float], exercise: Exercise | None) -> tuple[float, float]:
-    """The inverse of :func:`read_targets_deg`."""
-    return _moved(read_deg, exercise, PALM_DOWN_PRONATION_DEG)
+def from_clinical_targets_deg(read_deg: tuple[float, float], exercise: Exercise | None) -> tuple[float, float]:
+    """The inverse of :func:`to_clinical_targets_deg`."""
+    return _shift_targets(read_deg, exercise, PALM_DOWN_PRONATION_DEG)
 
 
-def _moved(deg: tuple[float, float], exercise: Exercise | None, by_deg: float) -> tuple[float, float]:
+def _shift_targets(deg: tuple[float, float], exercise: Exercise | None, by_deg: float) -> tuple[float, float]:
     if exercise is None or exercise.angle != PRONOSUPINATION:
         return deg
     return deg[0] + by_deg, deg[1] + by_deg

@@ -45,11 +45,11 @@ def joint_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
     """
     out = np.empty((*angles_rad.shape[:-1], 21, 3))
     out[..., _PALM, :] = anatomy.palm_joint_m
-    thumb = _Thumb.at(anatomy.fan_rad[0], anatomy.thumb_roll_rad, anatomy.thumb_length_m, angles_rad[..., :5])
+    thumb = _Thumb.from_angles(anatomy.fan_rad[0], anatomy.thumb_roll_rad, anatomy.thumb_length_m, angles_rad[..., :5])
     out[..., 2:5, :] = anatomy.palm_joint_m[1] + thumb.joints @ thumb.metacarpal
-    finger = _Finger.at(anatomy.fan_rad[1:], anatomy.finger_length_m, finger_angles(angles_rad))
-    _digits(out)[..., 1:, :] = finger.placed(anatomy.palm_joint_m[2:], finger.along, finger.up)
-    return _on_its_side(anatomy, out)
+    finger = _Finger.from_angles(anatomy.fan_rad[1:], anatomy.finger_length_m, finger_angles(angles_rad))
+    _finger_view(out)[..., 1:, :] = finger.place_points(anatomy.palm_joint_m[2:], finger.along, finger.up)
+    return _mirror_to_side(anatomy, out)
 
 
 def disc_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
@@ -70,10 +70,10 @@ def disc_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
         hand.thumb_offset_m,
         angles_rad[..., :5],
     )
-    _digits(out)[..., 1:, :] = finger_discs(
+    _finger_view(out)[..., 1:, :] = finger_discs(
         hand.palm_joint_m[2:], hand.fan_rad[1:], hand.finger_length_m, hand.finger_offset_m, finger_angles(angles_rad)
     )
-    return _on_its_side(hand, out)
+    return _mirror_to_side(hand, out)
 
 
 def finger_angles(angles_rad: FloatArray) -> FloatArray:
@@ -93,12 +93,12 @@ def finger_discs(
     ``knuckle_m`` (..., 3) MCP joint centre; ``fan_rad`` (...); ``length_m`` (..., 3) PP MP DP; ``offset_m``
     (..., 3) of the three discs; ``angles_rad`` (..., 4) abduction, MCP, PIP, DIP flexion.
     """
-    finger = _Finger.at(fan_rad, length_m, angles_rad)
+    finger = _Finger.from_angles(fan_rad, length_m, angles_rad)
     normal_pitch = finger.pitch + 0.0
     normal_pitch[..., :2] = 0.5 * (finger.pitch[..., :2] + finger.pitch[..., 1:])
     along = finger.along + offset_m * np.sin(normal_pitch)
     up = finger.up + offset_m * np.cos(normal_pitch)
-    return finger.placed(knuckle_m, along, up)
+    return finger.place_points(knuckle_m, along, up)
 
 
 def thumb_discs(
@@ -114,7 +114,7 @@ def thumb_discs(
     ``cmc_m`` (..., 3) CMC joint centre; ``fan_rad`` rho1 and ``roll_rad`` tau (...); ``length_m`` (..., 3) MC PP DP;
     ``offset_m`` (..., 3) of the three discs; ``angles_rad`` (..., 5).
     """
-    thumb = _Thumb.at(fan_rad, roll_rad, length_m, angles_rad)
+    thumb = _Thumb.from_angles(fan_rad, roll_rad, length_m, angles_rad)
     half = 0.5 / np.cos(0.5 * angles_rad[..., 4, None])
     stand = thumb.normals.copy()
     stand[..., 1, :] = half * (thumb.normals[..., 1, :] + thumb.normals[..., 2, :])
@@ -130,17 +130,17 @@ def segment_frames(anatomy: HandAnatomy, angles_rad: FloatArray) -> SegmentFrame
     wrist, mcp3 = SITES.index("WRIST"), SITES.index("MCP3")
     start[..., 0, :], end[..., 0, :] = joints[..., wrist, :], joints[..., mcp3, :]
     start[..., 1:4, :], end[..., 1:4, :] = joints[..., 1:4, :], joints[..., 2:5, :]
-    start[..., 4:, :] = _digits(joints)[..., :3, :].reshape(*shape, 12, 3)
-    end[..., 4:, :] = _digits(joints)[..., 1:, :].reshape(*shape, 12, 3)
+    start[..., 4:, :] = _finger_view(joints)[..., :3, :].reshape(*shape, 12, 3)
+    end[..., 4:, :] = _finger_view(joints)[..., 1:, :].reshape(*shape, 12, 3)
 
     normal = np.empty((*shape, 16, 3))
     normal[..., 0, :] = (0.0, 0.0, 1.0)
-    thumb = _Thumb.at(anatomy.fan_rad[0], anatomy.thumb_roll_rad, anatomy.thumb_length_m, angles_rad[..., :5])
+    thumb = _Thumb.from_angles(anatomy.fan_rad[0], anatomy.thumb_roll_rad, anatomy.thumb_length_m, angles_rad[..., :5])
     normal[..., 1:4, :] = thumb.normals @ thumb.metacarpal
-    finger = _Finger.at(anatomy.fan_rad[1:], anatomy.finger_length_m, finger_angles(angles_rad))
-    dorsal = finger.placed(np.zeros(3), np.sin(finger.pitch), np.cos(finger.pitch))
+    finger = _Finger.from_angles(anatomy.fan_rad[1:], anatomy.finger_length_m, finger_angles(angles_rad))
+    dorsal = finger.place_points(np.zeros(3), np.sin(finger.pitch), np.cos(finger.pitch))
     normal[..., 4:, :] = dorsal.reshape(*shape, 12, 3)
-    return SegmentFrames(start, end, _on_its_side(anatomy, normal))
+    return SegmentFrames(start, end, _mirror_to_side(anatomy, normal))
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,14 +157,14 @@ class _Finger:
     up: FloatArray
 
     @staticmethod
-    def at(fan_rad: FloatArray, length_m: FloatArray, angles_rad: FloatArray) -> _Finger:
+    def from_angles(fan_rad: FloatArray, length_m: FloatArray, angles_rad: FloatArray) -> _Finger:
         azimuth = (fan_rad + angles_rad[..., 0])[..., None]
         pitch = np.cumsum(angles_rad[..., 1:], axis=-1)
         along = np.cumsum(length_m * np.cos(pitch), axis=-1)
         up = -np.cumsum(length_m * np.sin(pitch), axis=-1)
         return _Finger(np.cos(azimuth), np.sin(azimuth), pitch, along, up)
 
-    def placed(self, knuckle_m: FloatArray, along: FloatArray, up: FloatArray) -> FloatArray:
+    def place_points(self, knuckle_m: FloatArray, along: FloatArray, up: FloatArray) -> FloatArray:
         """Points (..., 3, 3) in W from their places in the finger's plane."""
         knuckle = knuckle_m[..., None, :]
         x = knuckle[..., 0] + self.cos_azimuth * along
@@ -185,7 +185,7 @@ class _Thumb:
     normals: FloatArray
 
     @staticmethod
-    def at(
+    def from_angles(
         fan_rad: float | FloatArray, roll_rad: float | FloatArray, length_m: FloatArray, angles_rad: FloatArray
     ) -> _Thumb:
         azimuth = fan_rad + angles_rad[..., 0]
@@ -222,12 +222,12 @@ class _Thumb:
         return _Thumb(metacarpal, joints, normals)
 
 
-def _digits(points: FloatArray) -> FloatArray:
+def _finger_view(points: FloatArray) -> FloatArray:
     """The points of fingers 2 to 5 as a view (..., 4 fingers, 4 points, 3) into (..., 21, 3)."""
     return points[..., 5:, :].reshape(*points.shape[:-2], 4, 4, 3)
 
 
-def _on_its_side(anatomy: HandAnatomy, vectors: FloatArray) -> FloatArray:
+def _mirror_to_side(anatomy: HandAnatomy, vectors: FloatArray) -> FloatArray:
     if anatomy.side == "left":
         vectors[..., 1] *= -1.0
     return vectors

@@ -38,7 +38,7 @@ def joint_angle_names(dip_free: bool = False, digits: Sequence[int] = DIGITS) ->
     return thumb + tuple(name.format(k) for k in DIGITS[1:] if k in digits for name in long_finger)
 
 
-def joint_discs(joint: str) -> tuple[str, str]:
+def markers_at_joint(joint: str) -> tuple[str, str]:
     """The discs that show a joint angle: the one at its joint and the next one outwards.
 
     >>> joint_discs("PIP4_flexion")
@@ -119,7 +119,7 @@ def protocol_names() -> tuple[str, ...]:
     return tuple(protocol.name for protocol in PROTOCOLS)
 
 
-def protocol_named(name: str) -> MarkerProtocol:
+def get_protocol(name: str) -> MarkerProtocol:
     """The protocol of that name; raises :class:`ProtocolUnknown`."""
     for protocol in PROTOCOLS:
         if protocol.name == name:

@@ -10,7 +10,7 @@ MDC95_FACTOR = 1.96 * math.sqrt(2.0)
 """Minimal detectable change at 95 % per standard error of measurement: 2.77."""
 TOTAL_ACTIVE_MOTION = "TAM"
 
-_LIMIT_DEG = {
+_DEFAULT_LIMIT_DEG = {
     "flexion": 10.0,
     "deviation": 8.0,
     "pronosupination": 15.0,
@@ -39,18 +39,19 @@ def change_limit_rad(angle_name: str) -> float:
     """
     joint, _, motion = angle_name.partition("_")
     for key in (angle_name, joint, f"{joint.rstrip('2345')}_{motion}"):
-        if key in _LIMIT_DEG:
-            return math.radians(_LIMIT_DEG[key])
+        if key in _DEFAULT_LIMIT_DEG:
+            return math.radians(_DEFAULT_LIMIT_DEG[key])
     raise KeyError(angle_name)
 
 
-FEWEST_PEOPLE = 10
+MIN_PEOPLE = 10
 """With fewer a study puts no limit in force (clinical reference 6)."""
 
 
 @dataclass(frozen=True, slots=True)
 class MeasuredLimit:
-    """One figure of a study, degrees: ``movement`` of an angle or joint ``of``; ``sem_deg`` the standard error of
+    """One figure of a study, degrees: ``movement`` of an angle or joint ``angle_or_joint``; ``sem_deg`` the standard
+    error of
     measurement, ``mdc95_deg`` the smallest real change, with their 95 % intervals."""
 
     of: str
@@ -81,14 +82,14 @@ class RetestStudy:
     limits: tuple[MeasuredLimit, ...]
 
     @property
-    def in_force(self) -> bool:
+    def is_in_force(self) -> bool:
         """Whether enough people were measured for any of its limits."""
-        return any(limit.people >= FEWEST_PEOPLE for limit in self.limits)
+        return any(limit.people >= MIN_PEOPLE for limit in self.limits)
 
-    def limit_deg(self, of: str, movement: str) -> float | None:
+    def limit_deg(self, angle_or_joint: str, movement: str) -> float | None:
         """The clinic's limit of one figure, None where it has none of its own."""
-        same = (one for one in self.limits if (one.of, one.movement) == (of, movement))
-        return next((one.limit_deg for one in same if one.people >= FEWEST_PEOPLE), None)
+        same = (one for one in self.limits if (one.of, one.movement) == (angle_or_joint, movement))
+        return next((one.limit_deg for one in same if one.people >= MIN_PEOPLE), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +102,7 @@ class ErrorLimits:
         """The study in force for sessions of a kind."""
         wanted = (protocol, exercise, angle_order)
         same = (one for one in self.studies if (one.protocol, one.exercise, one.angle_order) == wanted)
-        return next((one for one in same if one.in_force), None)
+        return next((one for one in same if one.is_in_force), None)
 
 
 DEFAULT_LIMITS = ErrorLimits()

@@ -7,21 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.measures.noise import STAYING_SHARE_OF_SD, clean_cutoff_hz, extreme, moving_noise
+from carpus.core.measures.noise import STATIC_SHARE_OF_SD, clean_cutoff_hz, estimate_extreme, moving_noise
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.types import FloatArray
 
-FEWEST_FOR_SPREAD = 3
+MIN_REPETITIONS_FOR_SD = 3
 """Fewer repetitions are listed one by one: they have no mean worth a spread."""
-USUAL_STROKE_S = 1.5
+DEFAULT_STROKE_S = 1.5
 """How long one movement takes where nothing was repeated."""
-LEAST_VALID_SHARE = 0.7
+MIN_VALID_SHARE = 0.7
 """A repetition seen for less than this is not measured."""
 
 
 @dataclass(frozen=True, slots=True)
-class RangeFigure:
+class RangeStatistics:
     """One quantity over the repetitions: ``values`` (n,), in order, rad.
 
     ``measurement_sd`` is the standard deviation of one value by the filter's own account, calibration included.
@@ -39,7 +39,7 @@ class RangeFigure:
     @property
     def spread_sd(self) -> float:
         """Standard deviation between repetitions, NaN below three."""
-        return float(self.values.std(ddof=1)) if len(self.values) >= FEWEST_FOR_SPREAD else math.nan
+        return float(self.values.std(ddof=1)) if len(self.values) >= MIN_REPETITIONS_FOR_SD else math.nan
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +51,9 @@ class MotionRange:
     further out ("limited by camera view").
     """
 
-    arc: RangeFigure
-    maximum: RangeFigure
-    minimum: RangeFigure
+    arc: RangeStatistics
+    maximum: RangeStatistics
+    minimum: RangeStatistics
     repetitions: int
     top_limited: bool
     bottom_limited: bool
@@ -68,50 +68,50 @@ def motion_range(
     the filter; then what noise adds to an extreme is taken off it, and each figure has the deviation of its noise. None
     for an angle without noise of tracking.
     """
-    usable = [rep for rep in repetitions if rep.valid_share >= LEAST_VALID_SHARE]
+    usable = [rep for rep in repetitions if rep.valid_share >= MIN_VALID_SHARE]
     windows = [(rep.start_s, rep.end_s) for rep in usable]
-    if not windows and angle.finite.any():
+    if not windows and angle.is_finite.any():
         windows = [(float(angle.time_s[0]), float(angle.time_s[-1]))]
     tops, bottoms, top_sds, bottom_sds = [], [], [], []
     top_limited = bottom_limited = False
     for start_s, end_s in windows:
-        part, part_sd = angle.between(start_s, end_s), sd.between(start_s, end_s)
-        if not part.finite.any():
+        part, part_sd = angle.crop(start_s, end_s), sd.crop(start_s, end_s)
+        if not part.is_finite.any():
             continue
         top, bottom = int(np.nanargmax(part.value)), int(np.nanargmin(part.value))
         highest, lowest = float(part.value[top]), float(part.value[bottom])
         highest_sd, lowest_sd = float(part_sd.value[top]), float(part_sd.value[bottom])
         if smoothed is not None:
-            stroke_s = 0.5 * (end_s - start_s) if usable else USUAL_STROKE_S
+            stroke_s = 0.5 * (end_s - start_s) if usable else DEFAULT_STROKE_S
             noise = moving_noise(part, part_sd, stroke_s, smoothed=smoothed)
             clean = low_pass(part, clean_cutoff_hz(stroke_s)).value
-            highest, moving = extreme(part.value, clean, noise, part.rate_hz, largest=True)
-            highest_sd = math.hypot(moving, STAYING_SHARE_OF_SD * highest_sd)
-            lowest, moving = extreme(part.value, clean, noise, part.rate_hz, largest=False)
-            lowest_sd = math.hypot(moving, STAYING_SHARE_OF_SD * lowest_sd)
+            highest, moving = estimate_extreme(part.value, clean, noise, part.rate_hz, largest=True)
+            highest_sd = math.hypot(moving, STATIC_SHARE_OF_SD * highest_sd)
+            lowest, moving = estimate_extreme(part.value, clean, noise, part.rate_hz, largest=False)
+            lowest_sd = math.hypot(moving, STATIC_SHARE_OF_SD * lowest_sd)
         tops.append(highest)
         bottoms.append(lowest)
         top_sds.append(highest_sd)
         bottom_sds.append(lowest_sd)
-        top_limited |= angle.beside_gap(float(part.time_s[top]))
-        bottom_limited |= angle.beside_gap(float(part.time_s[bottom]))
+        top_limited |= angle.is_near_gap(float(part.time_s[top]))
+        bottom_limited |= angle.is_near_gap(float(part.time_s[bottom]))
     top_values, bottom_values = np.array(tops), np.array(bottoms)
     top_sd, bottom_sd = _rms(top_sds), _rms(bottom_sds)
     return MotionRange(
-        arc=_figure(top_values - bottom_values, math.hypot(top_sd, bottom_sd), largest=True),
-        maximum=_figure(top_values, top_sd, largest=True),
-        minimum=_figure(bottom_values, bottom_sd, largest=False),
+        arc=_range_statistics(top_values - bottom_values, math.hypot(top_sd, bottom_sd), largest=True),
+        maximum=_range_statistics(top_values, top_sd, largest=True),
+        minimum=_range_statistics(bottom_values, bottom_sd, largest=False),
         repetitions=len(usable),
         top_limited=top_limited,
         bottom_limited=bottom_limited,
     )
 
 
-def _figure(values: FloatArray, measurement_sd: float, *, largest: bool) -> RangeFigure:
+def _range_statistics(values: FloatArray, measurement_sd: float, *, largest: bool) -> RangeStatistics:
     best = math.nan
     if len(values):
         best = float(values.max() if largest else values.min())
-    return RangeFigure(values, best, measurement_sd)
+    return RangeStatistics(values, best, measurement_sd)
 
 
 def _rms(values: list[float]) -> float:

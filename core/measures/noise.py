@@ -17,27 +17,27 @@ from carpus.core.types import FloatArray
 
 MOVING_SHARE_OF_SD = 0.5
 """Share of a stated standard deviation that moves from frame to frame; the rest is the calibration's."""
-STAYING_SHARE_OF_SD = math.sqrt(1.0 - MOVING_SHARE_OF_SD**2)
+STATIC_SHARE_OF_SD = math.sqrt(1.0 - MOVING_SHARE_OF_SD**2)
 FILTER_CORRELATION_S, SMOOTHER_CORRELATION_S = 0.06, 0.20
-SPEED_ERROR_SHARE = 0.01
+TARGET_SPEED_ERROR_SHARE = 0.01
 """Noise that a speed may have, as a share of the stroke's peak; more smoothing is chosen until it has no more."""
-MOST_SPEED_ERROR_SHARE = 0.10
+MAX_SPEED_ERROR_SHARE = 0.10
 """A stroke that needs more than this is too slow to judge."""
-SPECTRUM_NOISE = 0.012
+MAX_SPECTRUM_NOISE = 0.012
 """Noise that the normalised spectrum of a speed may have where SPARC follows it down to 0.05."""
-HIGHEST_CUTOFF_HZ = 10.0
+MAX_CUTOFF_HZ = 10.0
 CYCLES_PER_STROKE = 3.0
 """A low-pass below this many cycles in the time of a stroke takes more than 1 % off a minimum-jerk peak."""
-CYCLES_PER_PART = 2.0
+CYCLES_PER_SUBMOVEMENT = 2.0
 """The spectrum of a sub-movement has fallen to nothing at so many cycles in its time."""
-LOWEST_OF_JERKS_HZ = 2.0
+MIN_SMOOTHNESS_CUTOFF_HZ = 2.0
 """Sub-movements last half a second or less: with less of the spectrum a jerky movement would pass for a smooth one."""
-LOWEST_FOR_JERK_HZ = 4.0
-JERK_NOISE = 0.01
+MIN_JERK_CUTOFF_HZ = 4.0
+MAX_JERK_NOISE = 0.01
 _DRAWS = 64
-TURNING_IN_SDS = 4.0
+HOLD_BAND_SDS = 4.0
 """A hold, seen through noise, stays within so many of its standard deviations of its extreme."""
-DIP_IN_SDS = 4.0
+DIP_SDS = 4.0
 """Noise makes dips in a speed up to so many of its standard deviations."""
 
 
@@ -59,11 +59,11 @@ class Noise:
         density = 4.0 * self.sd**2 / self.correlation_s * turn2 / (1.0 + turn2)
         return math.sqrt(0.5 * density * duration_s) / arc
 
-    def above(self, cutoff_hz: float) -> float:
+    def share_above_cutoff(self, cutoff_hz: float) -> float:
         """Share of its variance above a frequency."""
         return 1.0 - 2.0 / math.pi * math.atan(2.0 * math.pi * cutoff_hz * self.correlation_s)
 
-    def drawn(self, count: int, rate_hz: float) -> FloatArray:
+    def sample(self, count: int, rate_hz: float) -> FloatArray:
         """Always the same samples of it, (draws, count)."""
         chance = np.random.default_rng(0)
         kept = math.exp(-1.0 / (rate_hz * self.correlation_s))
@@ -79,21 +79,22 @@ def moving_noise(part: Signal, sd: Signal, stroke_s: float, *, smoothed: bool) -
     correlation_s = SMOOTHER_CORRELATION_S if smoothed else FILTER_CORRELATION_S
     known = sd.value[np.isfinite(sd.value)]
     stated = Noise(MOVING_SHARE_OF_SD * float(np.median(known)) if len(known) else 0.0, correlation_s)
-    return no_more_than_seen(stated, part, stroke_s)
+    return limit_noise(stated, part, stroke_s)
 
 
-def no_more_than_seen(most: Noise, part: Signal, stroke_s: float) -> Noise:
-    """The noise of a part, (n,) or (n, k) of which the worst column counts: ``most``, or less where the part is quieter
+def limit_noise(stated: Noise, part: Signal, stroke_s: float) -> Noise:
+    """The noise of a part, (n,) or (n, k) of which the worst column counts: ``stated``, or less where the part is
+    quieter
     above all that a movement of ``stroke_s`` has."""
     split_hz = clean_cutoff_hz(stroke_s)
     if split_hz >= 0.4 * part.rate_hz:
-        return most
+        return stated
     left = part.value - low_pass(part, split_hz).value
     left = left[np.isfinite(left).all(axis=tuple(range(1, left.ndim)))]
     if not len(left):
-        return most
-    seen = float(np.sqrt(np.mean(left**2, axis=0)).max()) / math.sqrt(most.above(split_hz))
-    return Noise(min(most.sd, seen), most.correlation_s)
+        return stated
+    seen = float(np.sqrt(np.mean(left**2, axis=0)).max()) / math.sqrt(stated.share_above_cutoff(split_hz))
+    return Noise(min(stated.sd, seen), stated.correlation_s)
 
 
 def clean_cutoff_hz(stroke_s: float) -> float:
@@ -104,44 +105,47 @@ def clean_cutoff_hz(stroke_s: float) -> float:
 def cutoff_for_speed(noise: Noise, peak_speed: float, stroke_s: float) -> float:
     """Cut-off (Hz) of the low-pass for a speed; NaN where the stroke is too slow to judge."""
     lowest = CYCLES_PER_STROKE / stroke_s
-    if noise.speed_sd(lowest) > MOST_SPEED_ERROR_SHARE * peak_speed:
+    if noise.speed_sd(lowest) > MAX_SPEED_ERROR_SHARE * peak_speed:
         return math.nan
-    if lowest >= HIGHEST_CUTOFF_HZ:
+    if lowest >= MAX_CUTOFF_HZ:
         return lowest
-    tried = np.geomspace(HIGHEST_CUTOFF_HZ, lowest, 40)
-    return float(next((hz for hz in tried if noise.speed_sd(hz) <= SPEED_ERROR_SHARE * peak_speed), lowest))
+    tried = np.geomspace(MAX_CUTOFF_HZ, lowest, 40)
+    return float(next((hz for hz in tried if noise.speed_sd(hz) <= TARGET_SPEED_ERROR_SHARE * peak_speed), lowest))
 
 
-def highest_cutoff_for_speed(noise: Noise, peak_speed: float) -> float:
+def max_cutoff_for_speed(noise: Noise, peak_speed: float) -> float:
     """The highest cut-off (Hz) at which a stroke's speed can still be told from the noise; 0 where none is."""
-    tried = np.geomspace(HIGHEST_CUTOFF_HZ, 0.1, 80)
-    return float(next((hz for hz in tried if noise.speed_sd(hz) <= MOST_SPEED_ERROR_SHARE * peak_speed), 0.0))
+    tried = np.geomspace(MAX_CUTOFF_HZ, 0.1, 80)
+    return float(next((hz for hz in tried if noise.speed_sd(hz) <= MAX_SPEED_ERROR_SHARE * peak_speed), 0.0))
 
 
-def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float, part_s: float = math.inf) -> float:
-    """Cut-off (Hz) of the low-pass for SPARC of a stroke whose quickest part, if it has stops, takes ``part_s``; NaN
+def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float, submovement_s: float = math.inf) -> float:
+    """Cut-off (Hz) of the low-pass for SPARC of a stroke whose quickest part, if it has stops, takes
+    ``submovement_s``; NaN
     where noise would be taken for jerk: in a stroke with stops, with its long spectrum, twice as much is little."""
-    lowest = max(CYCLES_PER_STROKE / stroke_s, CYCLES_PER_PART / part_s, LOWEST_OF_JERKS_HZ)
-    if lowest >= HIGHEST_CUTOFF_HZ:
+    lowest = max(CYCLES_PER_STROKE / stroke_s, CYCLES_PER_SUBMOVEMENT / submovement_s, MIN_SMOOTHNESS_CUTOFF_HZ)
+    if lowest >= MAX_CUTOFF_HZ:
         return lowest
-    tried = np.geomspace(HIGHEST_CUTOFF_HZ, lowest, 40)
-    most = SPECTRUM_NOISE * (2.0 if math.isfinite(part_s) else 1.0)
+    tried = np.geomspace(MAX_CUTOFF_HZ, lowest, 40)
+    most = MAX_SPECTRUM_NOISE * (2.0 if math.isfinite(submovement_s) else 1.0)
     return float(next((hz for hz in tried if noise.spectrum_share(hz, stroke_s, arc) <= most), math.nan))
 
 
-def cutoff_for_jerk(noise: Noise, part_arc: float, part_s: float, stroke_s: float) -> float:
+def cutoff_for_jerk(noise: Noise, submovement_arc: float, submovement_s: float, stroke_s: float) -> float:
     """Cut-off (Hz) below which noise has at most a small share of the least jerk (720 arc^2 / T^5) that a stroke with
     such a quickest part can have; NaN where that leaves nothing to compare with published figures."""
-    lowest = max(CYCLES_PER_STROKE / part_s, LOWEST_FOR_JERK_HZ)
+    lowest = max(CYCLES_PER_STROKE / submovement_s, MIN_JERK_CUTOFF_HZ)
     if not noise.sd > 0.0:
-        return max(HIGHEST_CUTOFF_HZ, lowest)
-    least = JERK_NOISE * 720.0 * part_arc**2 / part_s**5 / max(stroke_s, part_s)
+        return max(MAX_CUTOFF_HZ, lowest)
+    least = MAX_JERK_NOISE * 720.0 * submovement_arc**2 / submovement_s**5 / max(stroke_s, submovement_s)
     plateau = 4.0 * noise.sd**2 / noise.correlation_s * (2.0 * math.pi) ** 4 / 5.0
-    found = min(float((least / plateau) ** 0.2), max(HIGHEST_CUTOFF_HZ, lowest))
+    found = min(float((least / plateau) ** 0.2), max(MAX_CUTOFF_HZ, lowest))
     return found if found >= lowest else math.nan
 
 
-def extreme(part: FloatArray, clean: FloatArray, noise: Noise, rate_hz: float, *, largest: bool) -> tuple[float, float]:
+def estimate_extreme(
+    part: FloatArray, clean: FloatArray, noise: Noise, rate_hz: float, *, largest: bool
+) -> tuple[float, float]:
     """Largest or smallest angle (n,) of a part without what noise adds to it, and its standard deviation.
 
     The largest of noisy values lies too far out, the further the longer a hand holds: so it is the mean of the middle
@@ -154,9 +158,9 @@ def extreme(part: FloatArray, clean: FloatArray, noise: Noise, rate_hz: float, *
         curve = sign * part
     top = int(np.nanargmax(curve))
     with np.errstate(invalid="ignore"):
-        near = curve >= curve[top] - TURNING_IN_SDS * noise.sd
+        near = curve >= curve[top] - HOLD_BAND_SDS * noise.sd
     first = top - int(np.argmin(near[top::-1])) + 1 if not near[: top + 1].all() else 0
     last = top + int(np.argmin(near[top:])) if not near[top:].all() else len(near)
     quarter = (last - first) // 4
     middle = part[first + quarter : last - quarter]
-    return float(middle.mean()), float(noise.drawn(len(middle), rate_hz).mean(axis=1).std())
+    return float(middle.mean()), float(noise.sample(len(middle), rate_hz).mean(axis=1).std())

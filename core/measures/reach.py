@@ -11,27 +11,27 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core.measures.noise import (
-    DIP_IN_SDS,
-    HIGHEST_CUTOFF_HZ,
-    LOWEST_OF_JERKS_HZ,
+    DIP_SDS,
+    MAX_CUTOFF_HZ,
+    MIN_SMOOTHNESS_CUTOFF_HZ,
     Noise,
     cutoff_for_smoothness,
     cutoff_for_speed,
-    no_more_than_seen,
+    limit_noise,
 )
-from carpus.core.measures.repetitions import LEAST_RANGE_RAD, Stroke, find_repetitions
+from carpus.core.measures.repetitions import MIN_RANGE_RAD, Stroke, find_repetitions
 from carpus.core.measures.signals import Signal, low_pass, rate_of_change
-from carpus.core.measures.speed import LEAST_PEAK_M_S, MOVING_SHARE, sparc, speed_peaks
+from carpus.core.measures.speed import MIN_PEAK_M_S, ONSET_SPEED_SHARE, count_speed_peaks, sparc
 from carpus.core.types import FloatArray
 
-SHORTEST_CHORD_M = 0.050
-LEAST_RISE_M_S = 0.020
+MIN_CHORD_M = 0.050
+MIN_PEAK_RISE_M_S = 0.020
 WRIST_NOISE = {True: Noise(0.0005, 0.08), False: Noise(0.0007, 0.05)}
 """The most that the WRIST disc's place is off from frame to frame, looked back at (True) and live; what is systematic
 of its error goes with the movement. Fitted to simulated reaches with truth, pictures included, at 0.65 to 0.75 m."""
 TIP_NOISE = {True: Noise(0.0012, 0.12), False: Noise(0.0017, 0.08)}
 """The same of a tip of the fingers in the hand's own axes."""
-QUIET = Noise(0.0, 1.0)
+NO_NOISE = Noise(0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,32 +51,32 @@ class PathMeasures:
 
 
 def measure_path(
-    position: Signal, start_s: float, end_s: float, cutoff_hz: float = math.inf, noise: Noise = QUIET
+    position: Signal, start_s: float, end_s: float, cutoff_hz: float = math.inf, noise: Noise = NO_NOISE
 ) -> PathMeasures:
     """Measures of a position (n, 3), metres, from onset ``start_s`` to offset ``end_s``.
 
     Noise lengthens a path, so it is low-passed at ``cutoff_hz``; smoothness and peaks as much as ``noise`` asks for.
     """
     smooth = low_pass(position, cutoff_hz)
-    part = smooth.between(start_s, end_s)
-    if len(part.time_s) < 2 or not part.finite.all():
+    part = smooth.crop(start_s, end_s)
+    if len(part.time_s) < 2 or not part.is_finite.all():
         return PathMeasures()
     length = float(np.linalg.norm(np.diff(part.value, axis=0), axis=1).sum())
     chord = float(np.linalg.norm(part.value[-1] - part.value[0]))
-    speed = speed_of(smooth, start_s, end_s)
+    speed = compute_speed(smooth, start_s, end_s)
     for_smoothness = cutoff_for_smoothness(noise, length, end_s - start_s)
     for_peaks = _cutoff_for_peaks(noise, cutoff_hz)
     peaks = spectrum = math.nan
     if not math.isnan(for_peaks):
-        units = speed_of(low_pass(position, for_peaks), start_s, end_s)
-        dip = DIP_IN_SDS * noise.speed_sd(min(for_peaks, HIGHEST_CUTOFF_HZ))
-        peaks = float(speed_peaks(units, part.rate_hz, LEAST_RISE_M_S, least_dip=dip)) or math.nan
+        units = compute_speed(low_pass(position, for_peaks), start_s, end_s)
+        dip = DIP_SDS * noise.speed_sd(min(for_peaks, MAX_CUTOFF_HZ))
+        peaks = float(count_speed_peaks(units, part.rate_hz, MIN_PEAK_RISE_M_S, min_dip=dip)) or math.nan
     if not math.isnan(for_smoothness):
-        whole = speed_of(low_pass(position, for_smoothness), start_s, end_s)
-        spectrum = sparc(whole, part.rate_hz, LEAST_PEAK_M_S)
+        whole = compute_speed(low_pass(position, for_smoothness), start_s, end_s)
+        spectrum = sparc(whole, part.rate_hz, MIN_PEAK_M_S)
     return PathMeasures(
         length_m=length,
-        straightness=length / chord if chord >= SHORTEST_CHORD_M else math.nan,
+        straightness=length / chord if chord >= MIN_CHORD_M else math.nan,
         peak_speed_m_s=float(speed.max()),
         time_to_peak_share=float(np.argmax(speed)) / (len(speed) - 1),
         peaks=peaks,
@@ -84,115 +84,118 @@ def measure_path(
     )
 
 
-def _cutoff_for_peaks(noise: Noise, most_hz: float) -> float:
+def _cutoff_for_peaks(noise: Noise, max_hz: float) -> float:
     """The highest cut-off at which noise alone makes no unit; NaN where that would take units away too."""
     if not noise.sd > 0.0:
-        return most_hz
-    top = min(max(most_hz, LOWEST_OF_JERKS_HZ), HIGHEST_CUTOFF_HZ)
-    tried = np.geomspace(top, LOWEST_OF_JERKS_HZ, 40)
-    return float(next((hz for hz in tried if DIP_IN_SDS * noise.speed_sd(hz) <= LEAST_RISE_M_S), math.nan))
+        return max_hz
+    top = min(max(max_hz, MIN_SMOOTHNESS_CUTOFF_HZ), MAX_CUTOFF_HZ)
+    tried = np.geomspace(top, MIN_SMOOTHNESS_CUTOFF_HZ, 40)
+    return float(next((hz for hz in tried if DIP_SDS * noise.speed_sd(hz) <= MIN_PEAK_RISE_M_S), math.nan))
 
 
-def speed_of(position: Signal, start_s: float = -math.inf, end_s: float = math.inf) -> FloatArray:
+def compute_speed(position: Signal, start_s: float = -math.inf, end_s: float = math.inf) -> FloatArray:
     """Speeds (n,) of a position (n, 3) between two times, metres per second."""
-    return np.asarray(np.linalg.norm(rate_of_change(position).between(start_s, end_s).value, axis=1))
+    return np.asarray(np.linalg.norm(rate_of_change(position).crop(start_s, end_s).value, axis=1))
 
 
-LEAST_REACH_M = 0.05
+MIN_REACH_M = 0.05
 """A shorter way is no reach (the chord that straightness asks for)."""
-HOME_S = 0.5
+START_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """One way out (``outward``) or back, from 5 % to 5 % of its peak speed, with its path.
+    """One way out (``is_outward``) or back, from 5 % to 5 % of its peak speed, with its path.
 
-    Of some no more is known than from which turning point to which they go: ``too_slow``, whose speed is lost in the
-    noise, and ``hidden``, of which a part was not seen.
+    Of some no more is known than from which turning point to which they go: ``is_too_slow``, whose speed is lost in the
+    noise, and ``is_occluded``, of which a part was not seen.
     """
 
-    outward: bool
+    is_outward: bool
     start_s: float
     end_s: float
     path: PathMeasures
-    too_slow: bool = False
-    hidden: bool = False
+    is_too_slow: bool = False
+    is_occluded: bool = False
 
     @property
     def movement_time_s(self) -> float:
         """NaN where the speed, and so its beginning and end, is not known."""
-        return math.nan if self.too_slow or self.hidden else self.end_s - self.start_s
+        return math.nan if self.is_too_slow or self.is_occluded else self.end_s - self.start_s
 
 
 def find_reaches(
-    position: Signal, towards: FloatArray | None = None, noise: Noise = QUIET, unseen_s: FloatArray | None = None
+    position: Signal, direction: FloatArray | None = None, noise: Noise = NO_NOISE, occluded_s: FloatArray | None = None
 ) -> tuple[Reach, ...]:
     """Ways out and back of a position (n, 3) as tracked, metres, from where it was in the first half second.
 
-    How much each is smoothed the noise decides: at most ``noise``, and no more than is seen. With ``towards`` (3,), for
+    How much each is smoothed the noise decides: at most ``noise``, and no more than is seen. With ``direction`` (3,),
+    for
     a point that swings to both sides of where it was: to and fro along the line on which it moves most, out being the
-    way that goes with that direction. ``unseen_s`` (g, 2) from when to when the point was hidden, though tracked.
+    way that goes with that direction. ``occluded_s`` (g, 2) from when to when the point was hidden, though tracked.
     """
-    unseen = position.gaps_s if unseen_s is None else np.vstack((position.gaps_s, unseen_s))
+    unseen = position.gaps_s if occluded_s is None else np.vstack((position.gaps_s, occluded_s))
     smooth = low_pass(position)
-    known = np.flatnonzero(smooth.finite)
+    known = np.flatnonzero(smooth.is_finite)
     if len(known) < 2:
         return ()
     start_s = float(position.time_s[known[0]])
-    home = np.nanmedian(smooth.between(start_s, start_s + HOME_S).value, axis=0)
+    home = np.nanmedian(smooth.crop(start_s, start_s + START_S).value, axis=0)
     away_m = np.linalg.norm(smooth.value - home, axis=1)
-    if towards is not None:
+    if direction is not None:
         places = smooth.value[known]
         line = np.linalg.svd(places - places.mean(axis=0), full_matrices=False)[2][0]
-        away_m = (smooth.value - home) @ (line if float(line @ towards) >= 0.0 else -line)
+        away_m = (smooth.value - home) @ (line if float(line @ direction) >= 0.0 else -line)
     # Counted as an angle is, whose least range stands for the least reach.
-    strokes = find_repetitions(replace(position, value=away_m * (LEAST_RANGE_RAD / LEAST_REACH_M))).strokes
-    found = (_reach(position, smooth, stroke, noise, unseen) for stroke in strokes if not stroke.half)
+    strokes = find_repetitions(replace(position, value=away_m * (MIN_RANGE_RAD / MIN_REACH_M))).strokes
+    found = (_measure_reach(position, smooth, stroke, noise, unseen) for stroke in strokes if not stroke.is_half)
     return tuple(reach for reach in found if reach is not None)
 
 
-def _reach(position: Signal, smooth: Signal, stroke: Stroke, most: Noise, unseen_s: FloatArray) -> Reach | None:
-    unknown = Reach(stroke.rising, stroke.start_s, stroke.end_s, PathMeasures())
+def _measure_reach(
+    position: Signal, smooth: Signal, stroke: Stroke, stated_noise: Noise, occluded_s: FloatArray
+) -> Reach | None:
+    unknown = Reach(stroke.is_rising, stroke.start_s, stroke.end_s, PathMeasures())
     # A way may have a stop in it (reach, then lift): the part that counts is found in no more noise than it must be.
-    rough = _from_rest_to_rest(low_pass(position, LOWEST_OF_JERKS_HZ), stroke)
+    rough = _movement_interval(low_pass(position, MIN_SMOOTHNESS_CUTOFF_HZ), stroke)
     if rough is None:
         return None
-    if _overlaps(unseen_s, *rough):
-        return replace(unknown, hidden=True)
-    part = smooth.between(*rough)
+    if _is_overlapping(occluded_s, *rough):
+        return replace(unknown, is_occluded=True)
+    part = smooth.crop(*rough)
     duration_s = max(rough[1] - rough[0], 1.0 / position.rate_hz)
     chord = float(np.linalg.norm(part.value[-1] - part.value[0]))
-    around = position.between(stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
-    noise = no_more_than_seen(most, around, duration_s)
+    around = position.crop(stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
+    noise = limit_noise(stated_noise, around, duration_s)
     # Half as much again as the mean is the least that a movement from rest to rest has for a peak.
     cutoff_hz = cutoff_for_speed(noise, 1.5 * chord / duration_s, duration_s)
     if math.isnan(cutoff_hz):
-        return replace(unknown, too_slow=True)
-    ends = _from_rest_to_rest(low_pass(position, cutoff_hz), stroke)
+        return replace(unknown, is_too_slow=True)
+    ends = _movement_interval(low_pass(position, cutoff_hz), stroke)
     if ends is None:
         return None
-    if _overlaps(unseen_s, *ends):
-        return replace(unknown, hidden=True)
-    return Reach(stroke.rising, *ends, measure_path(position, *ends, cutoff_hz, noise))
+    if _is_overlapping(occluded_s, *ends):
+        return replace(unknown, is_occluded=True)
+    return Reach(stroke.is_rising, *ends, measure_path(position, *ends, cutoff_hz, noise))
 
 
-def _overlaps(unseen_s: FloatArray, start_s: float, end_s: float) -> bool:
-    return bool(((unseen_s[:, 0] <= end_s) & (unseen_s[:, 1] >= start_s)).any())
+def _is_overlapping(occluded_s: FloatArray, start_s: float, end_s: float) -> bool:
+    return bool(((occluded_s[:, 0] <= end_s) & (occluded_s[:, 1] >= start_s)).any())
 
 
-def _from_rest_to_rest(position: Signal, stroke: Stroke) -> tuple[float, float] | None:
+def _movement_interval(position: Signal, stroke: Stroke) -> tuple[float, float] | None:
     """When a stroke's speed leaves 5 % of its peak and comes back to it."""
-    speed = speed_of(position)
+    speed = compute_speed(position)
     inside = (position.time_s >= stroke.start_s) & (position.time_s <= stroke.end_s) & np.isfinite(speed)
     if not inside.any():
         return None
     peak_at = int(np.argmax(np.where(inside, speed, -math.inf)))
-    begin, end = (_slow_at(speed, peak_at, step, MOVING_SHARE * speed[peak_at]) for step in (-1, +1))
+    begin, end = (_find_slow_sample(speed, peak_at, step, ONSET_SPEED_SHARE * speed[peak_at]) for step in (-1, +1))
     # Who turns without stopping is never slow: the turning points end the way at the latest.
     return max(float(position.time_s[begin]), stroke.start_s), min(float(position.time_s[end]), stroke.end_s)
 
 
-def _slow_at(speed: FloatArray, peak_at: int, step: int, level: float) -> int:
+def _find_slow_sample(speed: FloatArray, peak_at: int, step: int, level: float) -> int:
     k = peak_at
     while 0 <= k + step < len(speed) and math.isfinite(speed[k + step]) and speed[k] >= level:
         k += step

@@ -13,13 +13,13 @@ from carpus.core.types import FloatArray, TrackStatus
 
 BoolArray = NDArray[np.bool_]
 
-LONGEST_GAP_S = 0.2
+MAX_FILLED_GAP_S = 0.2
 """Gaps up to this are filled by straight lines, longer ones stay gaps (reference 5)."""
 SPEED_CUTOFF_HZ = 6.0
 """Low-pass before any speed or smoothness is taken (reference 4.4)."""
-_PASSES_APART = (math.sqrt(2.0) - 1.0) ** 0.25
+_TWO_PASS_FACTOR = (math.sqrt(2.0) - 1.0) ** 0.25
 """Cut-off of both passes of a second-order filter against that of each."""
-_SHORTEST_FILTERED = 4
+_MIN_FILTERED_SAMPLES = 4
 """Samples between two gaps below which there is nothing to filter."""
 
 
@@ -38,7 +38,7 @@ class Signal:
     gaps_s: FloatArray
 
     @property
-    def finite(self) -> BoolArray:
+    def is_finite(self) -> BoolArray:
         """Samples (n,) that are no gap."""
         flat = self.value.reshape(len(self.value), math.prod(self.value.shape[1:]))
         return np.asarray(np.isfinite(flat).all(axis=1), dtype=np.bool_)
@@ -46,17 +46,17 @@ class Signal:
     def column(self, k: int) -> Signal:
         return replace(self, value=self.value[:, k])
 
-    def beside_gap(self, time_s: float, reach_s: float = LONGEST_GAP_S) -> bool:
+    def is_near_gap(self, time_s: float, reach_s: float = MAX_FILLED_GAP_S) -> bool:
         """Whether a gap begins or ends within ``reach_s`` of a time."""
         return bool((np.abs(self.gaps_s - time_s) <= reach_s).any())
 
-    def between(self, start_s: float, end_s: float) -> Signal:
+    def crop(self, start_s: float, end_s: float) -> Signal:
         """The samples from ``start_s`` to ``end_s``, both included."""
-        inside = _within(self.time_s, start_s - 0.25 / self.rate_hz, end_s + 0.25 / self.rate_hz)
+        inside = _time_slice(self.time_s, start_s - 0.25 / self.rate_hz, end_s + 0.25 / self.rate_hz)
         return replace(self, time_s=self.time_s[inside], value=self.value[inside])
 
 
-def _within(time_s: FloatArray, start_s: float, end_s: float) -> slice:
+def _time_slice(time_s: FloatArray, start_s: float, end_s: float) -> slice:
     """The times from ``start_s`` to ``end_s``, both included, of rising ones, none where either is not known: a long
     recording is not gone through for each of its repetitions."""
     if not start_s <= end_s:
@@ -64,7 +64,7 @@ def _within(time_s: FloatArray, start_s: float, end_s: float) -> slice:
     return slice(int(time_s.searchsorted(start_s, "left")), int(time_s.searchsorted(end_s, "right")))
 
 
-def even_signal(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | None = None) -> Signal:
+def resample_evenly(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | None = None) -> Signal:
     """Puts samples with their own times (N,) on an even base at the recording's median rate.
 
     ``value`` (N,) or (N, k); ``valid`` bool (N,), a sample with a NaN is invalid anyway. The base runs from the first
@@ -84,10 +84,10 @@ def even_signal(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | N
     base = known[0] + period * np.arange(steps)
     even = np.column_stack([np.interp(base, known, column) for column in samples.T])
     edges = np.concatenate(([timestamp_s[0]], known, [timestamp_s[-1]]))
-    wide = np.flatnonzero(np.diff(edges) > LONGEST_GAP_S + 1.5 * period)
+    wide = np.flatnonzero(np.diff(edges) > MAX_FILLED_GAP_S + 1.5 * period)
     gaps = np.column_stack((edges[wide], edges[wide + 1]))
     for start, end in gaps:
-        even[_within(base, start + 0.25 * period, end - 0.25 * period)] = np.nan
+        even[_time_slice(base, start + 0.25 * period, end - 0.25 * period)] = np.nan
     return Signal(base, even.reshape(steps, *value.shape[1:]), 1.0 / period, count / len(timestamp_s), gaps)
 
 
@@ -101,14 +101,14 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
         return signal
     # Each pass has -1.5 dB at the cut-off, so its own lies higher (Winter 2009), in the bilinear transform's scale;
     # there the filter of second order is these five numbers. To have SciPy design it cost more than to filter.
-    turn = math.tan(math.pi * cutoff_hz / signal.rate_hz) / _PASSES_APART
+    turn = math.tan(math.pi * cutoff_hz / signal.rate_hz) / _TWO_PASS_FACTOR
     under = 1.0 + math.sqrt(2.0) * turn + turn**2
     b = np.array([1.0, 2.0, 1.0]) * (turn**2 / under)
     a = np.array([1.0, 2.0 * (turn**2 - 1.0) / under, (1.0 - math.sqrt(2.0) * turn + turn**2) / under])
     out = np.full_like(signal.value, np.nan)
-    for part in stretches(signal.finite):
+    for part in find_runs(signal.is_finite):
         length = part.stop - part.start
-        if length >= _SHORTEST_FILTERED:
+        if length >= _MIN_FILTERED_SAMPLES:
             from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
 
             out[part] = sps.filtfilt(b, a, signal.value[part], axis=0, padlen=min(9, length - 1))
@@ -121,7 +121,7 @@ def rate_of_change(signal: Signal) -> Signal:
     Plain ones take 3 % off a movement of two cycles a second at 30 samples a second.
     """
     out = np.full_like(signal.value, np.nan)
-    for part in stretches(signal.finite):
+    for part in find_runs(signal.is_finite):
         if part.stop - part.start >= 2:
             value = signal.value[part]
             out[part] = np.gradient(value, 1.0 / signal.rate_hz, axis=0)
@@ -131,20 +131,20 @@ def rate_of_change(signal: Signal) -> Signal:
     return replace(signal, value=out)
 
 
-def stretches(flag: BoolArray) -> list[slice]:
+def find_runs(flag: BoolArray) -> list[slice]:
     """Runs of True in a bool array (n,), as slices in order."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], flag, [False])).astype(np.int8)))
     return [slice(int(start), int(stop)) for start, stop in edges.reshape(-1, 2)]
 
 
-FEWEST_PALM_MARKERS = 4
-STEEPEST_VIEW_RAD = math.radians(70.0)
+MIN_PALM_MARKERS = 4
+MAX_VIEW_TILT_RAD = math.radians(70.0)
 """Tilt of the back of the hand to the camera's axis beyond which a disc is a sliver."""
 SETTLING_S = 0.09
 """Some three pictures."""
-LARGEST_SD_RAD = math.radians(8.0)
+MAX_ANGLE_SD_RAD = math.radians(8.0)
 """An angle less sure than this says nothing about a range (our choice, about half of the change limits)."""
-ZYX_FLEXION_LIMIT_RAD = math.radians(75.0)
+MAX_ZYX_FLEXION_RAD = math.radians(75.0)
 """Beyond this flexion deviation and pro/supination are ill-conditioned: noise gain 1/cos above 3.9."""
 
 
@@ -164,34 +164,34 @@ def valid_view(
 
     ``palm_measured_px`` (N, P, 2) the blobs taken for the palm's markers, NaN where none.
     """
-    seen = np.isfinite(palm_measured_px).all(axis=2).sum(axis=1) >= FEWEST_PALM_MARKERS
+    seen = np.isfinite(palm_measured_px).all(axis=2).sum(axis=1) >= MIN_PALM_MARKERS
     with np.errstate(invalid="ignore"):
-        facing = view_tilt_rad(rotation_w2_w0, rotation_w0_cam) <= STEEPEST_VIEW_RAD
+        facing = view_tilt_rad(rotation_w2_w0, rotation_w0_cam) <= MAX_VIEW_TILT_RAD
     return np.asarray((status == TrackStatus.TRACKED) & seen & facing, dtype=np.bool_)
 
 
-def settled(view: BoolArray, time_s: FloatArray) -> BoolArray:
+def exclude_view_edges(is_visible: BoolArray, time_s: FloatArray) -> BoolArray:
     """Frames (N,) of a view without those just before a hand goes out of it for longer than a gap that is filled, and
     just after it is back: what is told of them rests on few discs at the edge, and may be tens of degrees off."""
-    out = view.copy()
-    for part in stretches(~view):
-        before, after = max(part.start - 1, 0), min(part.stop, len(view) - 1)
-        if time_s[after] - time_s[before] > LONGEST_GAP_S:
+    out = is_visible.copy()
+    for part in find_runs(~is_visible):
+        before, after = max(part.start - 1, 0), min(part.stop, len(is_visible) - 1)
+        if time_s[after] - time_s[before] > MAX_FILLED_GAP_S:
             out &= (time_s < time_s[part.start] - SETTLING_S) | (time_s > time_s[part.stop - 1] + SETTLING_S)
     return out
 
 
-def valid_angle(view: BoolArray, angle_rad: FloatArray, angle_sd_rad: FloatArray) -> BoolArray:
+def valid_angle(is_visible: BoolArray, angle_rad: FloatArray, angle_sd_rad: FloatArray) -> BoolArray:
     """Samples of one angle (N,) that are known and sure enough, among the frames that were seen."""
     with np.errstate(invalid="ignore"):
-        return np.asarray(view & np.isfinite(angle_rad) & (angle_sd_rad <= LARGEST_SD_RAD), dtype=np.bool_)
+        return np.asarray(is_visible & np.isfinite(angle_rad) & (angle_sd_rad <= MAX_ANGLE_SD_RAD), dtype=np.bool_)
 
 
-def valid_wrist_angles(view: BoolArray, angles_rad: FloatArray, angles_sd_rad: FloatArray) -> BoolArray:
+def valid_wrist_angles(is_visible: BoolArray, angles_rad: FloatArray, angles_sd_rad: FloatArray) -> BoolArray:
     """Valid samples (N, 3) of deviation, flexion, pro/supination; the outer two only where flexion is below 75."""
-    valid = np.column_stack([valid_angle(view, angles_rad[:, k], angles_sd_rad[:, k]) for k in range(3)])
+    valid = np.column_stack([valid_angle(is_visible, angles_rad[:, k], angles_sd_rad[:, k]) for k in range(3)])
     with np.errstate(invalid="ignore"):
-        conditioned = np.abs(angles_rad[:, 1]) <= ZYX_FLEXION_LIMIT_RAD
+        conditioned = np.abs(angles_rad[:, 1]) <= MAX_ZYX_FLEXION_RAD
     valid[:, 0] &= conditioned
     valid[:, 2] &= conditioned
     return valid

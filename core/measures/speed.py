@@ -17,48 +17,48 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.measures.noise import (
-    DIP_IN_SDS,
-    HIGHEST_CUTOFF_HZ,
-    LOWEST_OF_JERKS_HZ,
+    DIP_SDS,
+    MAX_CUTOFF_HZ,
+    MIN_SMOOTHNESS_CUTOFF_HZ,
     Noise,
     clean_cutoff_hz,
     cutoff_for_jerk,
     cutoff_for_smoothness,
     cutoff_for_speed,
-    extreme,
-    highest_cutoff_for_speed,
+    estimate_extreme,
+    max_cutoff_for_speed,
     moving_noise,
 )
-from carpus.core.measures.repetitions import LEAST_RANGE_RAD, Stroke
-from carpus.core.measures.signals import SPEED_CUTOFF_HZ, Signal, low_pass, rate_of_change, stretches
+from carpus.core.measures.repetitions import MIN_RANGE_RAD, Stroke
+from carpus.core.measures.signals import SPEED_CUTOFF_HZ, Signal, find_runs, low_pass, rate_of_change
 from carpus.core.types import FloatArray
 
-FEWEST_SAMPLES = 8
-LEAST_PEAK_RAD_S = math.radians(5.0)
-LEAST_PEAK_M_S = 0.010
+MIN_SAMPLES = 8
+MIN_PEAK_RAD_S = math.radians(5.0)
+MIN_PEAK_M_S = 0.010
 _PAD_LEVEL = 4
-_HIGHEST_HZ = 10.0
-_LEAST_AMPLITUDE = 0.05
+_MAX_SPARC_HZ = 10.0
+_MIN_SPARC_AMPLITUDE = 0.05
 
 
-def sparc(speed: FloatArray, rate_hz: float, least_peak: float = 0.0) -> float:
+def sparc(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
     """Spectral arc length, dimensionless, below 0; the nearer to 0 the smoother.
 
     ``-integral_0^wc sqrt((1/wc)^2 + (dV/dw)^2) dw`` of the normalised amplitude spectrum V, zero-padded to
     2^(ceil(log2 n) + 4), up to the last frequency of at most 10 Hz with V of 0.05 or more. NaN below 8 samples, with a
-    gap, or with a peak below ``least_peak``.
+    gap, or with a peak below ``min_peak``.
 
     >>> t = np.arange(-100, 100) / 100
     >>> round(sparc(np.exp(-5 * t**2), 100.0), 5)
     -1.41403
     """
-    if not _measurable(speed, least_peak):
+    if not _is_measurable(speed, min_peak):
         return math.nan
     length = 2 ** (math.ceil(math.log2(len(speed))) + _PAD_LEVEL)
     spectrum = np.abs(np.fft.rfft(speed, length))
     frequency = np.fft.rfftfreq(length, 1.0 / rate_hz)
     spectrum = spectrum / spectrum.max()
-    kept = np.flatnonzero((frequency <= _HIGHEST_HZ) & (spectrum >= _LEAST_AMPLITUDE))
+    kept = np.flatnonzero((frequency <= _MAX_SPARC_HZ) & (spectrum >= _MIN_SPARC_AMPLITUDE))
     curve = spectrum[kept[0] : kept[-1] + 1]
     if len(curve) < 2:
         return math.nan
@@ -66,7 +66,7 @@ def sparc(speed: FloatArray, rate_hz: float, least_peak: float = 0.0) -> float:
     return -float(np.sqrt(1.0 / steps**2 + np.diff(curve) ** 2).sum())
 
 
-def log_dimensionless_jerk(speed: FloatArray, rate_hz: float, least_peak: float = 0.0) -> float:
+def log_dimensionless_jerk(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
     """LDLJ = -ln(T^3 / v_peak^2 * integral (d2v/dt2)^2 dt), T = n dt; the nearer to 0 the smoother.
 
     Very sensitive to noise: worth showing only beside SPARC. NaN as for :func:`sparc`.
@@ -75,7 +75,7 @@ def log_dimensionless_jerk(speed: FloatArray, rate_hz: float, least_peak: float 
     >>> round(log_dimensionless_jerk(np.exp(-5 * t**2), 100.0), 5)
     -5.81636
     """
-    if not _measurable(speed, least_peak):
+    if not _is_measurable(speed, min_peak):
         return math.nan
     dt = 1.0 / rate_hz
     jerk = np.diff(speed, 2) / dt**2
@@ -83,54 +83,54 @@ def log_dimensionless_jerk(speed: FloatArray, rate_hz: float, least_peak: float 
     return -math.log(total) if total > 0.0 else math.nan
 
 
-_UNITS_APART_S = 0.15
+_MIN_PEAK_INTERVAL_S = 0.15
 
 
-def speed_peaks(speed: FloatArray, rate_hz: float, least_rise: float, least_dip: float = 0.0) -> int:
-    """Movement units: local maxima more than ``least_rise`` above the minimum just before, 0.15 s apart or more.
+def count_speed_peaks(speed: FloatArray, rate_hz: float, min_rise: float, min_dip: float = 0.0) -> int:
+    """Movement units: local maxima more than ``min_rise`` above the minimum just before, 0.15 s apart or more.
 
     Reference: 20 mm/s for a position, the greater of 10 % of the peak and 5 degrees/s for an angle. 1 is ideal. A dip
-    smaller than ``least_dip``, what noise makes of itself, parts no maxima: one in the middle of a long rise would make
+    smaller than ``min_dip``, what noise makes of itself, parts no maxima: one in the middle of a long rise would make
     two units of it, and a few of them none.
     """
     from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
 
     count, last_counted, last_top = 0, -math.inf, 0
-    for top in sps.find_peaks(speed, prominence=least_dip)[0].tolist():
+    for top in sps.find_peaks(speed, prominence=min_dip)[0].tolist():
         rise = speed[top] - speed[last_top : top + 1].min()
-        if rise > least_rise and (top - last_counted) / rate_hz >= _UNITS_APART_S:
+        if rise > min_rise and (top - last_counted) / rate_hz >= _MIN_PEAK_INTERVAL_S:
             count += 1
             last_counted = top
         last_top = top
     return count
 
 
-def _measurable(speed: FloatArray, least_peak: float) -> bool:
-    if len(speed) < FEWEST_SAMPLES or not np.isfinite(speed).all():
+def _is_measurable(speed: FloatArray, min_peak: float) -> bool:
+    if len(speed) < MIN_SAMPLES or not np.isfinite(speed).all():
         return False
     peak = float(np.abs(speed).max())
-    return peak > 0.0 and peak >= least_peak
+    return peak > 0.0 and peak >= min_peak
 
 
-MOVING_SHARE = 0.05
+ONSET_SPEED_SHARE = 0.05
 """Onset and offset are where the speed passes this share of the stroke's peak."""
-PLACE_SHARE = 0.05
+TURNING_BAND_SHARE = 0.05
 """Within this share of the arc from its extreme an angle is still in its turning place: who creeps on there has
 arrived. Noise may need more."""
-STANDING_SHARE, LEAST_PAUSE_S = 0.10, 0.2
+PAUSE_SPEED_SHARE, MIN_PAUSE_S = 0.10, 0.2
 """Below this share of the peak for so long the hand stands still; who only turns from one sub-movement to the next is
 there for less."""
-_PAUSE_IN_SDS = 2.0
+_PAUSE_SDS = 2.0
 """Where noise alone passes that share, nobody knows whether the hand stood still."""
 _PEAK_RISE_SHARE = 0.10
-_EDGE_SHARE, _EDGES_TO_REST = 0.1, 1.74
+_EDGE_SHARE, _EDGES_TO_DURATION = 0.1, 1.74
 """Of a minimum-jerk movement the way between both edges takes 0.507 of the time, and that above 5 % of the peak speed
 0.881."""
-_HALF_HEIGHT_SHARE, _PEAK_OVER_MEAN = 0.541, 1.875
+_HALF_HEIGHT_SHARE, _MINIMUM_JERK_PEAK_TO_MEAN = 0.541, 1.875
 """Of its time a minimum-jerk movement is above half of its peak speed, which is so many times its mean speed."""
-_SHORT_PART, _PART_IN_SDS = 0.6, 2.0
+_MAX_SUBMOVEMENT_SHARE, _SUBMOVEMENT_SDS = 0.6, 2.0
 """A quickest part below this share of the whole way's time is a sub-movement, if it is so much above the noise."""
-_REACH_TURNS, _REACH_S = 8.0, 5.0
+_FILTER_MARGIN_CYCLES, _FILTER_MARGIN_S = 8.0, 5.0
 """A low-pass forgets within less than this many turns of its cut-off; movements end within so many seconds."""
 
 
@@ -170,41 +170,41 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     speed left zero, or its last minimum, to where it is back, as published figures have it. Movement units are unknown
     where none rises as they must (5 degrees a second).
     """
-    part = _low_pass_about(angle, stroke, HIGHEST_CUTOFF_HZ).between(stroke.start_s, stroke.end_s)
-    if not part.finite.all() or len(part.time_s) < 2:
-        return StrokeMeasures(stroke, float(np.ptp(part.value[part.finite])) if part.finite.any() else math.nan)
-    duration_s = usual_duration_s(
-        _low_pass_about(angle, stroke, SPEED_CUTOFF_HZ).between(stroke.start_s, stroke.end_s).value, angle.rate_hz
+    part = _low_pass_stroke(angle, stroke, MAX_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s)
+    if not part.is_finite.all() or len(part.time_s) < 2:
+        return StrokeMeasures(stroke, float(np.ptp(part.value[part.is_finite])) if part.is_finite.any() else math.nan)
+    duration_s = estimate_duration_s(
+        _low_pass_stroke(angle, stroke, SPEED_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s).value, angle.rate_hz
     )
-    noise = _noise(angle, stroke, sd, duration_s, smoothed=smoothed)
-    arc = _arc(part, noise, duration_s)
-    if not arc >= LEAST_RANGE_RAD:
+    noise = _stroke_noise(angle, stroke, sd, duration_s, smoothed=smoothed)
+    arc = _stroke_arc(part, noise, duration_s)
+    if not arc >= MIN_RANGE_RAD:
         return StrokeMeasures(stroke, arc)
-    pace = _pace(angle, stroke, noise, arc, duration_s)
+    pace = _find_quickest_part(angle, stroke, noise, arc, duration_s)
     if pace is None:
         return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
-    moved = _moved(angle, stroke, noise, pace.cutoff_hz)
+    moved = _measure_motion(angle, stroke, noise, pace.cutoff_hz)
     if moved is None:
-        return _without_rest(angle, stroke, sd, arc, smoothed=smoothed)
-    sub_s = pace.part_s if pace.has_stops else math.inf
-    smooth = _moved(angle, stroke, noise, cutoff_for_smoothness(noise, arc, moved.duration_s, sub_s))
-    jerk = _moved(angle, stroke, noise, cutoff_for_jerk(noise, pace.part_arc, pace.part_s, moved.duration_s))
+        return _measure_without_rest(angle, stroke, sd, arc, smoothed=smoothed)
+    sub_s = pace.duration_s if pace.has_stops else math.inf
+    smooth = _measure_motion(angle, stroke, noise, cutoff_for_smoothness(noise, arc, moved.duration_s, sub_s))
+    jerk = _measure_motion(angle, stroke, noise, cutoff_for_jerk(noise, pace.arc, pace.duration_s, moved.duration_s))
     speed_sd = noise.speed_sd(pace.cutoff_hz)
-    told = pace.cutoff_hz >= LOWEST_OF_JERKS_HZ and _PAUSE_IN_SDS * speed_sd <= STANDING_SHARE * moved.peak
-    standing = moved.standing_s if told else None
-    smoothness = math.nan if smooth is None else sparc(smooth.whole, angle.rate_hz, LEAST_PEAK_RAD_S)
+    told = pace.cutoff_hz >= MIN_SMOOTHNESS_CUTOFF_HZ and _PAUSE_SDS * speed_sd <= PAUSE_SPEED_SHARE * moved.peak
+    standing = moved.pauses_s if told else None
+    smoothness = math.nan if smooth is None else sparc(smooth.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S)
     return StrokeMeasures(
         stroke=stroke,
         arc_rad=arc,
         peak_speed_rad_s=moved.peak,
         mean_speed_rad_s=moved.mean,
         movement_time_s=moved.duration_s,
-        time_to_peak_share=moved.to_peak_share,
-        peaks=_units(moved, angle.rate_hz, pace.cutoff_hz, speed_sd),
+        time_to_peak_share=moved.time_to_peak_share,
+        peaks=_count_movement_units(moved, angle.rate_hz, pace.cutoff_hz, speed_sd),
         pauses=math.nan if standing is None else float(len(standing)),
         pause_s=math.nan if standing is None else math.fsum(standing),
         sparc=smoothness,
-        ldlj=math.nan if jerk is None else log_dimensionless_jerk(jerk.whole, angle.rate_hz, LEAST_PEAK_RAD_S),
+        ldlj=math.nan if jerk is None else log_dimensionless_jerk(jerk.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S),
         peak_speed_sd_rad_s=speed_sd,
         onset_s=moved.onset_s,
         offset_s=moved.offset_s,
@@ -212,209 +212,216 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     )
 
 
-def _without_rest(angle: Signal, stroke: Stroke, sd: Signal | None, arc: float, *, smoothed: bool) -> StrokeMeasures:
+def _measure_without_rest(
+    angle: Signal, stroke: Stroke, sd: Signal | None, arc: float, *, smoothed: bool
+) -> StrokeMeasures:
     """Of a stroke that was never at rest on both sides: its peak speed. Where the rough curve began and ended was
     noise, so the whole stroke decides how much it is smoothed."""
-    if _cut_short(angle, stroke):
+    if _is_cut_short(angle, stroke):
         return StrokeMeasures(stroke, arc)
     duration_s = stroke.end_s - stroke.start_s
-    noise = _noise(angle, stroke, sd, duration_s, smoothed=smoothed)
-    cutoff_hz = cutoff_for_speed(noise, _LEAST_PEAK * arc / duration_s, duration_s)
+    noise = _stroke_noise(angle, stroke, sd, duration_s, smoothed=smoothed)
+    cutoff_hz = cutoff_for_speed(noise, _MIN_PEAK_TO_MEAN * arc / duration_s, duration_s)
     if math.isnan(cutoff_hz):
         return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
-    speed = _speed(angle, stroke, cutoff_hz)
+    speed = _stroke_speed(angle, stroke, cutoff_hz)
     return StrokeMeasures(stroke, arc, float(speed.max()), peak_speed_sd_rad_s=noise.speed_sd(cutoff_hz))
 
 
-def _units(moved: _Moved, rate_hz: float, cutoff_hz: float, speed_sd: float) -> float:
-    least_rise = max(_PEAK_RISE_SHARE * moved.peak, LEAST_PEAK_RAD_S)
-    dip = DIP_IN_SDS * speed_sd
-    if cutoff_hz < LOWEST_OF_JERKS_HZ or dip > least_rise:
+def _count_movement_units(motion: _StrokeMotion, rate_hz: float, cutoff_hz: float, speed_sd: float) -> float:
+    least_rise = max(_PEAK_RISE_SHARE * motion.peak, MIN_PEAK_RAD_S)
+    dip = DIP_SDS * speed_sd
+    if cutoff_hz < MIN_SMOOTHNESS_CUTOFF_HZ or dip > least_rise:
         return math.nan
-    return float(speed_peaks(moved.moving, rate_hz, least_rise, least_dip=dip)) or math.nan
+    return float(count_speed_peaks(motion.onset_to_offset, rate_hz, least_rise, min_dip=dip)) or math.nan
 
 
-def usual_duration_s(way: FloatArray, rate_hz: float) -> float:
+def estimate_duration_s(angle: FloatArray, rate_hz: float) -> float:
     """How long a way (n,), from one turning point to the next, takes from 5 % to 5 % of its peak speed, told from where
     it passes a tenth and nine tenths: a speed that is mostly noise would call its own quick waves the movement."""
-    share = (way - way[0]) / (way[-1] - way[0]) if way[-1] != way[0] else np.linspace(0.0, 1.0, len(way))
+    share = (angle - angle[0]) / (angle[-1] - angle[0]) if angle[-1] != angle[0] else np.linspace(0.0, 1.0, len(angle))
     there = int(np.argmax(share >= 1.0 - _EDGE_SHARE))
     left = int(np.flatnonzero(share[: there + 1] <= _EDGE_SHARE)[-1])
-    return max(there - left, 1) / rate_hz * _EDGES_TO_REST
+    return max(there - left, 1) / rate_hz * _EDGES_TO_DURATION
 
 
-def _cut_short(angle: Signal, stroke: Stroke) -> bool:
+def _is_cut_short(angle: Signal, stroke: Stroke) -> bool:
     """Whether a gap or the recording's end, and no turning point, ends the stroke: it may have been faster where it was
     not seen."""
     near_s = 1.5 / angle.rate_hz
     at_end = stroke.start_s - angle.time_s[0] < near_s or angle.time_s[-1] - stroke.end_s < near_s
-    return bool(at_end) or any(angle.beside_gap(at, near_s) for at in (stroke.start_s, stroke.end_s))
+    return bool(at_end) or any(angle.is_near_gap(at, near_s) for at in (stroke.start_s, stroke.end_s))
 
 
-def _noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: float, *, smoothed: bool) -> Noise:
+def _stroke_noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: float, *, smoothed: bool) -> Noise:
     """The noise around a stroke whose movement takes ``duration_s``."""
     if sd is None:
         return Noise(0.0, 1.0)
     around = (stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
-    return moving_noise(angle.between(*around), sd.between(*around), duration_s, smoothed=smoothed)
+    return moving_noise(angle.crop(*around), sd.crop(*around), duration_s, smoothed=smoothed)
 
 
-def _arc(part: Signal, noise: Noise, duration_s: float) -> float:
+def _stroke_arc(part: Signal, noise: Noise, duration_s: float) -> float:
     """From one turning place to the other, without what noise adds to both."""
     clean = low_pass(part, clean_cutoff_hz(duration_s)).value
-    high, low = (extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
+    high, low = (estimate_extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
     return high - low
 
 
-_LEAST_PEAK = 1.5
+_MIN_PEAK_TO_MEAN = 1.5
 """Half as much again as the mean is the least that a movement from rest to rest has for a peak."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Pace:
+class _QuickestPart:
     """The cut-off for a stroke's speed, and duration and arc of its quickest part: all where it never stops."""
 
     cutoff_hz: float
-    part_s: float
-    part_arc: float
+    duration_s: float
+    arc: float
     has_stops: bool
 
 
-def _pace(angle: Signal, stroke: Stroke, noise: Noise, arc: float, duration_s: float) -> _Pace | None:
+def _find_quickest_part(
+    angle: Signal, stroke: Stroke, noise: Noise, arc: float, duration_s: float
+) -> _QuickestPart | None:
     """None where the stroke is too slow to judge.
 
     Of a stroke with stops the mean over all of it says little of its quickest part. Where more of the spectrum shows
     such parts above the noise, they decide how much it is smoothed.
     """
-    cutoff_hz = cutoff_for_speed(noise, _LEAST_PEAK * arc / duration_s, duration_s)
+    cutoff_hz = cutoff_for_speed(noise, _MIN_PEAK_TO_MEAN * arc / duration_s, duration_s)
     if math.isnan(cutoff_hz):
         return None
-    smooth = _speed(angle, stroke, cutoff_hz)
-    most_hz = highest_cutoff_for_speed(noise, float(smooth.max()))
+    smooth = _stroke_speed(angle, stroke, cutoff_hz)
+    most_hz = max_cutoff_for_speed(noise, float(smooth.max()))
     for closer_hz in (cutoff_hz, *np.geomspace(cutoff_hz, max(most_hz, cutoff_hz), 5)[1:].tolist()):
-        closer = _speed(angle, stroke, closer_hz)
+        closer = _stroke_speed(angle, stroke, closer_hz)
         top = float(closer.max())
-        part_s = _above_half_s(closer, angle.rate_hz) / _HALF_HEIGHT_SHARE if top > 0.0 else math.inf
+        part_s = _half_peak_duration_s(closer, angle.rate_hz) / _HALF_HEIGHT_SHARE if top > 0.0 else math.inf
         added = noise.speed_sd(closer_hz) ** 2 - noise.speed_sd(cutoff_hz) ** 2
-        if part_s < _SHORT_PART * duration_s and np.mean((closer - smooth) ** 2) >= _PART_IN_SDS**2 * added:
+        if (
+            part_s < _MAX_SUBMOVEMENT_SHARE * duration_s
+            and np.mean((closer - smooth) ** 2) >= _SUBMOVEMENT_SDS**2 * added
+        ):
             part_hz = cutoff_for_speed(noise, top, part_s)
             return (
                 None
                 if math.isnan(part_hz)
-                else _Pace(part_hz, part_s, min(top * part_s / _PEAK_OVER_MEAN, arc), has_stops=True)
+                else _QuickestPart(part_hz, part_s, min(top * part_s / _MINIMUM_JERK_PEAK_TO_MEAN, arc), has_stops=True)
             )
-    return _Pace(cutoff_hz, duration_s, arc, has_stops=False)
+    return _QuickestPart(cutoff_hz, duration_s, arc, has_stops=False)
 
 
-def _speed(angle: Signal, stroke: Stroke, cutoff_hz: float) -> FloatArray:
+def _stroke_speed(angle: Signal, stroke: Stroke, cutoff_hz: float) -> FloatArray:
     """Speed (n,) in the direction of a stroke without gaps."""
-    smooth = _low_pass_about(angle, stroke, cutoff_hz)
-    return stroke.toward * rate_of_change(smooth).between(stroke.start_s, stroke.end_s).value
+    smooth = _low_pass_stroke(angle, stroke, cutoff_hz)
+    return stroke.direction * rate_of_change(smooth).crop(stroke.start_s, stroke.end_s).value
 
 
-def _low_pass_about(angle: Signal, stroke: Stroke, cutoff_hz: float) -> Signal:
+def _low_pass_stroke(angle: Signal, stroke: Stroke, cutoff_hz: float) -> Signal:
     """As :func:`low_pass`, of the time about a stroke alone: of what lies further away less than 1e-15 would be left in
     the stroke, and all of a long recording for every stroke would cost the square of its length."""
-    reach_s = _REACH_TURNS / cutoff_hz + _REACH_S
-    return low_pass(angle.between(stroke.start_s - reach_s, stroke.end_s + reach_s), cutoff_hz)
+    reach_s = _FILTER_MARGIN_CYCLES / cutoff_hz + _FILTER_MARGIN_S
+    return low_pass(angle.crop(stroke.start_s - reach_s, stroke.end_s + reach_s), cutoff_hz)
 
 
-def _above_half_s(speed: FloatArray, rate_hz: float) -> float:
+def _half_peak_duration_s(speed: FloatArray, rate_hz: float) -> float:
     """How long the speed stays above half of its peak, about the peak."""
     at = int(np.argmax(speed))
     high = speed >= 0.5 * speed[at]
-    about = next(part for part in stretches(high) if part.start <= at < part.stop)
+    about = next(part for part in find_runs(high) if part.start <= at < part.stop)
     return float(about.stop - about.start) / rate_hz
 
 
 @dataclass(frozen=True, slots=True)
-class _Moved:
-    """A stroke after a low-pass: ``peak`` and ``mean`` speed, ``standing_s`` how long each pause takes; speeds from
-    onset to offset (``moving``), and from rest to rest (``whole``)."""
+class _StrokeMotion:
+    """A stroke after a low-pass: ``peak`` and ``mean`` speed, ``pauses_s`` how long each pause takes; speeds from
+    onset to offset (``onset_to_offset``), and from rest to rest (``rest_to_rest``)."""
 
     peak: float
     mean: float
     duration_s: float
-    to_peak_share: float
-    standing_s: tuple[float, ...]
+    time_to_peak_share: float
+    pauses_s: tuple[float, ...]
     onset_s: float
     offset_s: float
-    moving: FloatArray
-    whole: FloatArray
+    onset_to_offset: FloatArray
+    rest_to_rest: FloatArray
 
 
-def _moved(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: float) -> _Moved | None:
+def _measure_motion(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: float) -> _StrokeMotion | None:
     """None where the speed does not fall below 5 % of its peak on both sides, and where no cut-off will do (NaN)."""
     if math.isnan(cutoff_hz):
         return None
-    smooth = _low_pass_about(angle, stroke, cutoff_hz)
-    velocity = stroke.toward * rate_of_change(smooth).value
+    smooth = _low_pass_stroke(angle, stroke, cutoff_hz)
+    velocity = stroke.direction * rate_of_change(smooth).value
     first, last = np.searchsorted(smooth.time_s, (stroke.start_s - 1e-9, stroke.end_s + 0.25 / angle.rate_hz))
     inside = slice(int(first), int(last))
     if not np.isfinite(velocity[inside]).all() or not (velocity[inside] > 0.0).any():
         return None
-    left, there = _between_places(stroke.toward * smooth.value[inside], noise)
+    left, there = _find_turning_bands(stroke.direction * smooth.value[inside], noise)
     peak_at = int(first) + left + int(np.argmax(velocity[inside][left : there + 1]))
-    level = MOVING_SHARE * float(velocity[peak_at])
-    onset = _edge(velocity, int(first) + left, peak_at, -1, level)
-    offset = _edge(velocity, int(first) + there, peak_at, +1, level)
+    level = ONSET_SPEED_SHARE * float(velocity[peak_at])
+    onset = _find_movement_edge(velocity, int(first) + left, peak_at, -1, level)
+    offset = _find_movement_edge(velocity, int(first) + there, peak_at, +1, level)
     if not offset > onset:
         return None
     begin, end = math.ceil(onset), math.floor(offset)
     at = np.concatenate(([onset], np.arange(begin, end + 1), [offset]))
     speeds = np.concatenate(([level], velocity[begin : end + 1], [level]))
     peak = float(speeds.max())
-    from_rest, to_rest = _to_rest(velocity, begin, -1), _to_rest(velocity, end, +1)
-    return _Moved(
+    from_rest, to_rest = _find_rest_sample(velocity, begin, -1), _find_rest_sample(velocity, end, +1)
+    return _StrokeMotion(
         peak=peak,
         mean=min(float(np.trapezoid(speeds, at)) / (offset - onset), peak),
         duration_s=(offset - onset) / angle.rate_hz,
-        to_peak_share=(peak_at - onset) / (offset - onset),
-        standing_s=_standing_s(at / angle.rate_hz, np.abs(speeds), STANDING_SHARE * peak),
+        time_to_peak_share=(peak_at - onset) / (offset - onset),
+        pauses_s=_pause_durations_s(at / angle.rate_hz, np.abs(speeds), PAUSE_SPEED_SHARE * peak),
         onset_s=float(smooth.time_s[0]) + onset / angle.rate_hz,
         offset_s=float(smooth.time_s[0]) + offset / angle.rate_hz,
-        moving=np.abs(velocity[begin : end + 1]),
-        whole=np.abs(velocity[from_rest : to_rest + 1]),
+        onset_to_offset=np.abs(velocity[begin : end + 1]),
+        rest_to_rest=np.abs(velocity[from_rest : to_rest + 1]),
     )
 
 
-def _between_places(way: FloatArray, noise: Noise) -> tuple[int, int]:
+def _find_turning_bands(angle: FloatArray, noise: Noise) -> tuple[int, int]:
     """The last sample of a rising way (n,) in its first turning place, and the first in the next one."""
-    low, high = float(way.min()), float(way.max())
-    near = min(max(PLACE_SHARE * (high - low), 3.0 * noise.sd), _EDGE_SHARE * (high - low))
-    there = int(np.argmax(way >= high - near))
-    before = np.flatnonzero(way[: there + 1] <= low + near)
+    low, high = float(angle.min()), float(angle.max())
+    near = min(max(TURNING_BAND_SHARE * (high - low), 3.0 * noise.sd), _EDGE_SHARE * (high - low))
+    there = int(np.argmax(angle >= high - near))
+    before = np.flatnonzero(angle[: there + 1] <= low + near)
     return int(before[-1]) if len(before) else 0, there
 
 
-def _edge(velocity: FloatArray, place: int, peak_at: int, step: int, level: float) -> float:
+def _find_movement_edge(velocity: FloatArray, sample: int, peak_at: int, step: int, level: float) -> float:
     """Where the speed is at the level on one side of a stroke, from the edge of the turning place outwards; who creeps
     there has it further in."""
-    while velocity[place] < level and place != peak_at:
-        place -= step
-    return _crossing(velocity, place, step, level)
+    while velocity[sample] < level and sample != peak_at:
+        sample -= step
+    return _find_crossing(velocity, sample, step, level)
 
 
-def _standing_s(time_s: FloatArray, speed: FloatArray, level: float) -> tuple[float, ...]:
+def _pause_durations_s(time_s: FloatArray, speed: FloatArray, level: float) -> tuple[float, ...]:
     """How long each pause takes: the speed (n,) below a level for long enough, between two parts above it."""
     out = []
-    for part in stretches(speed < level):
+    for part in find_runs(speed < level):
         before, after = part.start - 1, part.stop
         if before < 0 or after == len(speed):
             continue  # it only begins or ends
-        down = time_s[before] + (time_s[before + 1] - time_s[before]) * _share(speed, before, level)
-        up = time_s[after - 1] + (time_s[after] - time_s[after - 1]) * _share(speed, after - 1, level)
-        if up - down >= LEAST_PAUSE_S:
+        down = time_s[before] + (time_s[before + 1] - time_s[before]) * _crossing_share(speed, before, level)
+        up = time_s[after - 1] + (time_s[after] - time_s[after - 1]) * _crossing_share(speed, after - 1, level)
+        if up - down >= MIN_PAUSE_S:
             out.append(float(up - down))
     return tuple(out)
 
 
-def _share(speed: FloatArray, k: int, level: float) -> float:
+def _crossing_share(speed: FloatArray, k: int, level: float) -> float:
     """Share of the step from sample k to the next at which the speed passes a level."""
     return float((level - speed[k]) / (speed[k + 1] - speed[k]))
 
 
-def _to_rest(velocity: FloatArray, sample: int, step: int) -> int:
+def _find_rest_sample(velocity: FloatArray, sample: int, step: int) -> int:
     """The sample outwards of the movement at which the speed is at rest: zero, or no longer falling."""
     k = sample
     while 0 <= k + step < len(velocity) and 0.0 < velocity[k + step] < velocity[k]:
@@ -422,7 +429,7 @@ def _to_rest(velocity: FloatArray, sample: int, step: int) -> int:
     return k
 
 
-def _crossing(velocity: FloatArray, start: int, step: int, level: float) -> float:
+def _find_crossing(velocity: FloatArray, start: int, step: int, level: float) -> float:
     """Fractional sample at which the speed, walked outwards, first falls below a level; NaN if it never does."""
     k = start
     while 0 <= k + step < len(velocity) and math.isfinite(velocity[k + step]):

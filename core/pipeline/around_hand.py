@@ -14,17 +14,17 @@ from carpus.core.camera import Camera
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import Frame, Region, TrackedFrame, TrackStatus
 
-REACH = {False: 1.5, True: 0.6}
+MARGIN_SHARE = {False: 1.5, True: 0.6}
 """How far the area reaches beyond the box of the discs, in its larger side: of the palm's alone to the finger tips and
 past them, of the whole hand's a hand's breadth."""
-LEAST_REACH_PX = 48.0
+MIN_MARGIN_PX = 48.0
 STALE_S = 0.5
 """A hand that was seen longer ago may have left the area."""
-REMEMBERED = 2048
+MAX_REGIONS = 2048
 """Areas: a minute and more, longer than a picture waits for a slow disk."""
 
 
-class PictureSink(Protocol):
+class FrameSink(Protocol):
     """The raw recording in the making."""
 
     @property
@@ -39,26 +39,26 @@ class PictureSink(Protocol):
     def discard(self) -> None: ...
 
 
-class HandArea:
+class HandRegions:
     """Where the hand was last seen; told in the tracking thread, asked in the storing one."""
 
     def __init__(self, camera: Camera, protocol: MarkerProtocol) -> None:
         self._camera, self._protocol = camera, protocol
-        self._known: deque[tuple[float, Region | None]] = deque(maxlen=REMEMBERED)
+        self._regions: deque[tuple[float, Region | None]] = deque(maxlen=MAX_REGIONS)
 
-    def take(self, tracked: TrackedFrame) -> None:
-        self._known.append((tracked.timestamp_s, area_of(tracked, self._camera, self._protocol)))
+    def update(self, tracked: TrackedFrame) -> None:
+        self._regions.append((tracked.timestamp_s, compute_hand_region(tracked, self._camera, self._protocol)))
 
-    def area(self, at_s: float) -> Region | None:
+    def find_region(self, time_s: float) -> Region | None:
         """Where the hand is in a picture of that time, which may have waited for the disk; None while it is lost, or
         not yet tracked nearly so far: then whole pictures are kept."""
-        for known_s, area in reversed(self._known.copy()):
-            if known_s <= at_s:
-                return area if at_s - known_s <= STALE_S else None
+        for known_s, area in reversed(self._regions.copy()):
+            if known_s <= time_s:
+                return area if time_s - known_s <= STALE_S else None
         return None
 
 
-def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Region | None:
+def compute_hand_region(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Region | None:
     """The hand and its surroundings in the picture of a frame; None where the hand is not known."""
     places = tracked.marker_position_cam_m
     known = places[np.isfinite(places).all(axis=1)]
@@ -68,17 +68,17 @@ def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> 
     seen = tracked.marker_measured_px[np.isfinite(tracked.marker_measured_px).all(axis=1)]
     pixel = np.concatenate((pixel, seen))
     low, high = pixel.min(axis=0), pixel.max(axis=0)
-    reach = max(REACH[protocol.has_fingers] * float((high - low).max()), LEAST_REACH_PX)
+    reach = max(MARGIN_SHARE[protocol.has_fingers] * float((high - low).max()), MIN_MARGIN_PX)
     left, top = np.clip(low - reach, 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
     right, bottom = np.clip(np.ceil(high + reach), 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
     return Region(left, top, right, bottom) if right - left > 1 and bottom - top > 1 else None
 
 
-def only(frame: Frame, area: Region | None) -> Frame:
+def mask_outside(frame: Frame, region: Region | None) -> Frame:
     """The frame with nothing outside the area; colours black and depth 0 there."""
-    if area is None:
+    if region is None:
         return frame
-    part = np.s_[area.top : area.bottom, area.left : area.right]
+    part = np.s_[region.top : region.bottom, region.left : region.right]
     color = np.zeros_like(frame.color_rgb)
     color[part] = frame.color_rgb[part]
     depth = None
@@ -88,18 +88,18 @@ def only(frame: Frame, area: Region | None) -> Frame:
     return replace(frame, color_rgb=color, depth_raw=depth)
 
 
-class AroundHand:
+class HandCropWriter:
     """Hands pictures on to a raw recording, each with the hand's surroundings alone."""
 
-    def __init__(self, sink: PictureSink, area: Callable[[float], Region | None]) -> None:
-        self._sink, self._area = sink, area
+    def __init__(self, sink: FrameSink, find_region: Callable[[float], Region | None]) -> None:
+        self._sink, self._find_region = sink, find_region
 
     @property
     def path(self) -> Path:
         return self._sink.path
 
     def append_frame(self, frame: Frame) -> None:
-        self._sink.append_frame(only(frame, self._area(frame.timestamp_s)))
+        self._sink.append_frame(mask_outside(frame, self._find_region(frame.timestamp_s)))
 
     def close(self) -> None:
         self._sink.close()

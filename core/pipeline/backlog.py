@@ -12,26 +12,26 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop, Waits
+from carpus.core.pipeline.channels import BlockingQueue, BoundedQueue, QueueClosedError, QueueFullError
 from carpus.core.pipeline.recording import LiveRecording
 from carpus.core.types import Frame, TrackedFrame
 
-PREVIEW_WAITING = 16
+MAX_PREVIEW_WAITING = 16
 """Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""
-FOLLOWS_S = 0.08
+FOLLOW_INTERVAL_S = 0.08
 """A hand is followed by a picture in so long: after a second without any, fingers may be taken for one another."""
-FREE_SHARE = 0.5
+MAX_MEMORY_SHARE = 0.5
 """No more than this part of the memory that is free when a recording begins is for pictures that wait."""
 
 Pipeline = Callable[[Frame], TrackedFrame]
 
 
-class Captured(NamedTuple):
+class QueuedFrame(NamedTuple):
     """A frame on its way to the tracker, and to the recording, that were current when it was captured; ``recording``
     None where it is not recorded."""
 
     frame: Frame
-    at_s: float
+    captured_at_s: float
     pipeline: Pipeline
     recording: LiveRecording | None
 
@@ -39,114 +39,118 @@ class Captured(NamedTuple):
 class Backlog:
     """Frames that wait for the tracker, in the order in which they were captured.
 
-    Of what is recorded ``room`` may wait. Of what is not only the last half second does. A frame without room is left
-    out, and counted in the next one. With ``waits`` whoever puts waits instead. A person waits while all that was
-    recorded is tracked and stored (``ends_recording``): then what comes is left out, and missed by nobody, but for as
+    Of what is recorded ``capacity`` may wait. Of what is not only the last half second does. A frame without room is
+    left
+    out, and counted in the next one. With ``is_blocking`` whoever puts waits instead. A person waits while all that was
+    recorded is tracked and stored (``is_finishing_recording``): then what comes is left out, and missed by nobody,
+    but for as
     much as it takes to follow the hand, once nothing recorded waits.
     """
 
-    def __init__(self, room: int, fps: float, *, waits: bool) -> None:
-        self.room = room
-        self.ends_recording = False
-        self.left_out = 0
-        self.waits = waits
-        self._channel: NeverDrop[Captured] | Waits[Captured] = (
-            Waits(min(PREVIEW_WAITING, room)) if waits else NeverDrop(room)
+    def __init__(self, capacity: int, fps: float, *, is_blocking: bool) -> None:
+        self.capacity = capacity
+        self.is_finishing_recording = False
+        self.dropped_count = 0
+        self.is_blocking = is_blocking
+        self._queue: BoundedQueue[QueuedFrame] | BlockingQueue[QueuedFrame] = (
+            BlockingQueue(min(MAX_PREVIEW_WAITING, capacity)) if is_blocking else BoundedQueue(capacity)
         )
         self._lock = threading.Lock()
-        self._handed = self._worked = self._left_out_before = 0
-        self._followed_s = -math.inf
-        self._worked_at: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
+        self._submission_count = self._processed_count = self._dropped_before = 0
+        self._last_queued_s = -math.inf
+        self._processed_at_s: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
 
     def __len__(self) -> int:
         """Frames that wait now."""
-        return len(self._channel)
+        return len(self._queue)
 
-    def __iter__(self) -> Iterator[Captured]:
+    def __iter__(self) -> Iterator[QueuedFrame]:
         """For the tracker's thread: each frame in turn, worked through when the next one is asked for."""
-        for captured in self._channel:
+        for captured in self._queue:
             yield captured
             with self._lock:
-                self._worked += 1
-                self._worked_at.append(time.monotonic())
+                self._processed_count += 1
+                self._processed_at_s.append(time.monotonic())
 
     @property
-    def handed(self) -> int:
+    def submission_count(self) -> int:
         """Frames handed over or about to be."""
-        return self._handed
+        return self._submission_count
 
     @property
-    def behind_s(self) -> float:
+    def lag_s(self) -> float:
         """How long the tracker takes for what waits, as fast as it has been lately; NaN where it has not been seen."""
         waiting = len(self)
         with self._lock:
-            count, work_s = len(self._worked_at), math.nan
+            count, work_s = len(self._processed_at_s), math.nan
             if count > 1:
-                work_s = self._worked_at[-1] - self._worked_at[0]
+                work_s = self._processed_at_s[-1] - self._processed_at_s[0]
         return waiting * work_s / max(count - 1, 1) if waiting else 0.0
 
-    def is_behind(self, last: int | None = None) -> bool:
-        """Whether a frame waits or is worked on, of the first ``last`` handed over."""
+    def has_pending(self, count: int | None = None) -> bool:
+        """Whether a frame waits or is worked on, of the first ``count`` handed over."""
         with self._lock:
-            return self._worked < (self._handed if last is None else min(last, self._handed))
+            return self._processed_count < (
+                self._submission_count if count is None else min(count, self._submission_count)
+            )
 
-    def expect(self) -> None:
+    def announce(self) -> None:
         """A frame is about to be put: who waits until the tracker is through waits for this one too."""
         with self._lock:
-            self._handed += 1
+            self._submission_count += 1
 
-    def put(self, captured: Captured) -> None:
+    def submit(self, queued: QueuedFrame) -> None:
         """Hand over a frame that was expected, or leave it out."""
-        frame, room = captured.frame, self.room
-        if self._left_out_before:
-            frame = replace(frame, dropped_before=frame.dropped_before + self._left_out_before)
-        if captured.recording is None and not self.waits:
-            room = min(PREVIEW_WAITING, room)
-            if self.ends_recording:
-                room = int(frame.timestamp_s - self._followed_s >= FOLLOWS_S)
+        frame, room = queued.frame, self.capacity
+        if self._dropped_before:
+            frame = replace(frame, dropped_before=frame.dropped_before + self._dropped_before)
+        if queued.recording is None and not self.is_blocking:
+            room = min(MAX_PREVIEW_WAITING, room)
+            if self.is_finishing_recording:
+                room = int(frame.timestamp_s - self._last_queued_s >= FOLLOW_INTERVAL_S)
         try:
-            if not self.waits and len(self) >= room:
-                raise ChannelFull
-            self._channel.put(captured._replace(frame=frame))
-            self._left_out_before, self._followed_s = 0, frame.timestamp_s
+            if not self.is_blocking and len(self) >= room:
+                raise QueueFullError
+            self._queue.push(queued._replace(frame=frame))
+            self._dropped_before, self._last_queued_s = 0, frame.timestamp_s
             return
-        except ChannelFull:
-            if not self.ends_recording:
-                self.left_out += 1
-                self._left_out_before = frame.dropped_before + 1
-        except ChannelClosed:
+        except QueueFullError:
+            if not self.is_finishing_recording:
+                self.dropped_count += 1
+                self._dropped_before = frame.dropped_before + 1
+        except QueueClosedError:
             pass  # the session ended while a file waited for the tracker
         with self._lock:
-            self._handed -= 1
+            self._submission_count -= 1
 
-    def is_of_the_past(self, captured: Captured) -> bool:
+    def is_stale(self, queued: QueuedFrame) -> bool:
         """Whether a frame waited for a recording that has failed: what is seen is to be of now, and the next recording
         to find room."""
-        failed = captured.recording is not None and captured.recording.rows.fault is not None
-        return failed and not self.waits and len(self) >= PREVIEW_WAITING
+        failed = queued.recording is not None and queued.recording.row_recorder.fault is not None
+        return failed and not self.is_blocking and len(self) >= MAX_PREVIEW_WAITING
 
     def clear(self) -> None:
         """Nothing that waits is worked through any more, as another pipeline begins."""
-        taken = len(self._channel.taken())
+        taken = len(self._queue.drain())
         with self._lock:
-            self._worked += taken
-        self._left_out_before = 0
+            self._processed_count += taken
+        self._dropped_before = 0
 
     def close(self) -> None:
         """No more frames come; those that wait are still worked through. May be called twice."""
-        self._channel.close()
+        self._queue.close()
 
 
-def room_for(frame: Frame | None, most: int) -> int:
-    """How many pictures like this one may wait in memory: ``most``, or what the share of the free memory holds."""
-    free = free_memory_bytes()
+def compute_capacity(frame: Frame | None, limit: int) -> int:
+    """How many pictures like this one may wait in memory: ``limit``, or what the share of the free memory holds."""
+    free = read_free_memory_bytes()
     if frame is None or free is None:
-        return most
+        return limit
     frame_bytes = frame.color_rgb.nbytes + (0 if frame.depth_raw is None else frame.depth_raw.nbytes)
-    return min(most, max(PREVIEW_WAITING, int(FREE_SHARE * free) // frame_bytes))
+    return min(limit, max(MAX_PREVIEW_WAITING, int(MAX_MEMORY_SHARE * free) // frame_bytes))
 
 
-def free_memory_bytes() -> int | None:
+def read_free_memory_bytes() -> int | None:
     """Memory that programs may still take without others being swapped out; None where the system does not tell."""
     with suppress(OSError):
         for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():

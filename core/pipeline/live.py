@@ -29,36 +29,36 @@ import numpy as np
 
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.errors import CameraLost, CameraReturned
-from carpus.core.pipeline.around_hand import PictureSink
-from carpus.core.pipeline.backlog import Backlog, Captured, Pipeline, room_for
-from carpus.core.pipeline.channels import Newest
+from carpus.core.pipeline.around_hand import FrameSink
+from carpus.core.pipeline.backlog import Backlog, Pipeline, QueuedFrame, compute_capacity
+from carpus.core.pipeline.channels import Mailbox
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, LiveSettings, TrackedView
-from carpus.core.pipeline.recording import LiveRecording, Note, SessionSink, free_bytes
+from carpus.core.pipeline.recording import LiveRecording, QueuedEvent, SessionSink, read_free_bytes
 from carpus.core.types import Frame, TrackedFrame
 
 log = logging.getLogger(__name__)
 
-_LOOK_S = 0.005
-_FRAME_PATIENCE_S = 0.25
+_POLL_S = 0.005
+_FRAME_TIMEOUT_S = 0.25
 """A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
 
 
-KEPT_FRAMES = 20
+RECENT_FRAMES = 20
 """The newest, for a calibration that begins."""
 HISTORY_S = 12.0
 """Of tracked frames, for curves."""
-ROW_BYTES, PICTURE_BYTES = 4_000, 100_000
+ROW_BYTES, FRAME_BYTES = 4_000, 100_000
 """On the disk by experience, for the time that is left."""
-STOP_PATIENCE_S = 10.0
+STOP_TIMEOUT_S = 10.0
 """So long a camera may take to give up its last picture."""
 
 
 class Listener(Protocol):
     """Who hears every tracked frame and every event at once; called in the threads they come from, must not wait."""
 
-    def push(self, frame: TrackedFrame) -> None: ...
+    def on_frame(self, frame: TrackedFrame) -> None: ...
 
-    def event(self, time_s: float, kind: str) -> None: ...
+    def on_event(self, time_s: float, kind: str) -> None: ...
 
 
 class LiveSession:
@@ -66,22 +66,20 @@ class LiveSession:
 
     Nothing but :meth:`start_recording`, :meth:`stop_recording` and :meth:`stop` waits for anything, and these wait for
     the disk only. The session owns its source and closes it; where the source does not come back with a frame, it is
-    closed from the stopping thread, and its ``frames()`` must end then. With ``source_waits`` the source is a file:
+    closed from the stopping thread, and its ``frames()`` must end then. With ``is_file`` the source is a file:
     reading waits for tracking, tracking waits for the disk, and no frame is lost on the way.
     """
 
-    def __init__(
-        self, source: FrameSource, settings: LiveSettings | None = None, *, source_waits: bool = False
-    ) -> None:
+    def __init__(self, source: FrameSource, settings: LiveSettings | None = None, *, is_file: bool = False) -> None:
         self._source = source
         self._settings = settings or LiveSettings()
         fps = source.info.nominal_fps if source.info.nominal_fps > 0.0 else 30.0
         self._lock = threading.Lock()
         self._stopping = threading.Event()
-        self._backlog = Backlog(self._settings.tracking_waiting, fps, waits=source_waits)
-        self._newest_frame: Newest[Frame] = Newest()
-        self._newest_view: Newest[TrackedView] = Newest()
-        self._recent: deque[Frame] = deque(maxlen=KEPT_FRAMES)
+        self._backlog = Backlog(self._settings.tracking_waiting, fps, is_blocking=is_file)
+        self._frame_mailbox: Mailbox[Frame] = Mailbox()
+        self._view_mailbox: Mailbox[TrackedView] = Mailbox()
+        self._recent_frames: deque[Frame] = deque(maxlen=RECENT_FRAMES)
         self._history: deque[TrackedFrame] = deque(maxlen=math.ceil(1.25 * fps * HISTORY_S))
         self._events: deque[LiveEvent] = deque(maxlen=1000)
         self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
@@ -119,14 +117,14 @@ class LiveSession:
         """
         self._stopping.set()
         if self._capture_thread.is_alive():
-            self._capture_thread.join(timeout=_FRAME_PATIENCE_S)
+            self._capture_thread.join(timeout=_FRAME_TIMEOUT_S)
             if self._capture_thread.is_alive():
                 self._source.close()  # a source that waits for a camera or for its next frame ends now
-                self._capture_thread.join(timeout=STOP_PATIENCE_S)
+                self._capture_thread.join(timeout=STOP_TIMEOUT_S)
             if self._capture_thread.is_alive():
-                self._tell("thread_stuck")
+                self._report_event("thread_stuck")
         with suppress(Exception):  # already told by the recorder
-            if self.recording:
+            if self.is_recording:
                 self.stop_recording()
         self.end_tracking()
         self._backlog.close()
@@ -135,20 +133,20 @@ class LiveSession:
         self._source.close()
 
     @property
-    def running(self) -> bool:
+    def is_running(self) -> bool:
         return self._capture_thread.is_alive()
 
     # --- pictures -----------------------------------------------------------------------------
-    def newest_frame(self) -> Frame | None:
-        return self._newest_frame.look()
+    def current_frame(self) -> Frame | None:
+        return self._frame_mailbox.peek()
 
     def recent_frames(self, count: int) -> list[Frame]:
         """The last pictures, oldest first, at most ``count`` and at most about 20."""
         with self._lock:
-            return list(self._recent)[-count:] if count > 0 else []
+            return list(self._recent_frames)[-count:] if count > 0 else []
 
     # --- tracking -----------------------------------------------------------------------------
-    def begin_tracking(self, pipeline: Pipeline) -> None:
+    def start_tracking(self, pipeline: Pipeline) -> None:
         """From the next captured frame on, ``pipeline`` turns frames into tracked frames, in the tracking thread.
 
         One before it ends; curves and view start anew. Frames lost on the way are in the ``dropped_before`` of the
@@ -157,7 +155,7 @@ class LiveSession:
         with self._lock:
             self._pipeline = pipeline
             self._history.clear()
-            self._newest_view.clear()
+            self._view_mailbox.clear()
             self._backlog.clear()
 
     def end_tracking(self) -> None:
@@ -165,19 +163,19 @@ class LiveSession:
         with self._lock:
             self._pipeline = None
 
-    def listen(self, listener: Listener | None) -> None:
+    def set_listener(self, listener: Listener | None) -> None:
         """Hand every tracked frame and event on from now; None for nobody. One that raises hears nothing more."""
         self._listener = listener
 
     @property
-    def tracking(self) -> bool:
+    def is_tracking(self) -> bool:
         return self._pipeline is not None
 
-    def newest(self) -> TrackedView | None:
+    def current_view(self) -> TrackedView | None:
         """The newest tracked frame with its picture; older ones that were not looked at are gone."""
-        return self._newest_view.look()
+        return self._view_mailbox.peek()
 
-    def tracked_since(self, index: int) -> list[TrackedFrame]:
+    def frames_since(self, index: int) -> list[TrackedFrame]:
         """Tracked frames with an index above ``index``, oldest first, over the last 12 s or more."""
         with self._lock:
             return [tracked for tracked in self._history if tracked.index > index]
@@ -186,26 +184,27 @@ class LiveSession:
     def start_recording(
         self,
         open_session: Callable[[], SessionSink],
-        open_pictures: Callable[[], PictureSink] | None = None,
-        at_end: Callable[[], None] = lambda: None,
+        open_frames: Callable[[], FrameSink] | None = None,
+        before_close: Callable[[], None] = lambda: None,
     ) -> None:
         """Opens the session file (and a raw recording) and stores everything captured from now on.
 
-        Both are opened, filled and closed in threads of their own, closed after ``at_end`` has come back. Raises what
+        Both are opened, filled and closed in threads of their own, closed after ``before_close`` has come back.
+        Raises what
         kept a file from opening; then nothing is recorded.
         """
-        if self.recording or self._backlog.ends_recording:
+        if self.is_recording or self._backlog.is_finishing_recording:
             raise RuntimeError("a recording runs already")
-        frame, settings = self._newest_frame.look(), self._settings
-        self._backlog.room = room_for(frame, settings.tracking_waiting)
+        frame, settings = self._frame_mailbox.peek(), self._settings
+        self._backlog.capacity = compute_capacity(frame, settings.tracking_waiting)
         recording = LiveRecording(
             open_session,
-            open_pictures,
+            open_frames,
             settings,
-            room_for(frame, settings.pictures_waiting),
-            self._tell,
-            waits=self._backlog.waits,
-            at_end=at_end,
+            compute_capacity(frame, settings.pictures_waiting),
+            self._report_event,
+            is_blocking=self._backlog.is_blocking,
+            before_close=before_close,
         )
         recording.start()
         with self._lock:
@@ -214,25 +213,25 @@ class LiveSession:
     def pause_recording(self) -> None:
         """Stores nothing until :meth:`resume_recording`; the pause is noted in the file."""
         recording = self._recording
-        if recording is not None and not recording.paused:
+        if recording is not None and not recording.is_paused:
             self.add_event("pause", "")
-            recording.paused = True
+            recording.is_paused = True
 
     def resume_recording(self) -> None:
         recording = self._recording
-        if recording is not None and recording.paused:
-            recording.paused = False
+        if recording is not None and recording.is_paused:
+            recording.is_paused = False
             self.add_event("resume", "")
 
-    def add_event(self, kind: str, text: str = "", at_s: float = math.nan) -> bool:
+    def add_event(self, kind: str, text: str = "", time_s: float = math.nan) -> bool:
         """Notes something in the running recording, at a time or at the newest frame's; False when there is none."""
-        recording, now_s = self._recording, at_s if math.isfinite(at_s) else self._now_s()
-        self._hear(lambda listener: listener.event(now_s, kind))
-        return recording is not None and recording.rows.put(Note(now_s, kind, text))
+        recording, now_s = self._recording, time_s if math.isfinite(time_s) else self._current_time_s()
+        self._notify(lambda listener: listener.on_event(now_s, kind))
+        return recording is not None and recording.row_recorder.submit(QueuedEvent(now_s, kind, text))
 
-    def tell(self, kind: str, at_s: float) -> None:
+    def notify_listener(self, kind: str, time_s: float) -> None:
         """Says to who listens what is no event of the file: a repetition, which the finished file has in its table."""
-        self._hear(lambda listener: listener.event(at_s, kind))
+        self._notify(lambda listener: listener.on_event(time_s, kind))
 
     def stop_recording(self) -> Path:
         """Waits until all that was captured is tracked and stored and the files are closed; the session file's path.
@@ -245,42 +244,42 @@ class LiveSession:
             recording = self._recording
             if recording is None:
                 raise RuntimeError("no recording runs")
-            backlog.ends_recording = True  # from now on no frame is recorded
-            last = backlog.handed  # a file hands over more meanwhile, which is waited for by nobody
+            backlog.is_finishing_recording = True  # from now on no frame is recorded
+            last = backlog.submission_count  # a file hands over more meanwhile, which is waited for by nobody
         try:
-            while recording.rows.fault is None and backlog.is_behind(last) and self._pipeline is not None:
-                time.sleep(_LOOK_S)
+            while recording.row_recorder.fault is None and backlog.has_pending(last) and self._pipeline is not None:
+                time.sleep(_POLL_S)
             with self._lock:
                 self._recording = None
             return recording.finish()
         finally:
-            backlog.ends_recording = False
+            backlog.is_finishing_recording = False
 
     @property
-    def recording(self) -> bool:
+    def is_recording(self) -> bool:
         """Whether a recording was started and not yet stopped; also after a fault ended it."""
         return self._recording is not None
 
     @property
-    def recorded_from(self) -> int | None:
+    def first_recorded_index(self) -> int | None:
         """Index of the first frame of the running recording, None until it is captured."""
         recording = self._recording
-        return None if recording is None else recording.first_index
+        return None if recording is None else recording.first_frame_index
 
     @property
-    def paused(self) -> bool:
+    def is_paused(self) -> bool:
         recording = self._recording
-        return recording is not None and recording.paused
+        return recording is not None and recording.is_paused
 
     # --- what is told -------------------------------------------------------------------------
-    def notice(self, fault: Exception) -> None:
+    def handle_notice(self, fault: Exception) -> None:
         """For sources that tell something while they go on: the camera lost or back, pictures left out."""
         kind: LiveEventKind = "notice"
         if isinstance(fault, CameraLost):
             kind = "camera_lost"
         elif isinstance(fault, CameraReturned):
             kind = "camera_back"
-        self._tell(kind, fault)
+        self._report_event(kind, fault)
         if kind != "notice":
             self.add_event(kind, str(getattr(fault, "detail", "")))
 
@@ -300,23 +299,23 @@ class LiveSession:
         p50, p95 = np.percentile(latencies, (50.0, 95.0)) if len(latencies) else (math.nan, math.nan)
         span_s = arrivals[-1] - arrivals[0] if len(arrivals) > 1 else 0.0
         fps = (len(arrivals) - 1) / span_s if span_s > 0.0 else 0.0
-        rows, pictures = (recording.rows, recording.pictures) if recording else (None, None)
-        free = recording.disk_free if recording else free_bytes(self._settings.folder)
-        frame_bytes = ROW_BYTES + (PICTURE_BYTES if pictures else 0)
+        rows, pictures = (recording.row_recorder, recording.frame_recorder) if recording else (None, None)
+        free = recording.disk_free_bytes if recording else read_free_bytes(self._settings.folder)
+        frame_bytes = ROW_BYTES + (FRAME_BYTES if pictures else 0)
         return LiveCounters(
             captured=captured,
             tracked=tracked,
-            dropped=self._backlog.left_out,
+            dropped=self._backlog.dropped_count,
             missing=missing,
             fps=fps,
             latency_p50_ms=1e3 * float(p50),
             latency_p95_ms=1e3 * float(p95),
-            waiting_tracking=len(self._backlog),
-            catching_up_s=self._backlog.behind_s,
-            rows_written=rows.written if rows else 0,
-            pictures_written=pictures.written if pictures else 0,
-            recording=recording is not None,
-            paused=recording is not None and recording.paused,
+            frames_waiting=len(self._backlog),
+            tracking_lag_s=self._backlog.lag_s,
+            rows_written=rows.write_count if rows else 0,
+            frames_written=pictures.write_count if pictures else 0,
+            is_recording=recording is not None,
+            is_paused=recording is not None and recording.is_paused,
             disk_free_bytes=free,
             disk_minutes_left=math.nan if free is None else free / (frame_bytes * (fps or 30.0)) / 60.0,
         )
@@ -329,54 +328,54 @@ class LiveSession:
             for frame in frames:
                 if self._stopping.is_set():
                     break
-                self._take(frame)
+                self._handle_frame(frame)
             else:
                 # A file has ended when its last frame is tracked: who then stops the recording loses none.
-                while self._backlog.waits and self._backlog.is_behind() and not self._stopping.wait(_LOOK_S):
+                while self._backlog.is_blocking and self._backlog.has_pending() and not self._stopping.wait(_POLL_S):
                     pass
                 if not self._stopping.is_set():
-                    self._tell("source_ended")
+                    self._report_event("source_ended")
         except Exception as cause:  # the one catch at the top of this thread
             if not self._stopping.is_set():
-                self._tell("source_failed", cause)
+                self._report_event("source_failed", cause)
         finally:
             close = getattr(frames, "close", None)  # a generator gives its files back here, in its own thread
             if close is not None:
                 close()
 
-    def _take(self, frame: Frame) -> None:
+    def _handle_frame(self, frame: Frame) -> None:
         at_s = time.monotonic()
         with self._lock:
             recording, pipeline = self._recording, self._pipeline
-            if recording is not None and (recording.paused or self._backlog.ends_recording):
+            if recording is not None and (recording.is_paused or self._backlog.is_finishing_recording):
                 recording = None
             if pipeline is not None:  # told with the recording: who stops it waits for this frame too
-                self._backlog.expect()
-            self._recent.append(frame)
+                self._backlog.announce()
+            self._recent_frames.append(frame)
             self._arrivals.append(at_s)
             self._captured += 1
             self._missing += frame.dropped_before
-            if recording is not None and recording.first_index is None:
-                recording.first_index = frame.index
-        if recording is not None and recording.pictures is not None:
-            recording.pictures.put(frame)
-        self._newest_frame.put(frame)
+            if recording is not None and recording.first_frame_index is None:
+                recording.first_frame_index = frame.index
+        if recording is not None and recording.frame_recorder is not None:
+            recording.frame_recorder.submit(frame)
+        self._frame_mailbox.post(frame)
         if pipeline is not None:
-            self._backlog.put(Captured(frame, at_s, pipeline, recording))
+            self._backlog.submit(QueuedFrame(frame, at_s, pipeline, recording))
 
     def _track(self) -> None:
         for captured in self._backlog:
             try:
                 # Else captured for a pipeline that has ended, or waiting for a recording that has failed.
-                if captured.pipeline is self._pipeline and not self._backlog.is_of_the_past(captured):
+                if captured.pipeline is self._pipeline and not self._backlog.is_stale(captured):
                     self._track_one(captured)
             except Exception as cause:  # the one catch at the top of this thread
                 with self._lock:
                     if self._pipeline is captured.pipeline:
                         self._pipeline = None
-                self._tell("tracking_failed", cause)
+                self._report_event("tracking_failed", cause)
 
-    def _track_one(self, captured: Captured) -> None:
+    def _track_one(self, captured: QueuedFrame) -> None:
         frame = captured.frame
         tracked = captured.pipeline(frame)
         with self._lock:
@@ -384,29 +383,29 @@ class LiveSession:
                 return
             self._history.append(tracked)
             self._tracked += 1
-            self._latencies.append(time.monotonic() - captured.at_s)
-            self._newest_view.put(TrackedView(frame, tracked, captured.at_s))
+            self._latencies.append(time.monotonic() - captured.captured_at_s)
+            self._view_mailbox.post(TrackedView(frame, tracked, captured.captured_at_s))
         if captured.recording is not None:
-            captured.recording.rows.put(tracked)
-        self._hear(lambda listener: listener.push(tracked))
+            captured.recording.row_recorder.submit(tracked)
+        self._notify(lambda listener: listener.on_frame(tracked))
 
     # --- small things -------------------------------------------------------------------------
-    def _hear(self, say: Callable[[Listener], None]) -> None:
+    def _notify(self, callback: Callable[[Listener], None]) -> None:
         listener = self._listener
         if listener is None:
             return
         try:
-            say(listener)
+            callback(listener)
         except Exception:  # whoever listens must not end the measuring
             log.warning("the live stream ended", exc_info=True)
             self._listener = None
 
-    def _tell(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None:
+    def _report_event(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None:
         if cause is not None:
             log.warning("%s", kind, exc_info=cause)
-        self._events.append(LiveEvent(kind, self._now_s(), cause, value))
+        self._events.append(LiveEvent(kind, self._current_time_s(), cause, value))
 
-    def _now_s(self) -> float:
+    def _current_time_s(self) -> float:
         """Time of the newest frame, in the recording's own time."""
-        frame = self._newest_frame.look()
+        frame = self._frame_mailbox.peek()
         return math.nan if frame is None else frame.timestamp_s

@@ -82,9 +82,9 @@ class LiveCounters:
 
     ``captured``, ``tracked`` frames since the start; ``dropped`` frames for which there was no room before the tracker,
     and ``missing`` those that never came from the source; ``fps`` over the last two seconds; ``latency_*_ms`` from the
-    frame's arrival until it was tracked, over the last frames; ``waiting_tracking`` how many wait for that;
-    ``catching_up_s`` how long it takes for these, as fast as it has been lately; ``rows_written`` and
-    ``pictures_written`` of the running recording; ``disk_free_bytes`` and ``disk_minutes_left`` at its rate.
+    frame's arrival until it was tracked, over the last frames; ``frames_waiting`` how many wait for that;
+    ``tracking_lag_s`` how long it takes for these, as fast as it has been lately; ``rows_written`` and
+    ``frames_written`` of the running recording; ``disk_free_bytes`` and ``disk_minutes_left`` at its rate.
     """
 
     captured: int
@@ -94,11 +94,11 @@ class LiveCounters:
     fps: float
     latency_p50_ms: float
     latency_p95_ms: float
-    waiting_tracking: int
-    catching_up_s: float
+    frames_waiting: int
+    tracking_lag_s: float
     rows_written: int
-    pictures_written: int
-    recording: bool
-    paused: bool
+    frames_written: int
+    is_recording: bool
+    is_paused: bool
     disk_free_bytes: int | None
     disk_minutes_left: float

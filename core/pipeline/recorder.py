@@ -10,10 +10,10 @@ from typing import Generic, Protocol, TypeVar
 
 from carpus.core.errors import DiskTooSlow
 from carpus.core.phrase import phrase
-from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop
+from carpus.core.pipeline.channels import BoundedQueue, QueueClosedError, QueueFullError
 
 Item = TypeVar("Item")
-LOOK_EVERY_S = 0.2
+POLL_S = 0.2
 
 
 class Sink(Protocol):
@@ -45,7 +45,8 @@ class Recorder(Generic[SinkT, Item]):
 
     ``write(sink, item)`` stores one item; ``on_fault(exception)`` is called once, from whichever thread met it.
     When items come faster than they are stored until ``capacity`` of them wait, :class:`DiskTooSlow` ends the
-    recording: what waits is still written and the file is closed in good order. With ``waits`` whoever puts waits for
+    recording: what waits is still written and the file is closed in good order. With ``is_blocking`` whoever puts
+    waits for
     the disk instead.
     """
 
@@ -57,28 +58,28 @@ class Recorder(Generic[SinkT, Item]):
         capacity: int,
         on_fault: Callable[[Exception], None],
         *,
-        waits: bool = False,
+        is_blocking: bool = False,
     ) -> None:
         self._open_sink = open_sink
         self._write = write
         self._on_fault = on_fault
-        self._channel: NeverDrop[Item] = NeverDrop(capacity)
-        self._room = threading.Semaphore(capacity) if waits else None
+        self._queue: BoundedQueue[Item] = BoundedQueue(capacity)
+        self._free_slots = threading.Semaphore(capacity) if is_blocking else None
         self._opened = threading.Event()
         self._lock = threading.Lock()
         self._fault: Exception | None = None
         self._path: Path | None = None
-        self._written = 0
-        self._unwanted = False
+        self._write_count = 0
+        self._is_discarded = False
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
 
     @property
-    def waiting(self) -> int:
-        return len(self._channel)
+    def queue_length(self) -> int:
+        return len(self._queue)
 
     @property
-    def written(self) -> int:
-        return self._written
+    def write_count(self) -> int:
+        return self._write_count
 
     @property
     def fault(self) -> Exception | None:
@@ -98,27 +99,25 @@ class Recorder(Generic[SinkT, Item]):
             self._thread.join()
             raise self._fault
 
-    def put(self, item: Item) -> bool:
+    def submit(self, item: Item) -> bool:
         """Hands over one item without waiting; False when the recording has ended."""
-        if self._room is not None:
-            while not self._room.acquire(timeout=LOOK_EVERY_S):
+        if self._free_slots is not None:
+            while not self._free_slots.acquire(timeout=POLL_S):
                 if self._fault is not None:
                     return False
         try:
-            self._channel.put(item)
-        except ChannelClosed:
+            self._queue.push(item)
+        except QueueClosedError:
             return False
-        except ChannelFull:
-            self._channel.close()
-            self._fail(
-                DiskTooSlow(self._path or "", phrase("{capacity} rows waiting", capacity=self._channel.capacity))
-            )
+        except QueueFullError:
+            self._queue.close()
+            self._fail(DiskTooSlow(self._path or "", phrase("{capacity} rows waiting", capacity=self._queue.capacity)))
             return False
         return True
 
     def finish(self) -> Path:
         """Waits until everything handed over is stored and the file is closed; raises the fault that ended it early."""
-        self._channel.close()
+        self._queue.close()
         self._thread.join()
         if self._fault is not None:
             raise self._fault
@@ -127,8 +126,8 @@ class Recorder(Generic[SinkT, Item]):
 
     def discard(self) -> None:
         """Ends a recording that never began and removes its file."""
-        self._unwanted = True
-        self._channel.close()
+        self._is_discarded = True
+        self._queue.close()
         self._thread.join()
 
     def _run(self) -> None:
@@ -137,18 +136,18 @@ class Recorder(Generic[SinkT, Item]):
             sink = self._open_sink()
             self._path = sink.path
             self._opened.set()
-            for item in self._channel:
+            for item in self._queue:
                 self._write(sink, item)
-                self._written += 1
-                if self._room is not None:
-                    self._room.release()
-            if self._unwanted:
+                self._write_count += 1
+                if self._free_slots is not None:
+                    self._free_slots.release()
+            if self._is_discarded:
                 sink.discard()
             else:
                 sink.close()
                 self._path = sink.path
         except Exception as cause:  # the one catch at the top of this thread
-            self._channel.close()
+            self._queue.close()
             if sink is None:
                 self._fault = cause  # told to who waits in start()
             else:

@@ -9,12 +9,12 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from carpus.core.pipeline.around_hand import PictureSink
+from carpus.core.pipeline.around_hand import FrameSink
 from carpus.core.pipeline.live_values import LiveEventKind, LiveSettings
 from carpus.core.pipeline.recorder import Recorder, Sink
 from carpus.core.types import Frame, TrackedFrame
 
-_LOOK_EVERY_ROWS = 30
+_DISK_CHECK_ROWS = 30
 
 
 class SessionSink(Sink, Protocol):
@@ -29,7 +29,7 @@ class SessionSink(Sink, Protocol):
         ...
 
 
-class Note(NamedTuple):
+class QueuedEvent(NamedTuple):
     """An event on its way to the session file."""
 
     time_s: float
@@ -37,7 +37,7 @@ class Note(NamedTuple):
     text: str
 
 
-class Tell(Protocol):
+class LiveEventHandler(Protocol):
     """Says something rare to the person who measures."""
 
     def __call__(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None: ...
@@ -46,86 +46,92 @@ class Tell(Protocol):
 class LiveRecording:
     """The session file and the raw pictures, each opened, filled and closed in a thread of its own.
 
-    ``tell`` hears what ends one of them early, and once that there is little room left. With ``waits`` whoever puts
-    waits for the disk. ``at_end`` waits for what a finished file holds besides, beside the writing thread, which writes
+    ``on_event`` hears what ends one of them early, and once that there is little room left. With ``is_blocking``
+    whoever puts
+    waits for the disk. ``before_close`` waits for what a finished file holds besides, beside the writing thread,
+    which writes
     what is there meanwhile.
     """
 
     def __init__(
         self,
         open_session: Callable[[], SessionSink],
-        open_pictures: Callable[[], PictureSink] | None,
+        open_frames: Callable[[], FrameSink] | None,
         settings: LiveSettings,
-        pictures_waiting: int,
-        tell: Tell,
+        max_frames_waiting: int,
+        on_event: LiveEventHandler,
         *,
-        waits: bool,
-        at_end: Callable[[], None] = lambda: None,
+        is_blocking: bool,
+        before_close: Callable[[], None] = lambda: None,
     ) -> None:
-        self.paused, self._at_end = False, at_end
-        self.first_index: int | None = None
+        self.is_paused, self._before_close = False, before_close
+        self.first_frame_index: int | None = None
         """Index of the first frame that is recorded, None until it is captured."""
-        self.disk_free: int | None = None
+        self.disk_free_bytes: int | None = None
         """Bytes, as last looked at while a row was written."""
-        self._low_disk_bytes, self._tell, self._disk_warned = settings.low_disk_bytes, tell, False
-        self.rows: Recorder[SessionSink, TrackedFrame | Note | None] = Recorder(
+        self._low_disk_bytes, self._on_event, self._has_warned = settings.low_disk_bytes, on_event, False
+        self.row_recorder: Recorder[SessionSink, TrackedFrame | QueuedEvent | None] = Recorder(
             "writing",
             open_session,
             self._write_row,
-            settings.rows_waiting + (0 if waits else settings.tracking_waiting),
-            lambda cause: tell("recording_failed", cause),
-            waits=waits,
+            settings.rows_waiting + (0 if is_blocking else settings.tracking_waiting),
+            lambda cause: on_event("recording_failed", cause),
+            is_blocking=is_blocking,
         )
-        self.pictures: Recorder[PictureSink, Frame] | None = None
-        if open_pictures is not None:
-            self.pictures = Recorder(
+        self.frame_recorder: Recorder[FrameSink, Frame] | None = None
+        if open_frames is not None:
+            self.frame_recorder = Recorder(
                 "pictures",
-                open_pictures,
+                open_frames,
                 lambda sink, frame: sink.append_frame(frame),
-                pictures_waiting,
-                lambda cause: tell("pictures_failed", cause),
-                waits=waits,
+                max_frames_waiting,
+                lambda cause: on_event("pictures_failed", cause),
+                is_blocking=is_blocking,
             )
 
     def start(self) -> None:
         """Waits until the files are open. Raises what kept one from opening; then none is left behind."""
-        self.rows.start()
-        if self.pictures is not None:
+        self.row_recorder.start()
+        if self.frame_recorder is not None:
             try:
-                self.pictures.start()
+                self.frame_recorder.start()
             except Exception:
-                self.rows.discard()
+                self.row_recorder.discard()
                 raise
 
     def finish(self) -> Path:
         """Waits until all is stored; the session file. Raises the fault that ended it early."""
-        if self.rows.fault is None:
-            self.rows.put(None)
-            self._at_end()
+        if self.row_recorder.fault is None:
+            self.row_recorder.submit(None)
+            self._before_close()
         try:
-            return self.rows.finish()
+            return self.row_recorder.finish()
         finally:
-            if self.pictures is not None:
+            if self.frame_recorder is not None:
                 with suppress(Exception):  # told as pictures_failed
-                    self.pictures.finish()
+                    self.frame_recorder.finish()
 
-    def _write_row(self, sink: SessionSink, item: TrackedFrame | Note | None) -> None:
+    def _write_row(self, sink: SessionSink, item: TrackedFrame | QueuedEvent | None) -> None:
         """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then. None:
         no more rows come."""
         if item is None:
             sink.prepare()
-        elif isinstance(item, Note):
+        elif isinstance(item, QueuedEvent):
             sink.add_event(item.time_s, item.kind, item.text)
         else:
             sink.append(item)
-        if self.rows.written % _LOOK_EVERY_ROWS == 0:
-            self.disk_free = free_bytes(sink.path.parent)
-            if self.disk_free is not None and self.disk_free < self._low_disk_bytes and not self._disk_warned:
-                self._disk_warned = True
-                self._tell("disk_low", value=float(self.disk_free))
+        if self.row_recorder.write_count % _DISK_CHECK_ROWS == 0:
+            self.disk_free_bytes = read_free_bytes(sink.path.parent)
+            if (
+                self.disk_free_bytes is not None
+                and self.disk_free_bytes < self._low_disk_bytes
+                and not self._has_warned
+            ):
+                self._has_warned = True
+                self._on_event("disk_low", value=float(self.disk_free_bytes))
 
 
-def free_bytes(folder: Path | None) -> int | None:
+def read_free_bytes(folder: Path | None) -> int | None:
     """Room on the disk of a folder, None when unknown."""
     if folder is None:
         return None

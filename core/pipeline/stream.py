@@ -31,7 +31,7 @@ class Channel(NamedTuple):
     unit: str
 
 
-def channels(protocol: MarkerProtocol, joint_names: Sequence[str]) -> tuple[Channel, ...]:
+def list_channels(protocol: MarkerProtocol, joint_names: Sequence[str]) -> tuple[Channel, ...]:
     """What a sample holds, in order."""
     out = [Channel("status", "", "Status", "0 tracked, 1 predicted, 2 lost, 3 doubtful")]
     out += [Channel(f"wrist_{name}", "WRIST", "Angle", "degrees") for name in WRIST_ANGLES]
@@ -45,15 +45,15 @@ def channels(protocol: MarkerProtocol, joint_names: Sequence[str]) -> tuple[Chan
     return (*out, Channel("measured_share", "", "Confidence", "share"), Channel("nis", "", "Quality", "1"))
 
 
-def sample_of(frame: TrackedFrame) -> list[float]:
-    """The numbers of a frame in the order of :func:`channels`; NaN where not known."""
+def build_sample(frame: TrackedFrame) -> list[float]:
+    """The numbers of a frame in the order of :func:`list_channels`; NaN where not known."""
     share = frame.measured_share[np.isfinite(frame.measured_share)]
     return [
         float(frame.status),
-        *np.degrees(frame.moment.angles_rad).tolist(),
-        *np.degrees(frame.moment.angles_sd_rad).tolist(),
-        *np.degrees(frame.moment.joint_angles_rad).tolist(),
-        *np.degrees(frame.moment.joint_angles_sd_rad).tolist(),
+        *np.degrees(frame.kinematics.angles_rad).tolist(),
+        *np.degrees(frame.kinematics.angles_sd_rad).tolist(),
+        *np.degrees(frame.kinematics.joint_angles_rad).tolist(),
+        *np.degrees(frame.kinematics.joint_angles_sd_rad).tolist(),
         *frame.marker_position_cam_m.ravel().tolist(),
         float(share.mean()) if len(share) else float("nan"),
         float(frame.nis),
@@ -69,13 +69,13 @@ class SampleStream:
     _offset_s: Callable[[float], float]
 
     @classmethod
-    def of_hand(
+    def open(
         cls, clicks: Clicks, rate_hz: float, *, dip_free: bool, clock: Callable[[], float] | None = None
     ) -> SampleStream:
         """Offer both outlets of the hand that was clicked; the first picture was taken at what ``clock``, asked once,
         says in LSL's time: without it when it comes. Raises :class:`ExtraMissing` without pylsl."""
-        lsl = library()
-        said = channels(clicks.protocol, clicks.protocol.joint_names(dip_free))
+        lsl = import_pylsl()
+        said = list_channels(clicks.protocol, clicks.protocol.joint_names(dip_free))
         info = lsl.StreamInfo(NAME, "MoCap", len(said), rate_hz, lsl.cf_float32, LIVE_ID)
         about = info.desc()
         about.append_child_value("manufacturer", "Carpus")
@@ -90,22 +90,22 @@ class SampleStream:
             ):  # fmt: skip
                 one.append_child_value(name, text)
         marks = lsl.StreamInfo(EVENTS_NAME, "Markers", 1, lsl.IRREGULAR_RATE, lsl.cf_string, f"{LIVE_ID}-events")
-        return cls(lsl.StreamOutlet(info), lsl.StreamOutlet(marks), _first_is_now(clock or lsl.local_clock))
+        return cls(lsl.StreamOutlet(info), lsl.StreamOutlet(marks), _make_clock_offset(clock or lsl.local_clock))
 
-    def push(self, frame: TrackedFrame) -> None:
+    def on_frame(self, frame: TrackedFrame) -> None:
         """One picture, with the time it was taken."""
-        self._samples.push_sample(sample_of(frame), frame.timestamp_s + self._offset_s(frame.timestamp_s))
+        self._samples.push_sample(build_sample(frame), frame.timestamp_s + self._offset_s(frame.timestamp_s))
 
-    def event(self, time_s: float, kind: str) -> None:
+    def on_event(self, time_s: float, kind: str) -> None:
         """Something that happened: its kind alone, for a note may name somebody."""
         self._events.push_sample([kind], time_s + self._offset_s(time_s))
 
-    def wait_for_listener(self, timeout_s: float) -> bool:
+    def has_listener(self, timeout_s: float) -> bool:
         """Whether somebody listens, within this time."""
         return bool(self._samples.wait_for_consumers(timeout_s))
 
 
-def _first_is_now(clock: Callable[[], float]) -> Callable[[float], float]:
+def _make_clock_offset(clock: Callable[[], float]) -> Callable[[float], float]:
     known: list[float] = []
 
     def offset_s(time_s: float) -> float:
@@ -116,7 +116,7 @@ def _first_is_now(clock: Callable[[], float]) -> Callable[[float], float]:
     return offset_s
 
 
-def library() -> Any:
+def import_pylsl() -> Any:
     """Pylsl. Raises :class:`ExtraMissing` where it, or the library it brings, is not there."""
     try:
         import pylsl

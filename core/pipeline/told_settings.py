@@ -10,19 +10,19 @@ from typing import Any, NamedTuple, TypeVar
 
 from carpus.core.errors import SettingsInvalid
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.typed_value import typed_value
+from carpus.core.typed_value import convert_value
 
 T = TypeVar("T")
 
 
-class Told(NamedTuple):
+class StoredSettings(NamedTuple):
     """``settings`` as the session was tracked, ``unknown`` the names of those that this Carpus does not have."""
 
     settings: TrackSettings
     unknown: tuple[str, ...]
 
 
-def settings_told(parameters: str, kind: type[TrackSettings] = TrackSettings) -> Told | None:
+def settings_from_json(parameters: str, kind: type[TrackSettings] = TrackSettings) -> StoredSettings | None:
     """The settings that a session's parameters tell, as those of a ``kind`` of filter; None where they do not.
 
     A setting that is newer than the session keeps its default; one that is gone is named.
@@ -34,40 +34,40 @@ def settings_told(parameters: str, kind: type[TrackSettings] = TrackSettings) ->
     if not isinstance(told, Mapping):
         return None
     unknown: list[str] = []
-    return Told(_filled(kind, told, "", unknown), tuple(unknown))
+    return StoredSettings(_parse_settings(kind, told, "", unknown), tuple(unknown))
 
 
-def differences(before: TrackSettings, after: TrackSettings) -> list[str]:
+def list_differences(before: TrackSettings, after: TrackSettings) -> list[str]:
     """What differs, one text each: the setting's name, its value now and what it was."""
-    return list(_differing(asdict(before), asdict(after)))
+    return list(_iter_differences(asdict(before), asdict(after)))
 
 
-def _filled(kind: type[T], told: Mapping[str, Any], where: str, unknown: list[str]) -> T:
+def _parse_settings(kind: type[T], stored: Mapping[str, Any], prefix: str, unknown: list[str]) -> T:
     hints = typing.get_type_hints(kind)
     found: dict[str, Any] = {}
-    for name, value in told.items():
-        hint, place = hints.get(name), f"{where}{name}"
+    for name, value in stored.items():
+        hint, place = hints.get(name), f"{prefix}{name}"
         if hint is None:
             unknown += [place] if value is not None else []
         elif isinstance(hint, type) and is_dataclass(hint) and isinstance(value, Mapping):
-            found[name] = _filled(hint, value, f"{place}.", unknown)
+            found[name] = _parse_settings(hint, value, f"{place}.", unknown)
         else:
             try:
-                found[name] = typed_value(hint, value, place)
+                found[name] = convert_value(hint, value, place)
             except SettingsInvalid:
                 unknown.append(place)
     return kind(**found)
 
 
-def _differing(before: dict[str, Any], after: dict[str, Any], where: str = "") -> Iterator[str]:
+def _iter_differences(before: dict[str, Any], after: dict[str, Any], prefix: str = "") -> Iterator[str]:
     for name in before | after:
         old, new = before.get(name), after.get(name)
         if isinstance(new, dict) and isinstance(old, dict):
-            yield from _differing(old, new, f"{where}{name}.")
+            yield from _iter_differences(old, new, f"{prefix}{name}.")
         elif new != old:
-            yield f"{where}{name} {_said(new)} (was {_said(old)})"
+            yield f"{prefix}{name} {_format_value(new)} (was {_format_value(old)})"
 
 
-def _said(value: Any) -> Any:
+def _format_value(value: Any) -> Any:
     """A whole part of the settings is there or not."""
     return "on" if isinstance(value, Mapping) else "off" if value is None else value

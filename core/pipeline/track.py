@@ -14,42 +14,42 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, StillNoise, calibrate, require_calibration
-from carpus.core.calibration.neutral_pose import by_the_discs
+from carpus.core.calibration.calibrate import CalibrationOutcome, MeasurementNoise, calibrate_hand, require_calibration
+from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.capture.files.pictures import decode_color, decode_depth
-from carpus.core.capture.files.raw import PackedFrame, RawRecording
-from carpus.core.capture.source import FrameSource, Recorded, SourceInfo, recorded_at, recording_id
+from carpus.core.capture.files.raw import LazyFrame, RawRecording
+from carpus.core.capture.source import FrameSource, RecordingDate, SourceInfo, compute_recording_id, find_recording_date
 from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.surface_samples import finger_samples, part_read, surface_samples
-from carpus.core.errors import OutputExists, PictureDamaged, RecordingEmpty
+from carpus.core.detection.surface_samples import compute_read_region, sample_fingers, sample_surface
+from carpus.core.errors import FrameDamaged, OutputExists, RecordingEmpty
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import Listener
-from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
+from carpus.core.provenance import sha256_of_file, sha256_of_recording, sha256_of_settings, source_revision
 from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
-from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
+from carpus.core.session.values import SET_UP, Event, Session, new_header, stack_states
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import (
+    OPERATOR_LABEL,
     SIMULATED,
-    SPOT_SAID,
     Detections,
     FloatArray,
     Frame,
-    Moment,
-    SpotAnswer,
+    KinematicState,
+    MarkerLabel,
     TrackedFrame,
     TrackStatus,
 )
 
-Seen = Frame | PackedFrame
+AnyFrame = Frame | LazyFrame
 """A frame, or one whose pictures are unpacked where they are looked at."""
 
 
@@ -65,13 +65,13 @@ class HandTracker(Protocol):
     def begin_at_neutral(self, at_s: float | None = None) -> None:
         """The hand is at its neutral pose again."""
 
-    def expect(self, timestamp_s: float) -> PredictedMeasurement | None:
+    def predict_measurement(self, timestamp_s: float) -> PredictedMeasurement | None:
         """Where to look at that time; None for the whole picture."""
 
-    def would_miss(self, blobs: Detections) -> bool:
+    def is_search_incomplete(self, blobs: Detections) -> bool:
         """Whether the whole picture is to be searched after all."""
 
-    def hear(self, answer: SpotAnswer) -> None:
+    def add_operator_label(self, label: MarkerLabel) -> None:
         """What a person says of the blue spots of a picture."""
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
@@ -88,49 +88,49 @@ class FramePipeline(Generic[AnyTracker]):
         self.detector = detector
         self.tracker = tracker
 
-    def __call__(self, given: Seen) -> TrackedFrame:
+    def __call__(self, given: AnyFrame) -> TrackedFrame:
         """Track one frame. Without a prediction the whole picture is searched."""
-        expected = self.tracker.expect(given.timestamp_s)
+        expected = self.tracker.predict_measurement(given.timestamp_s)
         region = part = None
         if expected is not None:
-            region = self.detector.region_about(expected.pixel, expected.covariance_px2, expected.depth_m)
+            region = self.detector.compute_search_region(expected.pixel, expected.covariance_px2, expected.depth_m)
             if not isinstance(given, Frame):  # a live picture is whole already
-                part = part_read(region, expected.back_px, expected.finger_px)
-        frame = given.seen(part)
+                part = compute_read_region(region, expected.dorsal_px, expected.finger_px)
+        frame = given.decode(part)
         blobs = self.detector.detect(frame, region)
-        if region is not None and self.tracker.would_miss(blobs):
-            frame = given.seen(None)
+        if region is not None and self.tracker.is_search_incomplete(blobs):
+            frame = given.decode(None)
             blobs = self.detector.detect(frame, None)
         if expected is not None:
             blobs = blobs.with_readings(
-                surface_samples(frame, expected.back_px),
-                finger_samples(frame, expected.finger_px),
+                sample_surface(frame, expected.dorsal_px),
+                sample_fingers(frame, expected.finger_px),
             )
         return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)
 
 
-NOT_LOOKED_BACK = "not_looked_back"
+SMOOTHING_FAILED = "not_looked_back"
 """The event of a session that is stored as tracked, though looking back was asked for."""
 
 
-def notes_in(session: Session) -> list[Event]:
+def session_notes(session: Session) -> list[Event]:
     """Its events, but for what only that tracking of it met."""
-    return [event for event in session.events if event.kind != NOT_LOOKED_BACK]
+    return [event for event in session.events if event.kind != SMOOTHING_FAILED]
 
 
-def answers_in(session: Session) -> dict[int, list[SpotAnswer]]:
+def read_operator_labels(session: Session) -> dict[int, list[MarkerLabel]]:
     """What was said of blue spots, by the row of the picture that took it up."""
-    out: dict[int, list[SpotAnswer]] = {}
+    out: dict[int, list[MarkerLabel]] = {}
     for event in session.events:
-        if event.kind == SPOT_SAID and len(session):
+        if event.kind == OPERATOR_LABEL and len(session):
             row = int(abs(session.timestamp_s - event.time_s).argmin())
-            answer = SpotAnswer.of_text(event.text, row)
+            answer = MarkerLabel.from_json(event.text, row)
             if answer is not None:
                 out.setdefault(row, []).append(answer)
     return out
 
 
-class SessionPictures:
+class SessionFrames:
     """A :class:`core.capture.source.FrameSource` over the stored pictures of a session, times as in the session."""
 
     def __init__(self, session: Session) -> None:
@@ -142,18 +142,18 @@ class SessionPictures:
             has_depth=True,
             frame_count=len(session),
             nominal_fps=30.0,
-            settings={"format": "session"} | ({SIMULATED: "yes"} if session.header.simulated else {}),
+            settings={"format": "session"} | ({SIMULATED: "yes"} if session.header.is_simulated else {}),
             recording_id=session.header.recording_id,
             recorded=session.header.recorded,
         )
 
     def frames(self) -> Iterator[Frame]:
-        """The frames in order; raises :class:`PictureDamaged` for one that cannot be decoded."""
+        """The frames in order; raises :class:`FrameDamaged` for one that cannot be decoded."""
         session = self._session
         for row, kept in enumerate(read_raw(session.path)):
             color = decode_color(kept.color)
             if color is None:
-                raise PictureDamaged(session.path, phrase("colour picture {row}", row=row))
+                raise FrameDamaged(session.path, phrase("colour picture {row}", row=row))
             depth = decode_depth(kept.depth) if kept.depth else None
             time_s, dropped = float(session.timestamp_s[row]), int(session.quality.dropped_before[row])
             yield Frame(row, time_s, color, depth, self._unit_m, max(dropped, 0))
@@ -166,7 +166,7 @@ T = TypeVar("T")
 
 Progress = Callable[[int, int | None], None]
 """Called with frames done and frames in all (None when unknown)."""
-LookBack = Callable[[], list[Moment]]
+SmoothFunction = Callable[[], list[KinematicState]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,10 +189,12 @@ class TrackSettings:
         """Whether depth takes part in tracking."""
         return self.tracker.use_depth
 
-    def follow(self, calibration: Calibration, camera: Camera, learnt: Learnt) -> tuple[HandTracker, LookBack | None]:
+    def build_tracker(
+        self, calibration: Calibration, camera: Camera, noise: NeutralNoise
+    ) -> tuple[HandTracker, SmoothFunction | None]:
         """What tracks a calibrated hand, and how it looks back if it is to."""
-        tracker = Tracker(calibration, camera, learnt.applied(self.tracker), keep_history=self.smooth)
-        return tracker, tracker.smoothed if self.smooth else None
+        tracker = Tracker(calibration, camera, noise.adapt_settings(self.tracker), keep_history=self.smooth)
+        return tracker, tracker.smooth if self.smooth else None
 
     def adapt_calibration(self, calibration: Calibration, camera: Camera) -> Calibration:
         """A new calibration as this filter has it."""
@@ -201,7 +203,7 @@ class TrackSettings:
     def adapt_stored_calibration(self, session: Session) -> Calibration:
         """The calibration of a session, whatever filter tracked that, as this filter has it."""
         is_other = is_of_other_filter(session.header.parameters)
-        return by_the_discs(session.calibration) if is_other else session.calibration
+        return with_w0_from_markers(session.calibration) if is_other else session.calibration
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,7 +220,7 @@ class TrackReport:
 
 
 @dataclass(frozen=True, slots=True)
-class Learnt:
+class NeutralNoise:
     """What the still hand at the start taught: its noise, until when it was still (time of the recording), and the
     size of its discs."""
 
@@ -227,28 +229,28 @@ class Learnt:
     neutral_ends_s: float
     disc_radius_m: float = 0.006
 
-    def applied(self, settings: TrackerSettings) -> TrackerSettings:
+    def adapt_settings(self, settings: TrackerSettings) -> TrackerSettings:
         """Tracker settings with this noise and these discs."""
         noise = replace(settings.noise, pixel_sd_px=self.pixel_sd_px, depth_ratio=self.depth_ratio)
         return replace(settings, noise=noise, marker_radius_m=self.disc_radius_m)
 
 
-def parameters_json(
-    settings: TrackSettings, source: Mapping[str, Any], learnt: Learnt, set_up: Mapping[str, Any] | None = None
+def format_parameters(
+    settings: TrackSettings, source: Mapping[str, Any], noise: NeutralNoise, set_up: Mapping[str, Any] | None = None
 ) -> str:
     """All settings, what was learnt, the facts of the source, what was aimed at, and by which revision."""
     chosen = asdict(settings)
-    content: dict[str, Any] = {"settings": chosen, "learnt": asdict(learnt), "source": dict(source)}
-    content["provenance"] = {"revision": revision(), "settings_sha256": sha256_of_settings(chosen)}
+    content: dict[str, Any] = {"settings": chosen, "learnt": asdict(noise), "source": dict(source)}
+    content["provenance"] = {"revision": source_revision(), "settings_sha256": sha256_of_settings(chosen)}
     if set_up:
         content[SET_UP] = dict(set_up)
     return json.dumps(content, sort_keys=True)
 
 
-def learnt_in(parameters: str) -> Learnt | None:
+def noise_from_json(parameters: str) -> NeutralNoise | None:
     """What an earlier session learnt; None where its parameters do not say."""
     try:
-        return Learnt(**json.loads(parameters)["learnt"])
+        return NeutralNoise(**json.loads(parameters)["learnt"])
     except (KeyError, TypeError, ValueError):
         return None
 
@@ -263,7 +265,7 @@ def is_of_other_filter(parameters: str) -> bool:
         return False
 
 
-def source_facts(info: SourceInfo) -> dict[str, Any]:
+def describe_source(info: SourceInfo) -> dict[str, Any]:
     """What a session says about where its pictures came from."""
     return {
         "name": info.name,
@@ -274,7 +276,7 @@ def source_facts(info: SourceInfo) -> dict[str, Any]:
     }
 
 
-def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSettings) -> Learnt:
+def noise_from_neutral(still: MeasurementNoise, neutral_ends_s: float, settings: TrackerSettings) -> NeutralNoise:
     """Noise of one picture and discs' size as the still hand showed them, or the settings' where it could not."""
     noise = settings.noise
     pixel_sd_px, depth_ratio = noise.pixel_sd_px, noise.depth_ratio
@@ -282,25 +284,25 @@ def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSetti
         pixel_sd_px = float(np.hypot(still.pixel_sd_px, PIXEL_MODEL_SD_PX))
     if np.isfinite(still.depth_ratio):
         depth_ratio = float(np.clip(still.depth_ratio, *DEPTH_RATIOS))
-    radius_m = still.disc_radius_m if np.isfinite(still.disc_radius_m) else settings.marker_radius_m
-    return Learnt(pixel_sd_px, depth_ratio, neutral_ends_s, radius_m)
+    radius_m = still.marker_radius_m if np.isfinite(still.marker_radius_m) else settings.marker_radius_m
+    return NeutralNoise(pixel_sd_px, depth_ratio, neutral_ends_s, radius_m)
 
 
 def build_pipeline(
-    outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, learnt: Learnt, keep_history: bool = True
+    outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, noise: NeutralNoise, keep_history: bool = True
 ) -> FramePipeline[Tracker]:
     """Detector and tracker for a calibrated hand; raises what :func:`require_calibration` does."""
     calibration = require_calibration(outcome)
     detector = Detector(outcome.appearance, camera, settings.detection)
-    tracker = Tracker(calibration, camera, learnt.applied(settings.tracker), keep_history=keep_history)
+    tracker = Tracker(calibration, camera, noise.adapt_settings(settings.tracker), keep_history=keep_history)
     return FramePipeline(detector, tracker)
 
 
-_SOON_S = 0.25
+_MAX_NEUTRAL_GAP_S = 0.25
 """So soon after the still frames a hand is as it was."""
 
 
-def from_neutral(
+def restart_at_neutral(
     frames: Iterable[T], tracker: HandTracker, neutral_ends_s: float, time_of: Callable[[T], float]
 ) -> Iterator[T]:
     """The frames, the tracker set back to the neutral pose before the first that was not used to calibrate.
@@ -311,7 +313,7 @@ def from_neutral(
     begun, is_first = False, True
     for frame in frames:
         if not begun and (late_s := time_of(frame) - neutral_ends_s) > 0.0:
-            if is_first and _SOON_S < late_s < math.inf:
+            if is_first and _MAX_NEUTRAL_GAP_S < late_s < math.inf:
                 tracker.begin_at_neutral(neutral_ends_s)
             else:
                 tracker.begin_at_neutral()
@@ -321,42 +323,43 @@ def from_neutral(
 
 
 @dataclass(frozen=True, slots=True)
-class Begun:
-    """A stored recording about to be tracked: its ``first`` frame, all ``frames`` from that on, what tracks them by the
+class TrackingStart:
+    """A stored recording about to be tracked: its ``first_frame`` frame, all ``frames`` from that on, what tracks
+    them by the
     chosen filter, and how that looks back if it is to."""
 
-    first: Frame
-    frames: Iterator[Seen]
+    first_frame: Frame
+    frames: Iterator[AnyFrame]
     pipeline: FramePipeline[HandTracker]
-    look_back: LookBack | None
+    smooth: SmoothFunction | None
     calibration: Calibration
-    learnt: Learnt
+    noise: NeutralNoise
 
 
-def begin_tracking(
+def start_tracking(
     source: FrameSource,
     clicks: Clicks,
     settings: TrackSettings,
     start_angles_rad: FloatArray | None = None,
     on_verdict: Callable[[Verdict], None] | None = None,
-) -> Begun:
+) -> TrackingStart:
     """Calibrate from the first frames. A poor verdict is handed to ``on_verdict``; a click with no blob or no depth
     raises, and :class:`RecordingEmpty` where there is no frame."""
-    frames: Iterator[Seen] = source.packed_frames() if isinstance(source, RawRecording) else source.frames()
-    opening, camera = _opening(frames, settings.calibration.still_s), source.info.camera
+    frames: Iterator[AnyFrame] = source.lazy_frames() if isinstance(source, RawRecording) else source.frames()
+    opening, camera = _read_neutral_frames(frames, settings.calibration.still_s), source.info.camera
     if not opening:
         raise RecordingEmpty(source.info.name)
-    outcome = calibrate(clicks, opening, camera, settings.calibration, settings.detection, start_angles_rad)
+    outcome = calibrate_hand(clicks, opening, camera, settings.calibration, settings.detection, start_angles_rad)
     if on_verdict is not None and not outcome.verdict.is_good:
         on_verdict(outcome.verdict)  # also before a fault: it may say why a click has no depth
     calibration = settings.adapt_calibration(require_calibration(outcome), camera)
     ends_s = opening[outcome.capture_frames - 1].timestamp_s
-    learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
-    tracker, look_back = settings.follow(calibration, camera, learnt)
+    learnt = noise_from_neutral(outcome.noise, ends_s, settings.tracker)
+    tracker, look_back = settings.build_tracker(calibration, camera, learnt)
     detector = Detector(outcome.appearance, camera, settings.detection)
     pipeline = FramePipeline(detector, tracker)
-    ordered = from_neutral(chain(opening, frames), tracker, ends_s, lambda frame: frame.timestamp_s)
-    return Begun(opening[0], ordered, pipeline, look_back, calibration, learnt)
+    ordered = restart_at_neutral(chain(opening, frames), tracker, ends_s, lambda frame: frame.timestamp_s)
+    return TrackingStart(opening[0], ordered, pipeline, look_back, calibration, learnt)
 
 
 def track_recording(
@@ -372,25 +375,25 @@ def track_recording(
     on_verdict: Callable[[Verdict], None] | None = None,
     origin: str = "",
     set_up: Mapping[str, Any] | None = None,
-    recorded: Recorded | None = None,
+    recorded: RecordingDate | None = None,
     path: Path | None = None,
-    on_date: Callable[[Recorded | None], None] | None = None,
+    on_date: Callable[[RecordingDate | None], None] | None = None,
     listener: Listener | None = None,
-    said: Session | None = None,
+    labelled_session: Session | None = None,
 ) -> TrackReport:
     """Track a recording from its first frame to its last into ``output``; smooth it if asked.
 
     ``recorded`` is when the hand moved, if somebody knows; else the recording is asked, at last the date of the file
     or folder ``path``, and ``on_date`` hears what it was. ``listener`` hears every frame as it is tracked.
-    ``said``: the session of the same pictures whose notes and answers hold again.
+    ``labelled_session``: the session of the same pictures whose notes and answers hold again.
     A poor verdict is handed to ``on_verdict`` and tracking goes on; a click with no blob or no depth raises.
     When a picture cannot be read, nothing half-done is left behind.
     """
     if output.exists():
         raise OutputExists(output)
-    begun = begin_tracking(source, clicks, settings, start_angles_rad, on_verdict)
+    begun = start_tracking(source, clicks, settings, start_angles_rad, on_verdict)
     if recorded is None:
-        recorded = recorded_at(source.info, begun.first.timestamp_s, path)
+        recorded = find_recording_date(source.info, begun.first_frame.timestamp_s, path)
     if on_date is not None:
         on_date(recorded)
     header = new_header(
@@ -398,27 +401,27 @@ def track_recording(
         protocol=clicks.protocol,
         subject_id=subject_id,
         exercise=exercise,
-        parameters=parameters_json(settings, _recording_facts(source.info, recorded, path), begun.learnt, set_up),
+        parameters=format_parameters(settings, _describe_recording(source.info, recorded, path), begun.noise, set_up),
         origin=origin,
         dip_free=settings.dip_free,
-        recorded=recorded.when if recorded else "",
-        recording_id=recording_id(source.info, begun.first),
+        recorded=recorded.time if recorded else "",
+        recording_id=compute_recording_id(source.info, begun.first_frame),
     )
     writer = SessionWriter.create(output, header, source.info.camera, begun.calibration)
-    answers = {} if said is None else answers_in(said)
+    answers = {} if labelled_session is None else read_operator_labels(labelled_session)
 
-    def answered(frame: Seen) -> TrackedFrame:
+    def track_frame(frame: AnyFrame) -> TrackedFrame:
         for answer in answers.get(frame.index, ()):
-            begun.pipeline.tracker.hear(answer)
+            begun.pipeline.tracker.add_operator_label(answer)
         return begun.pipeline(frame)
 
-    tracked = _heard(map(answered, begun.frames), listener)
-    notes, verdict = () if said is None else notes_in(said), begun.calibration.verdict
-    return write_tracked(writer, tracked, begun.look_back, verdict, source.info.frame_count, progress, notes)
+    tracked = _heard(map(track_frame, begun.frames), listener)
+    notes, verdict = () if labelled_session is None else session_notes(labelled_session), begun.calibration.verdict
+    return write_tracked(writer, tracked, begun.smooth, verdict, source.info.frame_count, progress, notes)
 
 
-def _recording_facts(info: SourceInfo, recorded: Recorded | None, path: Path | None) -> dict[str, Any]:
-    facts = source_facts(info) | ({"recorded_by": recorded.said_by} if recorded else {})
+def _describe_recording(info: SourceInfo, recorded: RecordingDate | None, path: Path | None) -> dict[str, Any]:
+    facts = describe_source(info) | ({"recorded_by": recorded.source} if recorded else {})
     if path is not None:
         with suppress(OSError):  # a picture that is not there is told where it is read
             facts["sha256"] = sha256_of_recording(path)
@@ -445,7 +448,7 @@ def retrack_session(
     old = session.header
     if has_raw(origin):
         return track_recording(
-            SessionPictures(session),
+            SessionFrames(session),
             session.calibration.clicks,
             output,
             settings,
@@ -456,9 +459,9 @@ def retrack_session(
             on_verdict=on_verdict,
             origin=old.session_id,
             set_up=old.set_up,
-            recorded=Recorded(old.recorded, "recording"),
+            recorded=RecordingDate(old.recorded, "recording"),
             path=origin,
-            said=session,
+            labelled_session=session,
         )
     return _retrack_detections(origin, session, output, settings, progress)
 
@@ -471,51 +474,55 @@ def _retrack_detections(
     progress: Progress | None,
 ) -> TrackReport:
     table = read_detections(origin)
-    learnt = learnt_again(session, settings)
+    learnt = session_noise(session, settings)
     check_calibration(origin, session.calibration)
     calibration = settings.adapt_stored_calibration(session)
-    tracker, look_back = settings.follow(calibration, session.camera, learnt)
-    tracked = tracked_again(session, tracker, learnt, table.of_frame)
+    tracker, look_back = settings.build_tracker(calibration, session.camera, learnt)
+    tracked = retrack_frames(session, tracker, learnt, table.get_frame)
     facts = {"sha256": sha256_of_file(origin)}
-    writer = writer_again(session, output, settings, learnt, calibration, facts)
-    return write_tracked(writer, tracked, look_back, calibration.verdict, len(session), progress, notes_in(session))
+    writer = create_retrack_writer(session, output, settings, learnt, calibration, facts)
+    return write_tracked(
+        writer, tracked, look_back, calibration.verdict, len(session), progress, session_notes(session)
+    )
 
 
-def tracked_again(
-    session: Session, tracker: HandTracker, learnt: Learnt, blobs_of: Callable[[int], Detections]
+def retrack_frames(
+    session: Session, tracker: HandTracker, noise: NeutralNoise, detections_of: Callable[[int], Detections]
 ) -> Iterator[TrackedFrame]:
     """The frames of a session from the blobs of each row, with what was said of them while it was measured."""
-    times_s, answers = session.timestamp_s.tolist(), answers_in(session)
-    for row in from_neutral(range(len(session)), tracker, learnt.neutral_ends_s, times_s.__getitem__):
-        blobs = blobs_of(row)
+    times_s, answers = session.timestamp_s.tolist(), read_operator_labels(session)
+    for row in restart_at_neutral(range(len(session)), tracker, noise.neutral_ends_s, times_s.__getitem__):
+        blobs = detections_of(row)
         for answer in answers.get(row, ()):
-            tracker.hear(answer)
+            tracker.add_operator_label(answer)
         yield tracker.step(row, times_s[row], blobs, max(int(session.quality.dropped_before[row]), 0))
 
 
-def learnt_again(session: Session, settings: TrackSettings) -> Learnt:
+def session_noise(session: Session, settings: TrackSettings) -> NeutralNoise:
     """What an earlier session learnt; where it does not say, what the settings take."""
-    return learnt_in(session.header.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
+    return noise_from_json(session.header.parameters) or noise_from_neutral(
+        MeasurementNoise(), -np.inf, settings.tracker
+    )
 
 
-def writer_again(
+def create_retrack_writer(
     session: Session,
     output: Path,
     settings: TrackSettings,
-    learnt: Learnt,
+    noise: NeutralNoise,
     calibration: Calibration,
     facts: Mapping[str, str],
 ) -> SessionWriter:
     """The file of another result of the recording that a session is of, from its blobs."""
     old = session.header
     source = {"session": old.session_id, "from": "detections", **facts}
-    source |= {SIMULATED: "yes"} if old.simulated else {}
+    source |= {SIMULATED: "yes"} if old.is_simulated else {}
     header = new_header(
         hand=old.hand,
         protocol=old.protocol,
         subject_id=old.subject_id,
         exercise=old.exercise,
-        parameters=parameters_json(settings, source, learnt, old.set_up),
+        parameters=format_parameters(settings, source, noise, old.set_up),
         origin=old.session_id,
         dip_free=settings.dip_free,
         recorded=old.recorded,
@@ -527,15 +534,15 @@ def writer_again(
 def _heard(frames: Iterator[TrackedFrame], listener: Listener | None) -> Iterator[TrackedFrame]:
     for frame in frames:
         if listener is not None:
-            listener.push(frame)
+            listener.on_frame(frame)
         yield frame
 
 
-def _opening(frames: Iterator[Seen], still_s: float) -> list[Frame]:
+def _read_neutral_frames(frames: Iterator[AnyFrame], still_s: float) -> list[Frame]:
     """The first frames, as far as the neutral capture may reach, and the one that shows it is over."""
     opening: list[Frame] = []
     for seen in frames:
-        opening.append(frame := seen.seen(None))
+        opening.append(frame := seen.decode(None))
         if frame.timestamp_s - opening[0].timestamp_s > still_s:
             break
     return opening
@@ -543,8 +550,8 @@ def _opening(frames: Iterator[Seen], still_s: float) -> list[Frame]:
 
 def write_tracked(
     writer: SessionWriter,
-    tracked: Iterator[TrackedFrame],
-    look_back: LookBack | None,
+    frames: Iterator[TrackedFrame],
+    smooth: SmoothFunction | None,
     verdict: Verdict,
     total: int | None,
     progress: Progress | None,
@@ -555,7 +562,7 @@ def write_tracked(
     counts = dict.fromkeys(TrackStatus, 0)
     done = 0
     with writer:
-        for frame in tracked:
+        for frame in frames:
             writer.append(frame)
             counts[frame.status] += 1
             done += 1
@@ -563,12 +570,12 @@ def write_tracked(
                 progress(done, total)
         for note in notes:
             writer.add_event(note.time_s, note.kind, note.text)
-        if look_back is not None and done:  # of no frame there is nothing to look back at
-            writer.write_smoothed(motion_of(look_back()))
+        if smooth is not None and done:  # of no frame there is nothing to look back at
+            writer.write_motion(stack_states(smooth()))
         if done:
-            from carpus.core.results.repetition_rows import repetitions_of  # nobody waits for it at the start
+            from carpus.core.results.repetition_rows import compute_repetitions  # nobody waits for it at the start
 
-            writer.write_repetitions(repetitions_of(writer.read_back()))
+            writer.write_repetitions(compute_repetitions(writer.read_session()))
     return TrackReport(
         writer.path,
         done,

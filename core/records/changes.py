@@ -13,54 +13,55 @@ from sqlalchemy import Connection, Table, delete, func, insert, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
-from carpus.core.errors import ChangedMeanwhile, PseudonymTaken
-from carpus.core.records.schema import DEED, PATIENT, SESSION, TABLES
+from carpus.core.errors import ConcurrentChange, PseudonymTaken
+from carpus.core.records.schema import AUDIT_LOG, PATIENT, SESSION, TABLES
 
-NOWHERE = "lost/"
+LOST_FOLDER = "lost/"
 """Begins the path of a session in whose place a file of another lies, and whose own was not found."""
 PRACTICE = "practice"
 """Identity of the practice patient, of whom simulated sessions count."""
 
 _IDENTITY = re.compile(r"[0-9a-f]{32}")
-Way = Literal["new", "change", "keep", "drop"]
+RowAction = Literal["new", "change", "keep", "drop"]
 
 
 @dataclass(frozen=True, slots=True)
 class RowChange:
-    """What becomes of one row. ``new`` must not be there; ``change`` must be, in ``version`` unless that is 0; ``keep``
+    """What becomes of one row. ``insert_row`` must not be there; ``changes`` must be, in ``version`` unless that is
+    0; ``keep``
     makes it or changes it, whatever is there; ``drop`` takes it away with all that belongs to it."""
 
-    way: Way
+    action: RowAction
     table: str
     id: str
     values: Mapping[str, Any]
     version: int = 0
 
 
-Change = Sequence[RowChange]
+ChangeSet = Sequence[RowChange]
 
 
-def new(table: Table, id: str, **values: Any) -> RowChange:
+def insert_row(table: Table, id: str, **values: Any) -> RowChange:
     """A row that is not there yet."""
-    return RowChange("new", table.name, id, _storable(values))
+    return RowChange("new", table.name, id, _sanitize_texts(values))
 
 
-def changed(table: Table, id: str, version: int = 0, **values: Any) -> RowChange:
+def update_row(table: Table, id: str, version: int = 0, **values: Any) -> RowChange:
     """A row that is there, as it was read."""
-    return RowChange("change", table.name, id, _storable(values), version)
+    return RowChange("change", table.name, id, _sanitize_texts(values), version)
 
 
-def kept(table: Table, id: str, **values: Any) -> RowChange:
+def upsert_row(table: Table, id: str, **values: Any) -> RowChange:
     """A row as it is from now on."""
-    return RowChange("keep", table.name, id, _storable(values))
+    return RowChange("keep", table.name, id, _sanitize_texts(values))
 
 
-def dropped(table: Table, id: str) -> RowChange:
+def delete_row(table: Table, id: str) -> RowChange:
     """A row that goes."""
     return RowChange("drop", table.name, id, {})
 
 
-def _storable(values: Mapping[str, Any]) -> Mapping[str, Any]:
+def _sanitize_texts(values: Mapping[str, Any]) -> Mapping[str, Any]:
     """Texts without signs that no database takes: zeros, halves of a sign."""
     return {
         name: value.replace("\0", "\N{REPLACEMENT CHARACTER}").encode("utf-8", "replace").decode()
@@ -69,38 +70,38 @@ def _storable(values: Mapping[str, Any]) -> Mapping[str, Any]:
     }  # fmt: skip
 
 
-def make(connection: Connection, change: Change) -> None:
+def apply_changes(connection: Connection, changes: ChangeSet) -> None:
     """Make a change in an open transaction.
 
-    Raises :class:`ChangedMeanwhile` for a row that is another by now or gone, :class:`PseudonymTaken`; then the
+    Raises :class:`ConcurrentChange` for a row that is another by now or gone, :class:`PseudonymTaken`; then the
     transaction must end without effect.
     """
     owners: set[str] = set()
-    for row in change:
+    for row in changes:
         if row.table == SESSION.name:
             before = connection.execute(select(SESSION.c.patient_id).where(SESSION.c.id == row.id)).scalar()
             owners |= {one for one in (before, row.values.get("patient_id")) if one}
         try:
-            _make_row(connection, TABLES[row.table], row)
+            _apply_row_change(connection, TABLES[row.table], row)
         except IntegrityError as cause:
             if "folded" in str(cause.orig):
                 raise PseudonymTaken(row.values.get("pseudonym", "")) from cause
-            raise ChangedMeanwhile(row.table) from cause
+            raise ConcurrentChange(row.table) from cause
     for patient_id in sorted(owners):
-        count_sessions(connection, patient_id)
+        update_session_counts(connection, patient_id)
 
 
-def _make_row(connection: Connection, table: Table, row: RowChange) -> None:
+def _apply_row_change(connection: Connection, table: Table, row: RowChange) -> None:
     raised = {**row.values, "version": table.c.version + 1}
-    if row.way == "new":
+    if row.action == "new":
         connection.execute(insert(table).values(id=row.id, **row.values))
-    elif row.way == "change":
+    elif row.action == "change":
         these = update(table).where(table.c.id == row.id).values(raised)
         if row.version:
             these = these.where(table.c.version == row.version)
         if connection.execute(these).rowcount != 1:
-            raise ChangedMeanwhile(row.table)
-    elif row.way == "keep":
+            raise ConcurrentChange(row.table)
+    elif row.action == "keep":
         kind = sqlite if connection.dialect.name == "sqlite" else postgresql
         made = kind.insert(table).values(id=row.id, **row.values)
         connection.execute(made.on_conflict_do_update(index_elements=["id"], set_=raised))
@@ -108,7 +109,7 @@ def _make_row(connection: Connection, table: Table, row: RowChange) -> None:
         connection.execute(delete(table).where(table.c.id == row.id))
 
 
-def is_identity(text: str) -> bool:
+def is_patient_id(text: str) -> bool:
     """Whether this program gives such identities to patients, whose folders have them for names."""
     return text == PRACTICE or _IDENTITY.fullmatch(text) is not None
 
@@ -118,11 +119,11 @@ def fingerprint(identity: str) -> str:
     return hashlib.sha256(identity.encode("utf-8", "backslashreplace")).hexdigest()[:16] if identity else ""
 
 
-ERASED = select(DEED.c.subject).where(DEED.c.did.in_(("erase_begun", "erased")))
+ERASED_SUBJECTS = select(AUDIT_LOG.c.subject).where(AUDIT_LOG.c.did.in_(("erase_begun", "erased")))
 """Fingerprints of the patients and sessions that were erased, or are being erased, as the log has them."""
 
 
-def count_sessions(connection: Connection, patient_id: str) -> None:
+def update_session_counts(connection: Connection, patient_id: str) -> None:
     """Bring up to date what a patient's row says of the sessions: a recording counts once, an archived or simulated one
     not."""
     mine = [SESSION.c.patient_id == patient_id, SESSION.c.archived == "", SESSION.c.erasing == 0]

@@ -14,67 +14,69 @@ from sqlalchemy import Connection, create_engine, event, inspect
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import StaticPool
 
-from carpus.core.durable import is_full, make_private_file, write_fault
+from carpus.core.durable import is_disk_full, make_private_file, write_fault
 from carpus.core.errors import (
     DiskFull,
     OutputNotWritable,
-    RegisterBusy,
-    RegisterDamaged,
-    RegisterJournalLeft,
-    RegisterUnreadable,
-    RegisterVersionUnknown,
+    PatientListBusy,
+    PatientListDamaged,
+    PatientListReadOnly,
+    PatientListUnreadable,
+    PatientListVersionUnknown,
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.schema import METADATA, SESSION, SQLITE_LOG, TABLES, VERSION
-from carpus.core.session.disk import free_name
+from carpus.core.session.disk import find_free_name
 
 STORE_FILE = "records.sqlite3"
-SMALL_BYTES = 64 << 20
+MAX_CHECKED_BYTES = 64 << 20
 """A file up to this size is looked through when it is opened; a larger one would hold up the start, and its damage is
 met where it is."""
-BUSY_MS = 5000
+LOCK_WAIT_MS = 5000
 """How long one program waits for another."""
-CANNOT_WRITE = (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
-MAY_BE_FULL = (sqlite3.SQLITE_IOERR, *CANNOT_WRITE)
+CANNOT_WRITE_CODES = (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
+MAYBE_FULL_CODES = (sqlite3.SQLITE_IOERR, *CANNOT_WRITE_CODES)
 """What SQLite says too of a disk without room for the files that it needs beside its own."""
-READ_AGAIN = 3
+READ_ATTEMPTS = 3
 COPY_TIMEOUT_S = 30.0
-_MIGRATING = threading.Lock()
+_MIGRATION_LOCK = threading.Lock()
 """Alembic keeps the migration that runs in globals of its own: one at a time in a process."""
 
 
 class Database:
     """Reading never waits for writing; one writes at a time, also among several programs.
 
-    ``is_new`` tells that the tables had to be made, ``was_unguarded`` that somebody had taken the triggers of the log
-    away, which are there again. Raises :class:`RegisterUnreadable`, or :class:`RegisterDamaged`
+    ``is_new`` tells that the tables had to be made, ``had_unguarded_log`` that somebody had taken the triggers of the
+    log
+    away, which are there again. Raises :class:`PatientListUnreadable`, or :class:`PatientListDamaged`
     where waiting does not help, :class:`OutputNotWritable`, :class:`DiskFull`.
     """
 
     def __init__(self, path: Path, copy: sqlite3.Connection | None = None) -> None:
-        """``copy`` in memory, of :func:`copied`, where the file cannot be written: what is changed in it is lost."""
-        self._path, self._writing, self._is_closed = path, threading.RLock(), False
+        """``copy`` in memory, of :func:`copy_to_memory`, where the file cannot be written: what is changed in it is
+        lost."""
+        self._path, self._write_lock, self._is_closed = path, threading.RLock(), False
         if copy is None:
             make_private_file(path)
             self._engine = create_engine(
-                f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": BUSY_MS / 1e3}
+                f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": LOCK_WAIT_MS / 1e3}
             )
         else:
             self._engine = create_engine("sqlite://", creator=lambda: copy, poolclass=StaticPool)
-        event.listen(self._engine, "connect", _prepare)
-        event.listen(self._engine, "begin", _begin)
+        event.listen(self._engine, "connect", _configure_connection)
+        event.listen(self._engine, "begin", _begin_transaction)
         try:
             with self.writing() as connection:
                 if copy is None:  # a copy was looked through when it was made
-                    self._check(connection)
-                self.is_new = up_to_date(connection, path)
-                self.was_unguarded = _guard(connection)
+                    self._check_integrity(connection)
+                self.is_new = migrate(connection, path)
+                self.had_unguarded_log = _restore_log_triggers(connection)
                 for table in METADATA.sorted_tables:  # as text: SQLAlchemy would take a millisecond for each
                     columns = ", ".join(f'{table.name}."{column.name}"' for column in table.c)
                     connection.exec_driver_sql(f"SELECT {columns} FROM {table.name} LIMIT 0")
         except (DBAPIError, sqlite3.Error) as cause:
             self.close()
-            raise RegisterDamaged(path, str(getattr(cause, "orig", cause))) from cause
+            raise PatientListDamaged(path, str(getattr(cause, "orig", cause))) from cause
         except BaseException:
             self.close()
             raise
@@ -85,7 +87,7 @@ class Database:
         self._engine.pool.dispose()
 
     @contextlib.contextmanager
-    def _using(self) -> Iterator[None]:
+    def _dispose_when_closed(self) -> Iterator[None]:
         """Close a connection that comes back after the store was closed: the pool would keep it."""
         try:
             yield
@@ -95,60 +97,65 @@ class Database:
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:
-        with self._using(), self._complaints(), self._engine.begin() as connection:
+        with self._dispose_when_closed(), self._translate_errors(), self._engine.begin() as connection:
             yield connection
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
         """All of it is stored, or, after an exception, nothing."""
-        with self._writing, self._using(), self._complaints(), self._engine.connect() as connection:
+        with (
+            self._write_lock,
+            self._dispose_when_closed(),
+            self._translate_errors(),
+            self._engine.connect() as connection,
+        ):
             writes = connection.execution_options(writes=True)
             with writes.begin():
                 yield writes
 
-    def leave_no_trace(self, *, waits: bool = True) -> bool:
+    def purge_deleted(self, *, wait: bool = True) -> bool:
         """Empty the write-ahead log, which keeps what was overwritten; whether it is, for another program that reads
         holds that up."""
-        with self._writing, self._using(), self._complaints():
+        with self._write_lock, self._dispose_when_closed(), self._translate_errors():
             raw = self._engine.raw_connection()
             try:
-                raw.execute(f"PRAGMA busy_timeout = {BUSY_MS if waits else 0}")
+                raw.execute(f"PRAGMA busy_timeout = {LOCK_WAIT_MS if wait else 0}")
                 return not raw.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()[0]
             finally:
-                raw.execute(f"PRAGMA busy_timeout = {BUSY_MS}")
+                raw.execute(f"PRAGMA busy_timeout = {LOCK_WAIT_MS}")
                 raw.close()
 
-    def _check(self, connection: Connection) -> None:
-        if self._path.stat().st_size <= SMALL_BYTES:
+    def _check_integrity(self, connection: Connection) -> None:
+        if self._path.stat().st_size <= MAX_CHECKED_BYTES:
             found = connection.exec_driver_sql("PRAGMA quick_check(1)").scalar()
             if found != "ok":
-                raise RegisterDamaged(self._path, phrase("damaged"))
+                raise PatientListDamaged(self._path, phrase("damaged"))
 
     @contextlib.contextmanager
-    def _complaints(self) -> Iterator[None]:
+    def _translate_errors(self) -> Iterator[None]:
         try:
             yield
         except (DBAPIError, sqlite3.Error) as cause:  # what SQLite says at a connection comes as it is
             said = getattr(cause, "orig", cause)
             code = getattr(said, "sqlite_errorcode", 0) & 0xFF
-            if code == sqlite3.SQLITE_FULL or (code in MAY_BE_FULL and is_full(self._path.parent)):
+            if code == sqlite3.SQLITE_FULL or (code in MAYBE_FULL_CODES and is_disk_full(self._path.parent)):
                 raise DiskFull(self._path) from cause
-            if code in CANNOT_WRITE:
+            if code in CANNOT_WRITE_CODES:
                 raise OutputNotWritable(self._path, str(said)) from cause
             if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
-                raise RegisterDamaged(self._path, str(said)) from cause
+                raise PatientListDamaged(self._path, str(said)) from cause
             if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-                raise RegisterBusy(self._path, str(said)) from cause
+                raise PatientListBusy(self._path, str(said)) from cause
             if code == sqlite3.SQLITE_IOERR:
-                raise RegisterUnreadable(self._path, str(said)) from cause
+                raise PatientListUnreadable(self._path, str(said)) from cause
             raise
 
 
-def copied(path: Path) -> sqlite3.Connection:
+def copy_to_memory(path: Path) -> sqlite3.Connection:
     """A store in memory, as it is between two transactions, whoever has it open. Also of a folder that cannot be
     written, in which SQLite opens none, where no journal lies beside it: while somebody has it open there is one.
 
-    Raises :class:`RegisterUnreadable` and its kinds.
+    Raises :class:`PatientListUnreadable` and its kinds.
     """
     copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
     try:
@@ -158,35 +165,36 @@ def copied(path: Path) -> sqlite3.Connection:
                 store.backup(copy)
         except sqlite3.Error as cause:
             code = getattr(cause, "sqlite_errorcode", 0) & 0xFF
-            if code not in CANNOT_WRITE and not (code in MAY_BE_FULL and is_full(path.parent)):
+            if code not in CANNOT_WRITE_CODES and not (code in MAYBE_FULL_CODES and is_disk_full(path.parent)):
                 raise
-            copy.deserialize(_as_it_lies(path))
+            copy.deserialize(_read_unlocked(path))
         if copy.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
-            raise RegisterDamaged(path, phrase("damaged"))
+            raise PatientListDamaged(path, phrase("damaged"))
     except (sqlite3.Error, OSError) as cause:
         copy.close()
-        raise (DiskFull(path) if is_full(path.parent) else RegisterUnreadable(path, str(cause))) from cause
+        raise (DiskFull(path) if is_disk_full(path.parent) else PatientListUnreadable(path, str(cause))) from cause
     except BaseException:
         copy.close()
         raise
     return copy
 
 
-def _as_it_lies(path: Path) -> bytes:
+def _read_unlocked(path: Path) -> bytes:
     """All of a store whose file cannot be written.
 
     SQLite's own ``immutable`` would go on reading a file that another computer writes. Here the whole file is read
     twice: nobody wrote in it where both are equal and no journal was there before nor is behind, for one is there as
-    long as pages are written. Raises :class:`RegisterJournalLeft` or :class:`RegisterBusy` where it is not so, OSError.
+    long as pages are written. Raises :class:`PatientListReadOnly` or :class:`PatientListBusy` where it is not so,
+    OSError.
     """
-    for _ in range(READ_AGAIN):
+    for _ in range(READ_ATTEMPTS):
         is_written = _has_journal(path)
         content, again = path.read_bytes(), path.read_bytes()
         if content == again and not is_written and not _has_journal(path):
             return content[:18] + b"\1\1" + content[20:]  # the mark of a write-ahead log would ask for one
     if _has_journal(path):
-        raise RegisterJournalLeft(path)
-    raise RegisterBusy(path, phrase("its folder cannot be written"))
+        raise PatientListReadOnly(path)
+    raise PatientListBusy(path, phrase("its folder cannot be written"))
 
 
 def _has_journal(path: Path) -> bool:
@@ -194,10 +202,11 @@ def _has_journal(path: Path) -> bool:
     return any(one.exists() and one.stat().st_size for one in journals)
 
 
-def up_to_date(connection: Connection, name: Path | str) -> bool:
+def migrate(connection: Connection, name: Path | str) -> bool:
     """Bring the tables of a database to this version; whether there were none before. Alembic is loaded only then.
 
-    Raises :class:`RegisterVersionUnknown` for one of a version that is not known, :class:`RegisterDamaged` for what is
+    Raises :class:`PatientListVersionUnknown` for one of a version that is not known, :class:`PatientListDamaged` for
+    what is
     no store.
     """
     tables = set(inspect(connection).get_table_names())
@@ -207,22 +216,22 @@ def up_to_date(connection: Connection, name: Path | str) -> bool:
     if found == VERSION:
         return False
     if found is None and tables:
-        raise RegisterDamaged(name, phrase("damaged"))
+        raise PatientListDamaged(name, phrase("damaged"))
     if found is not None and found not in map(str, range(1, int(VERSION))):
         said = phrase("version {version}, this Carpus reads up to {count}", version=str(found) or "?", count=VERSION)
-        raise RegisterVersionUnknown(name, said)
+        raise PatientListVersionUnknown(name, said)
     from alembic.command import upgrade
     from alembic.config import Config
 
     config = Config()
     config.set_main_option("script_location", str(Path(__file__).parent / "migrations").replace("%", "%%"))
     config.attributes["connection"] = connection
-    with _MIGRATING:
+    with _MIGRATION_LOCK:
         upgrade(config, "head")
     return found is None
 
 
-def _guard(connection: Connection) -> bool:
+def _restore_log_triggers(connection: Connection) -> bool:
     """See that the triggers of the log are there and as they were made; whether they were not."""
     query = "SELECT name, sql FROM sqlite_master WHERE type = 'trigger'"
     there = {str(name): sql for name, sql in connection.exec_driver_sql(query)}
@@ -233,14 +242,14 @@ def _guard(connection: Connection) -> bool:
     return bool(changed)
 
 
-def rescue(aside: Path, into: Database) -> int:
+def rescue_rows(damaged: Path, target: Database) -> int:
     """Take what can still be read of a damaged store into a new one, each table from both its ends up to where it is
     damaged; how many rows. What the files say comes anew."""
     count = 0
     with (
         contextlib.suppress(sqlite3.Error),
-        contextlib.closing(sqlite3.connect(f"{aside.absolute().as_uri()}?mode=ro", uri=True)) as old,
-        into.writing() as connection,
+        contextlib.closing(sqlite3.connect(f"{damaged.absolute().as_uri()}?mode=ro", uri=True)) as old,
+        target.writing() as connection,
     ):
         new = connection.connection.cursor()
         new.execute("PRAGMA defer_foreign_keys = ON")
@@ -263,9 +272,9 @@ def rescue(aside: Path, into: Database) -> int:
     return count
 
 
-def set_aside(path: Path, now: datetime, why: str = "damaged") -> Path:
+def move_aside(path: Path, now: datetime, label: str = "damaged") -> Path:
     """Give a database and its journals another name, so that a new one can be made; where it is now."""
-    aside = free_name(path.with_name(f"{path.stem}.{why}-{now:%Y%m%d-%H%M%S}{path.suffix}"))
+    aside = find_free_name(path.with_name(f"{path.stem}.{label}-{now:%Y%m%d-%H%M%S}{path.suffix}"))
     try:
         for tail in ("", "-wal", "-shm"):
             old = path.with_name(path.name + tail)
@@ -276,13 +285,13 @@ def set_aside(path: Path, now: datetime, why: str = "damaged") -> Path:
     return aside
 
 
-def _prepare(connection: Any, _: object) -> None:
+def _configure_connection(connection: Any, _: object) -> None:
     connection.text_factory = lambda stored: stored.decode("utf-8", "replace")
     connection.execute("PRAGMA journal_mode = WAL")
     connection.execute("PRAGMA foreign_keys = ON")
     connection.execute("PRAGMA secure_delete = ON")  # what is taken out is overwritten, not only forgotten
 
 
-def _begin(connection: Connection) -> None:
+def _begin_transaction(connection: Connection) -> None:
     writes = connection.get_execution_options().get("writes", False)
     connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")

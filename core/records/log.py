@@ -21,21 +21,21 @@ from typing import Literal, get_args
 
 from sqlalchemy import select
 
-from carpus.core.errors import CarpusFault, ServerGone
-from carpus.core.records.changes import PRACTICE, fingerprint, new
-from carpus.core.records.schema import DEED
+from carpus.core.errors import CarpusFault, ServerUnavailable
+from carpus.core.records.changes import PRACTICE, fingerprint, insert_row
+from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import moment
+from carpus.core.records.values import parse_time
 
-MOST_INITIALS = 12
+MAX_INITIALS = 12
 
-Deed = Literal[
+AuditAction = Literal[
     "opened", "recorded", "added", "changed", "exported", "reported", "set_aside", "taken_back", "moved", "renamed",
     "tracked_again", "recovered", "archived", "brought_back", "erase_begun", "erased", "backed_up", "backup_compared",
     "restored", "locked", "unlocked", "pin_refused", "pin_changed", "read_log", "entered_by_hand",
 ]  # fmt: skip
-Kind = Literal["session", "patient", "everything", "program"]
-By = Literal["window", "command"]
+SubjectKind = Literal["session", "patient", "everything", "program"]
+AuditSource = Literal["window", "command"]
 Fact = int | str
 
 _WORD = re.compile(r"[a-z0-9_.,-]{0,64}")
@@ -43,87 +43,92 @@ _WORD = re.compile(r"[a-z0-9_.,-]{0,64}")
 
 
 @dataclass(frozen=True, slots=True)
-class LoggedDeed:
+class AuditEntry:
     """One deed. ``who`` the initials of the person, empty where none are set; ``subject`` as :func:`fingerprint`."""
 
     number: int
     when: datetime
-    who: str
-    by: By
-    did: Deed
-    kind: Kind
+    initials: str
+    source: AuditSource
+    action: AuditAction
+    kind: SubjectKind
     subject: str
     facts: Mapping[str, Fact] = field(default_factory=dict)
 
 
-class Log:
+class AuditLogWriter:
     """Adds to the log of one store."""
 
-    def __init__(self, store: Store, by: By, who: Callable[[], str] = lambda: "") -> None:
-        self._store, self._by, self.who = store, by, who
+    def __init__(self, store: Store, source: AuditSource, get_initials: Callable[[], str] = lambda: "") -> None:
+        self._store, self._source, self.get_initials = store, source, get_initials
 
-    def note(self, did: Deed, kind: Kind, identity: str = "", **facts: Fact) -> None:
+    def write_entry(self, action: AuditAction, kind: SubjectKind, subject_id: str = "", **facts: Fact) -> None:
         """Write a deed down. Raises the faults of writing; ValueError for a fact that could be a name: a mistake of
         the caller."""
-        if did not in get_args(Deed) or kind not in get_args(Kind):
-            raise ValueError(f"{did} {kind} is not of the log")
+        if action not in get_args(AuditAction) or kind not in get_args(SubjectKind):
+            raise ValueError(f"{action} {kind} is not of the log")
         if not all(isinstance(fact, int) or _WORD.fullmatch(fact) for fact in facts.values()):
             raise ValueError(f"facts {facts} could name somebody")
         row = {
             "at": datetime.now(UTC).isoformat(timespec="seconds"), "at_ns": time.time_ns(),
-            "who": self.who()[:MOST_INITIALS], "by": self._by, "did": did, "kind": kind,
-            "subject": fingerprint(identity), "facts": json.dumps(facts),
+            "who": self.get_initials()[:MAX_INITIALS], "by": self._source, "did": action, "kind": kind,
+            "subject": fingerprint(subject_id), "facts": json.dumps(facts),
         }  # fmt: skip
-        self._store.do([new(DEED, new_id(), **row)])
+        self._store.apply([insert_row(AUDIT_LOG, new_id(), **row)])
 
 
-class Notes:
+class AuditLog:
     """Takes down what is done with sessions and patients. The practice patient is nobody, and in no log; where the log
     cannot be written ``on_fault`` is told: what was done is done.
 
-    ``owner`` says whose a session is, and raises KeyError for one that is not in the list.
+    ``owner_id`` says whose a session is, and raises KeyError for one that is not in the list.
     """
 
-    def __init__(self, log: Log, owner: Callable[[str], str], on_fault: Callable[[CarpusFault], None]) -> None:
-        self._log, self._owner, self._on_fault = log, owner, on_fault
+    def __init__(
+        self, writer: AuditLogWriter, owner_id: Callable[[str], str], on_fault: Callable[[CarpusFault], None]
+    ) -> None:
+        self._writer, self._owner_id, self._on_fault = writer, owner_id, on_fault
 
-    def session(self, did: Deed, session_id: str, **facts: Fact) -> None:
-        with suppress(KeyError, ServerGone):  # of a folder that went away: noted when it comes home
-            if self._owner(session_id) != PRACTICE:
-                self._note(did, "session", session_id, **facts)
+    def log_session(self, action: AuditAction, session_id: str, **facts: Fact) -> None:
+        with suppress(KeyError, ServerUnavailable):  # of a folder that went away: noted when it comes home
+            if self._owner_id(session_id) != PRACTICE:
+                self._write(action, "session", session_id, **facts)
 
-    def patient(self, did: Deed, patient_id: str, **facts: Fact) -> None:
+    def log_patient(self, action: AuditAction, patient_id: str, **facts: Fact) -> None:
         """What was done with a patient, or with all sessions of one."""
         if patient_id != PRACTICE:
-            self._note(did, "patient", patient_id, **facts)
+            self._write(action, "patient", patient_id, **facts)
 
-    def program(self, did: Deed, **facts: Fact) -> None:
+    def log_program(self, action: AuditAction, **facts: Fact) -> None:
         """What was done with the program or with everything."""
-        self._note(did, "program", "", **facts)
+        self._write(action, "program", "", **facts)
 
-    def _note(self, did: Deed, kind: Kind, identity: str, **facts: Fact) -> None:
+    def _write(self, action: AuditAction, kind: SubjectKind, subject_id: str, **facts: Fact) -> None:
         try:
-            self._log.note(did, kind, identity, **facts)
+            self._writer.write_entry(action, kind, subject_id, **facts)
         except CarpusFault as fault:
-            if not isinstance(fault, ServerGone):  # the window says so as long as it is away
+            if not isinstance(fault, ServerUnavailable):  # the window says so as long as it is away
                 self._on_fault(fault)
 
 
-def was_erased(store: Store, patient_id: str) -> bool:
+def is_patient_erased(store: Store, patient_id: str) -> bool:
     """Whether a patient was erased, or is being erased: what is found of them later goes too."""
-    erased = DEED.c.did.in_(("erase_begun", "erased")), DEED.c.kind == "patient"
-    return store.row(select(DEED.c.id).where(*erased, DEED.c.subject == fingerprint(patient_id)).limit(1)) is not None
+    erased = AUDIT_LOG.c.did.in_(("erase_begun", "erased")), AUDIT_LOG.c.kind == "patient"
+    return (
+        store.row(select(AUDIT_LOG.c.id).where(*erased, AUDIT_LOG.c.subject == fingerprint(patient_id)).limit(1))
+        is not None
+    )
 
 
-def read_log(store: Store) -> tuple[LoggedDeed, ...]:
+def read_log(store: Store) -> tuple[AuditEntry, ...]:
     """The whole log, oldest first; of a line that is damaged the number is missing."""
-    rows = store.rows(select(DEED).order_by(DEED.c.at_ns, DEED.c.id))
+    rows = store.rows(select(AUDIT_LOG).order_by(AUDIT_LOG.c.at_ns, AUDIT_LOG.c.id))
     numbers = {row.id: number for number, row in enumerate(rows, 1)}
     return tuple(
-        store.sound(
+        store.valid_rows(
             rows,
-            lambda row: LoggedDeed(
-                numbers[row.id], moment(row.at, row.at_ns / 1e9), row.who, row.by, row.did, row.kind, row.subject,
+            lambda row: AuditEntry(
+                numbers[row.id], parse_time(row.at, row.at_ns / 1e9), row.who, row.by, row.did, row.kind, row.subject,
                 dict(json.loads(row.facts)),
             ),
         )

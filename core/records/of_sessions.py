@@ -13,14 +13,14 @@ from typing import Any, Literal
 
 from sqlalchemy import Row, select
 
-from carpus.core.records.changes import RowChange, changed, new
-from carpus.core.records.schema import COMMENT, CORRECTION, MADE
+from carpus.core.records.changes import RowChange, insert_row, update_row
+from carpus.core.records.schema import COMMENT, CORRECTION, OUTPUT_FILE
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import moment
+from carpus.core.records.values import parse_time
 from carpus.core.results.repetition_rows import RepetitionChoices
 
-MOST_CHARACTERS = 20_000
-MadeKind = Literal["report", "export"]
+MAX_COMMENT_CHARACTERS = 20_000
+OutputKind = Literal["report", "export"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,74 +28,74 @@ class Comment:
     """What was written, by whose initials, and when; an empty text took the one before away."""
 
     text: str
-    by: str
-    entered: datetime
+    initials: str
+    entered_at: datetime
 
 
-def comments(store: Store, session_id: str) -> tuple[Comment, ...]:
+def read_comments(store: Store, session_id: str) -> tuple[Comment, ...]:
     """All of a session, oldest first; the last one holds."""
     query = select(COMMENT).where(COMMENT.c.session_id == session_id).order_by(COMMENT.c.entered_ns, COMMENT.c.id)
-    return tuple(Comment(row.text, row.by, moment(row.entered, row.entered_ns / 1e9)) for row in store.rows(query))
+    return tuple(Comment(row.text, row.by, parse_time(row.entered, row.entered_ns / 1e9)) for row in store.rows(query))
 
 
-def latest(written: Sequence[Comment]) -> str:
+def current_comment(comments: Sequence[Comment]) -> str:
     """The comment that holds; empty where there is none."""
-    return written[-1].text if written else ""
+    return comments[-1].text if comments else ""
 
 
-def add_comment(store: Store, session_id: str, text: str, by: str) -> None:
+def add_comment(store: Store, session_id: str, text: str, initials: str) -> None:
     """Add one, which holds from now on; what was written before stays readable."""
     entered = datetime.now(UTC).isoformat(timespec="seconds")
-    row = {"session_id": session_id, "text": text, "by": by, "entered": entered, "entered_ns": time.time_ns()}
-    store.do([new(COMMENT, new_id(), **row)])
+    row = {"session_id": session_id, "text": text, "by": initials, "entered": entered, "entered_ns": time.time_ns()}
+    store.apply([insert_row(COMMENT, new_id(), **row)])
 
 
-def choices(store: Store, session_id: str) -> tuple[RepetitionChoices, int]:
+def read_choices(store: Store, session_id: str) -> tuple[RepetitionChoices, int]:
     """What a person left out or moved, and its version; nothing and 0 where nothing is."""
     row = store.row(select(CORRECTION).where(CORRECTION.c.session_id == session_id))
     if row is None:
         return RepetitionChoices(), 0
-    return next(iter(store.sound([row], _choices)), RepetitionChoices()), row.version
+    return next(iter(store.valid_rows([row], _choices_from_row)), RepetitionChoices()), row.version
 
 
-def _choices(row: Row[Any]) -> RepetitionChoices:
+def _choices_from_row(row: Row[Any]) -> RepetitionChoices:
     left_out = {int(number): str(reason) for number, reason in json.loads(row.left_out).items()}
     edges_s = {int(number): (float(start), float(end)) for number, (start, end) in json.loads(row.edges_s).items()}
     return RepetitionChoices(left_out, edges_s, bool(row.not_counted), row.reason)
 
 
-def keep_choices(store: Store, session_id: str, kept: RepetitionChoices, version: int) -> int:
+def save_choices(store: Store, session_id: str, choices: RepetitionChoices, version: int) -> int:
     """Store them in place of the ``version`` that they were made from (0 for none); the version that they have now.
 
-    Raises :class:`ChangedMeanwhile` where somebody else was quicker.
+    Raises :class:`ConcurrentChange` where somebody else was quicker.
     """
-    store.do([change_of(session_id, kept, version)])
+    store.apply([choices_change(session_id, choices, version)])
     return version + 1
 
 
-def change_of(session_id: str, kept: RepetitionChoices, version: int = 0) -> RowChange:
+def choices_change(session_id: str, choices: RepetitionChoices, version: int = 0) -> RowChange:
     """The change that stores them."""
     values = {
-        "left_out": json.dumps(kept.left_out, ensure_ascii=False), "edges_s": json.dumps(kept.edges_s),
-        "not_counted": int(kept.not_counted), "reason": kept.not_counted_reason,
+        "left_out": json.dumps(choices.excluded, ensure_ascii=False), "edges_s": json.dumps(choices.edges_s),
+        "not_counted": int(choices.is_session_excluded), "reason": choices.session_exclusion_reason,
     }  # fmt: skip
     if not version:
-        return new(CORRECTION, session_id, session_id=session_id, **values)
-    return changed(CORRECTION, session_id, version, **values)
+        return insert_row(CORRECTION, session_id, session_id=session_id, **values)
+    return update_row(CORRECTION, session_id, version, **values)
 
 
-def remember_made(store: Store, paths: Iterable[Path], kind: MadeKind, session_ids: Sequence[str]) -> None:
+def record_output_files(store: Store, paths: Iterable[Path], kind: OutputKind, session_ids: Sequence[str]) -> None:
     """Take down files that were just made from these sessions, so that they can be named when one is erased."""
-    store.do(
+    store.apply(
         [
-            new(MADE, new_id(), session_id=session_id, path=str(path.absolute()), kind=kind)
+            insert_row(OUTPUT_FILE, new_id(), session_id=session_id, path=str(path.absolute()), kind=kind)
             for path in paths
             for session_id in session_ids
         ]
     )
 
 
-def made_from(store: Store, session_ids: Iterable[str]) -> list[Path]:
+def find_output_files(store: Store, session_ids: Iterable[str]) -> list[Path]:
     """What was made from any of these sessions, alone or with others, and is still there."""
-    rows = store.rows(select(MADE.c.path).where(MADE.c.session_id.in_(list(session_ids))).distinct())
+    rows = store.rows(select(OUTPUT_FILE.c.path).where(OUTPUT_FILE.c.session_id.in_(list(session_ids))).distinct())
     return [Path(path) for path in sorted(row.path for row in rows) if os.path.isfile(path)]  # noqa: PTH113  # also where nobody may look

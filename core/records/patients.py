@@ -15,16 +15,16 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from sqlalchemy import ColumnElement, Row, select
 
-from carpus.core.dates import day_of
-from carpus.core.hand.exercises import known_exercise
-from carpus.core.hand.forearm_rotation import read_targets_deg, stored_targets_deg
-from carpus.core.measures.by_hand import MEASURES, HandValue
-from carpus.core.names import folded
-from carpus.core.records.changes import PRACTICE, RowChange, changed, dropped, kept, new
-from carpus.core.records.log import Deed
-from carpus.core.records.schema import DIAGNOSIS, GOAL, HOME_PLAN, MEASURED, PATIENT
+from carpus.core.dates import parse_day
+from carpus.core.hand.exercises import find_exercise
+from carpus.core.hand.forearm_rotation import from_clinical_targets_deg, to_clinical_targets_deg
+from carpus.core.measures.by_hand import MEASURES, ManualValue
+from carpus.core.names import fold_name
+from carpus.core.records.changes import PRACTICE, RowChange, delete_row, insert_row, update_row, upsert_row
+from carpus.core.records.log import AuditAction
+from carpus.core.records.schema import DIAGNOSIS, GOAL, HOME_PLAN, MANUAL_MEASUREMENT, PATIENT
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import HomePlan, Patient, moment, one_of
+from carpus.core.records.values import HomePlan, Patient, parse_time, valid_choice
 from carpus.core.results.progress import Goals
 from carpus.core.types import Side
 
@@ -63,50 +63,50 @@ class Patients:
 
     def __init__(self, store: Store) -> None:
         self._store = store
-        self.noted: Callable[[Deed, str], None] = lambda did, patient_id: None
+        self.on_change: Callable[[AuditAction, str], None] = lambda did, patient_id: None
         """Is told who was added or changed, by identity, once that is stored."""
 
-    def listed(self, search: str = "", *, archived: bool = False, most: int | None = None) -> list[Patient]:
-        """Patients whose pseudonym, name, diagnosis or note holds every word of ``search``; last session first,
-        ``most`` of them.
+    def search(self, text: str = "", *, include_archived: bool = False, limit: int | None = None) -> list[Patient]:
+        """Patients whose pseudonym, name, diagnosis or note holds every word of ``text``; last session first,
+        ``limit`` of them.
 
         Without those in the archive, unless ``archived``, and without archived sessions in the counts.
         """
         these: list[ColumnElement[bool]] = [PATIENT.c.id != PRACTICE, PATIENT.c.erasing == 0]
-        if not archived:
+        if not include_archived:
             these.append(PATIENT.c.archived == "")
-        words = folded(search).split()
+        words = fold_name(text).split()
         these += [PATIENT.c.search.contains(word, autoescape=True) for word in words]
         order = (PATIENT.c.last_s.desc(), PATIENT.c.added_s.desc())
         query = select(PATIENT).where(*these)
         if words:  # the index has all that is needed to find them; whole rows are read of those alone
             found = select(PATIENT.c.id).with_hint(PATIENT, "INDEXED BY patient_copy_found", "sqlite").where(*these)
-            found = found.order_by(*order).limit(most)
+            found = found.order_by(*order).limit(limit)
             rows = self._store.rows(select(PATIENT).where(PATIENT.c.id.in_(found)))
-            return [_patient(row) for row in sorted(rows, key=lambda row: (-row.last_s, -row.added_s))]
-        return [_patient(row) for row in self._store.rows(query.order_by(*order).limit(most))]
+            return [_patient_from_row(row) for row in sorted(rows, key=lambda row: (-row.last_s, -row.added_s))]
+        return [_patient_from_row(row) for row in self._store.rows(query.order_by(*order).limit(limit))]
 
-    def one(self, patient_id: str) -> Patient:
+    def get(self, patient_id: str) -> Patient:
         """Raises KeyError for an identity that is not in the store."""
         row = self._store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
         if row is None:
             raise KeyError(patient_id)
-        return _patient(row)
+        return _patient_from_row(row)
 
     def has(self, patient_id: str) -> bool:
         """Whether there is one of this identity."""
         return self._store.row(select(PATIENT.c.id).where(PATIENT.c.id == patient_id)) is not None
 
-    def called(self, pseudonym: str) -> str:
+    def id_of_pseudonym(self, pseudonym: str) -> str:
         """The identity behind a pseudonym; empty for nobody's."""
-        row = self._store.row(select(PATIENT.c.id).where(PATIENT.c.folded == folded(pseudonym)))
+        row = self._store.row(select(PATIENT.c.id).where(PATIENT.c.folded == fold_name(pseudonym)))
         return str(row[0]) if row else ""
 
     def suggest_pseudonym(self, chance: random.Random | None = None) -> str:
         """A random pseudonym that no patient has."""
         return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))], chance)
 
-    def keep(self, patient: Patient) -> str:
+    def save(self, patient: Patient) -> str:
         """Enter a patient who is new, or change one; the identity. Raises what :meth:`add` and :meth:`change` do."""
         if not patient.patient_id:
             return self.add(patient)
@@ -116,55 +116,61 @@ class Patients:
     def add(self, patient: Patient, now: datetime | None = None) -> str:
         """Enter a new patient; returns the identity given. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
         patient_id = new_id()
-        self._store.do([new(PATIENT, patient_id, **columns(patient), added_s=(now or datetime.now(UTC)).timestamp())])
-        self.noted("added", patient_id)
+        self._store.apply(
+            [
+                insert_row(
+                    PATIENT, patient_id, **patient_columns(patient), added_s=(now or datetime.now(UTC)).timestamp()
+                )
+            ]
+        )
+        self.on_change("added", patient_id)
         return patient_id
 
     def change(self, patient: Patient) -> None:
         """Replace what is written of a patient, as it was read in its ``version``, 0 for any; the sessions stay.
 
-        Raises :class:`PseudonymTaken`, :class:`NameUnsuited`, :class:`ChangedMeanwhile`. Files recorded under an
+        Raises :class:`PseudonymTaken`, :class:`NameUnsuited`, :class:`ConcurrentChange`. Files recorded under an
         earlier pseudonym keep it.
         """
-        values = columns(patient)
+        values = patient_columns(patient)
         row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former).where(PATIENT.c.id == patient.patient_id))
         if row is not None and row.pseudonym != values["pseudonym"]:
             values["former"] = "\n".join(dict.fromkeys([*row.former.split("\n"), row.pseudonym])).strip()
-        self._store.do([changed(PATIENT, patient.patient_id, patient.version, **values)])
-        self._store.leave_no_trace()  # of a name that was taken away
-        self.noted("changed", patient.patient_id)
+        self._store.apply([update_row(PATIENT, patient.patient_id, patient.version, **values)])
+        self._store.purge_deleted()  # of a name that was taken away
+        self.on_change("changed", patient.patient_id)
 
     def archive(self, patient_id: str, now: datetime | None = None) -> None:
         since = (now or datetime.now(UTC)).isoformat(timespec="seconds")
-        self._store.do([changed(PATIENT, patient_id, archived=since)])
+        self._store.apply([update_row(PATIENT, patient_id, archived=since)])
 
-    def bring_back(self, patient_id: str) -> None:
-        self._store.do([changed(PATIENT, patient_id, archived="")])
+    def unarchive(self, patient_id: str) -> None:
+        self._store.apply([update_row(PATIENT, patient_id, archived="")])
 
     def diagnoses(self) -> list[str]:
         """The clinic's own list of diagnoses and operations, those of most patients first."""
-        had = Counter(folded(row.diagnosis) for row in self._store.rows(select(PATIENT.c.diagnosis)))
-        listed = {folded(row.words): str(row.words) for row in self._store.rows(select(DIAGNOSIS.c.words))}
+        had = Counter(fold_name(row.diagnosis) for row in self._store.rows(select(PATIENT.c.diagnosis)))
+        listed = {fold_name(row.words): str(row.words) for row in self._store.rows(select(DIAGNOSIS.c.words))}
         return [words for _, words in sorted(listed.items(), key=lambda one: (-had[one[0]], one[0]))]
 
-    def list_diagnosis(self, words: str, *, listed: bool) -> None:
+    def set_diagnosis_listed(self, diagnosis: str, *, is_listed: bool) -> None:
         """Take a diagnosis into the clinic's list, or out of it; a patient who has it keeps it."""
-        same = [row.id for row in self._store.rows(select(DIAGNOSIS)) if folded(row.words) == folded(words)]
-        if listed and not same:
-            self._store.do([new(DIAGNOSIS, new_id(), words=words)])
-        elif same and not listed:
-            self._store.do([dropped(DIAGNOSIS, one) for one in same])
+        same = [row.id for row in self._store.rows(select(DIAGNOSIS)) if fold_name(row.words) == fold_name(diagnosis)]
+        if is_listed and not same:
+            self._store.apply([insert_row(DIAGNOSIS, new_id(), words=diagnosis)])
+        elif same and not is_listed:
+            self._store.apply([delete_row(DIAGNOSIS, one) for one in same])
 
-    def archived(self) -> dict[str, datetime]:
+    def archive_times(self) -> dict[str, datetime]:
         rows = self._store.rows(select(PATIENT).where(PATIENT.c.archived != ""))
-        return {str(row.id): moment(row.archived, row.added_s) for row in rows}
+        return {str(row.id): parse_time(row.archived, row.added_s) for row in rows}
 
 
-Written = Mapping[str, Any]
+ColumnTypes = Mapping[str, Any]
 """What a person writes down of a value, each a column by its name, with the type that it is read as."""
 
 
-def _column_types(kind: Any) -> Written:
+def _column_types(kind: Any) -> ColumnTypes:
     types = get_type_hints(kind)
     return {one.name: types[one.name] for one in fields(kind) if not one.kw_only}
 
@@ -172,9 +178,9 @@ def _column_types(kind: Any) -> Written:
 _PATIENT, _HOME_PLAN = _column_types(Patient), _column_types(HomePlan)
 
 
-def _as_stored(value: object, written: Written) -> dict[str, Any]:
+def _to_columns(value: object, types: ColumnTypes) -> dict[str, Any]:
     """Texts and numbers as they are, days by ISO 8601 and empty for none, several texts in a line each."""
-    columns = {name: getattr(value, name) for name in written}
+    columns = {name: getattr(value, name) for name in types}
     for name, one in columns.items():
         if one is None or isinstance(one, date):
             columns[name] = one.isoformat() if one is not None else ""
@@ -183,44 +189,44 @@ def _as_stored(value: object, written: Written) -> dict[str, Any]:
     return columns
 
 
-def _as_written(row: Row[Any], written: Written) -> dict[str, Any]:
-    """What :func:`_as_stored` stored; of a choice the first where another program stored what is none."""
-    read = {name: getattr(row, name) for name in written}
-    for name, hint in written.items():
+def _from_columns(row: Row[Any], types: ColumnTypes) -> dict[str, Any]:
+    """What :func:`_to_columns` stored; of a choice the first where another program stored what is none."""
+    read = {name: getattr(row, name) for name in types}
+    for name, hint in types.items():
         origin: Any = get_origin(hint)
         if origin is Literal:
-            read[name] = one_of(get_args(hint), read[name])
+            read[name] = valid_choice(get_args(hint), read[name])
         elif origin is tuple:
             read[name] = tuple(read[name].split("\n"))
         elif hint not in (str, int):  # a day, which may be missing where None may stand for it
-            read[name] = date.fromisoformat(read[name]) if hint is date else day_of(read[name])
+            read[name] = date.fromisoformat(read[name]) if hint is date else parse_day(read[name])
     return read
 
 
-def columns(patient: Patient) -> dict[str, Any]:
+def patient_columns(patient: Patient) -> dict[str, Any]:
     """What is written of a patient as it is stored. Raises :class:`NameUnsuited`."""
-    kept = patient.as_kept()
-    search = folded(f"{kept.pseudonym} {kept.name} {kept.diagnosis} {kept.note}")
-    return _as_stored(kept, _PATIENT) | {"folded": folded(kept.pseudonym), "search": search}
+    kept = patient.with_normalized_names()
+    search = fold_name(f"{kept.pseudonym} {kept.name} {kept.diagnosis} {kept.note}")
+    return _to_columns(kept, _PATIENT) | {"folded": fold_name(kept.pseudonym), "search": search}
 
 
-def _patient(row: Row[Any]) -> Patient:
+def _patient_from_row(row: Row[Any]) -> Patient:
     return Patient(
-        **_as_written(row, _PATIENT) | {"pseudonym": row.pseudonym.strip() or "?"}, patient_id=row.id,
+        **_from_columns(row, _PATIENT) | {"pseudonym": row.pseudonym.strip() or "?"}, patient_id=row.id,
         session_count=row.sessions, result_count=row.results, last_exercise=row.last_exercise, version=row.version,
-        last_session=moment(row.last, row.last_s) if row.last else None,
+        last_session=parse_time(row.last, row.last_s) if row.last else None,
     )  # fmt: skip
 
 
-def enter_by_hand(store: Store, patient_id: str, values: Iterable[HandValue]) -> None:
+def add_manual_measurements(store: Store, patient_id: str, values: Iterable[ManualValue]) -> None:
     """Add entries, each with its own time or now; what was entered before for the same stays readable."""
     now, first_ns = datetime.now(UTC), time.time_ns()
-    store.do(
+    store.apply(
         [
-            new(
-                MEASURED, new_id(), patient_id=patient_id, measure=one.measure, way=one.way, side=one.side,
-                day=one.day.isoformat(), tries=json.dumps(list(one.tries)), place=one.where, by=one.by,
-                entered=(one.entered or now).astimezone(UTC).isoformat(timespec="seconds"),
+            insert_row(
+                MANUAL_MEASUREMENT, new_id(), patient_id=patient_id, measure=one.measure, way=one.mode, side=one.side,
+                day=one.day.isoformat(), tries=json.dumps(list(one.trials)), place=one.location, by=one.rater,
+                entered=(one.entered_at or now).astimezone(UTC).isoformat(timespec="seconds"),
                 entered_ns=first_ns + number,
             )
             for number, one in enumerate(values)
@@ -228,54 +234,58 @@ def enter_by_hand(store: Store, patient_id: str, values: Iterable[HandValue]) ->
     )  # fmt: skip
 
 
-def by_hand(store: Store, patient_id: str) -> list[HandValue]:
+def read_manual_measurements(store: Store, patient_id: str) -> list[ManualValue]:
     """Everything that was ever entered of a patient, in order; without measures that this Carpus does not know."""
     known = [measure.id for measure in MEASURES]
-    query = select(MEASURED).where(MEASURED.c.patient_id == patient_id, MEASURED.c.measure.in_(known))
-    return store.sound(store.rows(query.order_by(MEASURED.c.entered_ns, MEASURED.c.id)), _hand_value)
+    query = select(MANUAL_MEASUREMENT).where(
+        MANUAL_MEASUREMENT.c.patient_id == patient_id, MANUAL_MEASUREMENT.c.measure.in_(known)
+    )
+    return store.valid_rows(
+        store.rows(query.order_by(MANUAL_MEASUREMENT.c.entered_ns, MANUAL_MEASUREMENT.c.id)), _measurement_from_row
+    )
 
 
-def _hand_value(row: Row[Any]) -> HandValue:
-    return HandValue(
+def _measurement_from_row(row: Row[Any]) -> ManualValue:
+    return ManualValue(
         row.measure, row.way, row.side, date.fromisoformat(row.day), tuple(map(float, json.loads(row.tries))),
-        row.place, row.by, moment(row.entered, row.entered_ns / 1e9),
+        row.place, row.by, parse_time(row.entered, row.entered_ns / 1e9),
     )  # fmt: skip
 
 
-def goals(store: Store, patient_id: str) -> Goals:
+def read_goals(store: Store, patient_id: str) -> Goals:
     """The targets that were last set for each exercise and hand of a patient; NaN for none."""
     out: dict[tuple[str, Side], tuple[float, float]] = {}
     for row in store.rows(select(GOAL).where(GOAL.c.patient_id == patient_id)):
-        stored = known(row.positive_deg), known(row.negative_deg)
-        out[row.exercise, row.side] = read_targets_deg(stored, known_exercise(row.exercise))
+        stored = null_to_nan(row.positive_deg), null_to_nan(row.negative_deg)
+        out[row.exercise, row.side] = to_clinical_targets_deg(stored, find_exercise(row.exercise))
     return out
 
 
-def goal(patient_id: str, exercise: str, side: Side, positive_deg: float, negative_deg: float) -> RowChange:
+def goal_change(patient_id: str, exercise: str, side: Side, positive_deg: float, negative_deg: float) -> RowChange:
     """The change that sets one. It is stored as in the session files: supination from the palm down."""
-    positive_deg, negative_deg = stored_targets_deg((positive_deg, negative_deg), known_exercise(exercise))
-    return kept(
+    positive_deg, negative_deg = from_clinical_targets_deg((positive_deg, negative_deg), find_exercise(exercise))
+    return upsert_row(
         GOAL, f"{patient_id}:{exercise}:{side}", patient_id=patient_id, exercise=exercise, side=side,
-        positive_deg=storable(positive_deg), negative_deg=storable(negative_deg),
+        positive_deg=nan_to_null(positive_deg), negative_deg=nan_to_null(negative_deg),
     )  # fmt: skip
 
 
-def home_plan(store: Store, patient_id: str) -> HomePlan | None:
+def read_home_plan(store: Store, patient_id: str) -> HomePlan | None:
     """What a patient was last given to do at home; None for nothing."""
     rows = store.rows(select(HOME_PLAN).where(HOME_PLAN.c.patient_id == patient_id))
-    return next(iter(store.sound(rows, lambda row: HomePlan(**_as_written(row, _HOME_PLAN)))), None)
+    return next(iter(store.valid_rows(rows, lambda row: HomePlan(**_from_columns(row, _HOME_PLAN)))), None)
 
 
-def keep_home_plan(store: Store, patient_id: str, plan: HomePlan) -> None:
+def save_home_plan(store: Store, patient_id: str, plan: HomePlan) -> None:
     """In place of the one before."""
-    store.do([kept(HOME_PLAN, f"{patient_id}:home", patient_id=patient_id, **_as_stored(plan, _HOME_PLAN))])
+    store.apply([upsert_row(HOME_PLAN, f"{patient_id}:home", patient_id=patient_id, **_to_columns(plan, _HOME_PLAN))])
 
 
-def storable(value: float) -> float | None:
+def nan_to_null(value: float) -> float | None:
     """A number as it is stored: what is not known is no number."""
     return None if math.isnan(value) else float(value)
 
 
-def known(value: float | None) -> float:
-    """What :func:`storable` stored."""
+def null_to_nan(value: float | None) -> float:
+    """What :func:`nan_to_null` stored."""
     return math.nan if value is None else value

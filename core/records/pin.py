@@ -18,17 +18,17 @@ from carpus.core.durable import replace_text, write_fault
 from carpus.core.errors import PinUncheckable
 
 PIN_FILE = "pin.json"
-LEAST_SIGNS, MOST_SIGNS = 4, 64
-TRIES = 5
+MIN_CHARACTERS, MAX_CHARACTERS = 4, 64
+MAX_TRIES = 5
 PAUSE = timedelta(minutes=1)
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
-    """What came of a PIN: ``opened``, or ``left`` tries before a pause, or ``pause_s`` until the next one."""
+class PinAttempt:
+    """What came of a PIN: ``is_correct``, or ``tries_left`` tries before a pause, or ``pause_s`` until the next one."""
 
-    opened: bool
-    left: int = TRIES
+    is_correct: bool
+    tries_left: int = MAX_TRIES
     pause_s: float = 0.0
 
 
@@ -47,27 +47,27 @@ class Pin:
         """Set or change it. ValueError for one that is too short or too long; raises :class:`OutputNotWritable`,
         :class:`PinUncheckable`."""
         argon2 = _argon2()
-        if not LEAST_SIGNS <= len(pin) <= MOST_SIGNS:
+        if not MIN_CHARACTERS <= len(pin) <= MAX_CHARACTERS:
             raise ValueError(f"{len(pin)} signs")
         self._write({"pin": str(argon2.PasswordHasher().hash(pin)), "refused": 0, "since": ""})
 
-    def take_away(self) -> None:
+    def remove(self) -> None:
         try:
             self._path.unlink(missing_ok=True)
         except OSError as cause:
             raise write_fault(self._path, cause) from cause
 
-    def try_it(self, pin: str, now: datetime | None = None) -> Tried:
+    def check(self, pin: str, now: datetime | None = None) -> PinAttempt:
         """Whether it is the one; counted where it is not, also over the end of the program. During a pause nothing is
         tried. Raises :class:`OutputNotWritable` where a wrong one could not be counted, :class:`PinUncheckable`."""
         argon2 = _argon2()
         when = now or datetime.now(UTC)
         kept = self._read()
         refused, since = kept["refused"], kept["since"]
-        if refused >= TRIES and since is not None:
+        if refused >= MAX_TRIES and since is not None:
             waited = when - since
             if timedelta(0) <= waited < PAUSE:
-                return Tried(False, 0, float(math.ceil((PAUSE - waited).total_seconds())))
+                return PinAttempt(False, 0, float(math.ceil((PAUSE - waited).total_seconds())))
             refused = 0
         try:
             opened = bool(argon2.PasswordHasher().verify(kept["pin"], pin))
@@ -77,9 +77,9 @@ class Pin:
         if not opened or kept["refused"]:
             self._write(told)
         if opened:
-            return Tried(True)
-        left = TRIES - refused - 1
-        return Tried(False, left, 0.0 if left else PAUSE.total_seconds())
+            return PinAttempt(True)
+        left = MAX_TRIES - refused - 1
+        return PinAttempt(False, left, 0.0 if left else PAUSE.total_seconds())
 
     def _read(self) -> dict[str, Any]:
         try:

@@ -18,42 +18,42 @@ from pathlib import Path
 import platformdirs
 
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.durable import hold, make_private, private, sync_folder, write_fault
+from carpus.core.durable import lock_file, make_private_folder, open_private, sync_folder, write_fault
 from carpus.core.errors import (
     CarpusFault,
-    NothingRecorded,
     OutputNotWritable,
     RecordingMissing,
-    RecordingReturned,
+    RecordingTooShort,
     SessionUnreadable,
-    WaitingErased,
+    SpooledSessionErased,
+    SpooledSessionMoved,
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.set_up import MARKERS_SUFFIX
-from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.session import reader
 from carpus.core.session.disk import (
-    LEFT_AFTER_S,
-    below,
-    free_name,
+    STALE_AFTER_S,
+    find_free_name,
+    find_part_target,
     is_being_written,
+    iter_paths,
     publish,
     remove_leftovers,
-    target_of_part,
     temporary_path,
 )
 from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
-from carpus.core.session.journal import JournalReader, claim, unpack_arrays
+from carpus.core.session.journal import JournalReader, lock_journal, unpack_arrays
 from carpus.core.session.reader import read_outline
 from carpus.core.session.writer import SessionWriter
 
 log = logging.getLogger(__name__)
 
-_BESIDE = (RAW_SUFFIX, MARKERS_SUFFIX, ".h5")
+_SUFFIXES = (RAW_SUFFIX, MARKERS_SUFFIX, ".h5")
 """What is published of a recording; the session last: what goes with it is there when it comes."""
 
 
-def recordings_folder(data_folder: Path) -> Path:
+def spool_folder(data_folder: Path) -> Path:
     """On this computer's own disk, one folder for each data folder, and in it one for each patient; nothing is made."""
     name = hashlib.sha256(str(data_folder.absolute()).encode()).hexdigest()[:12]
     return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
@@ -80,13 +80,13 @@ class SessionDraft:
     def __init__(self, journal: Path) -> None:
         self._journal = JournalReader(journal)
         self._target = journal.with_suffix(".h5")
-        self._is_written = _is_session(self._target, self._journal.session_id)
+        self._is_written = _holds_session(self._target, self._journal.session_id)
         """Whether a program was killed after the session had its name, and before the journal went."""
         self._writer: SessionWriter | None = None
 
     def read(self) -> None:
         """Take what the journal has by now."""
-        image = self._journal.image
+        image = self._journal.empty_session
         if image is None or self._is_written:
             return
         for kind, content in self._journal.read():
@@ -97,11 +97,11 @@ class SessionDraft:
             except ValueError:  # of another Carpus; what is whole counts
                 continue
             if self._writer is None:
-                self._writer = SessionWriter(free_name(self._target), image)
-            (self._writer.add if kind == b"ROWS" else self._writer.add_smoothed)(blocks)
+                self._writer = SessionWriter(find_free_name(self._target), image)
+            (self._writer.add_blocks if kind == b"ROWS" else self._writer.add_motion_blocks)(blocks)
 
     @property
-    def rows(self) -> int:
+    def frame_count(self) -> int:
         """Frames taken so far."""
         return len(self._writer) if self._writer is not None else 0
 
@@ -118,10 +118,10 @@ class SessionDraft:
         writer = self._writer
         if writer is None or not len(writer):
             return None
-        if writer.smoothed_rows != len(writer):  # half of a smoother's result is none
-            writer.drop_smoothed()
+        if writer.smoother_row_count != len(writer):  # half of a smoother's result is none
+            writer.drop_motion()
         try:
-            writer.write_repetitions(repetitions_of(writer.read_back()))
+            writer.write_repetitions(compute_repetitions(writer.read_session()))
         except (ArithmeticError, ValueError, IndexError):  # what is reckoned from the rows never costs the rows
             log.warning("the repetitions could not be counted", exc_info=True)
         writer.close(recovered)
@@ -134,26 +134,27 @@ class SessionDraft:
             self._writer.abandon()
 
 
-def _is_session(path: Path, session_id: str) -> bool:
+def _holds_session(path: Path, session_id: str) -> bool:
     with suppress(SessionUnreadable):
         return path.exists() and read_outline(path).header.session_id == session_id
     return False
 
 
 @dataclass(frozen=True, slots=True)
-class Recovery:
-    """``recovered`` the files finished; ``busy`` what is still being recorded; ``faults`` one for each file left;
+class RecoveryResult:
+    """``recovered`` the files finished; ``in_progress`` what is still being recorded; ``faults`` one for each file
+    left;
     ``empty`` recordings that had ended before their first frame was stored."""
 
     recovered: tuple[Path, ...]
-    busy: tuple[Path, ...]
+    in_progress: tuple[Path, ...]
     faults: tuple[CarpusFault, ...]
     empty: tuple[Path, ...] = ()
 
 
-def recover_recordings(folder: Path, now: datetime | None = None, given_up: Collection[Path] = ()) -> Recovery:
+def recover_recordings(folder: Path, now: datetime | None = None, ignored: Collection[Path] = ()) -> RecoveryResult:
     """Finish every interrupted recording of a folder and the folders in it: journals, and part files of Carpus 0.2.0.
-    What cannot be finished stays as it is, and what is ``given_up`` is not looked at.
+    What cannot be finished stays as it is, and what is ``ignored`` is not looked at.
 
     Raises :class:`RecordingMissing` when there is no such folder.
     """
@@ -164,9 +165,9 @@ def recover_recordings(folder: Path, now: datetime | None = None, given_up: Coll
     busy: list[Path] = []
     empty: list[Path] = []
     faults: list[CarpusFault] = []
-    for path in sorted(below(folder)):
-        is_part = target_of_part(path) is not None
-        if path in given_up or not (is_part or path.suffix == JOURNAL_SUFFIX):
+    for path in sorted(iter_paths(folder)):
+        is_part = find_part_target(path) is not None
+        if path in ignored or not (is_part or path.suffix == JOURNAL_SUFFIX):
             continue
         try:
             target = _recover_part(path, when) if is_part else _recover_journal(path, when, faults)
@@ -175,25 +176,25 @@ def recover_recordings(folder: Path, now: datetime | None = None, given_up: Coll
             faults.append(fault)
         except OSError as cause:
             faults.append(SessionUnreadable(path, cause.strerror or ""))
-    return Recovery(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
+    return RecoveryResult(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
 
 
 def _recover_journal(path: Path, when: str, faults: list[CarpusFault]) -> Path | None:
     """The session of a journal; the journal itself while it is recorded, None where nothing had been stored. One whose
     bytes went bad holds more than was read of it: it is kept under another name."""
-    own = claim(path)
+    own = lock_journal(path)
     if own is None:
         return path
     with own:
-        for name in (path.with_suffix(".h5"), free_name(path.with_suffix(".h5"))):
-            remove_leftovers(name, after_s=0.0)
+        for name in (path.with_suffix(".h5"), find_free_name(path.with_suffix(".h5"))):
+            remove_leftovers(name, min_age_s=0.0)
         target = write_session(path, when)
         with JournalReader(path) as journal:
             is_damaged = journal.is_damaged()
     if is_damaged and target is None:
         raise SessionUnreadable(path, phrase("damaged"))
     if is_damaged:
-        aside = path.rename(free_name(path.with_suffix(".damaged")))
+        aside = path.rename(find_free_name(path.with_suffix(".damaged")))
         faults.append(SessionUnreadable(aside, phrase("damaged")))
     path.unlink(missing_ok=True)
     sync_folder(path.parent)
@@ -202,7 +203,7 @@ def _recover_journal(path: Path, when: str, faults: list[CarpusFault]) -> Path |
 
 def _recover_part(part: Path, when: str) -> Path | None:
     """As :func:`_recover_journal`; who records with an older Carpus, perhaps on another computer, adds to its file."""
-    if is_being_written(part) or abs(time.time() - part.stat().st_mtime) < LEFT_AFTER_S:
+    if is_being_written(part) or abs(time.time() - part.stat().st_mtime) < STALE_AFTER_S:
         return part
     target = reader.finish_part(part, when)
     part.with_name(f"{part.name}.alive").unlink(missing_ok=True)
@@ -221,44 +222,44 @@ def publish_session(path: Path, folder: Path) -> Path:
 
 def remove_published(path: Path) -> None:
     """Take away what has been copied; the session last."""
-    for suffix in _BESIDE:
+    for suffix in _SUFFIXES:
         path.with_suffix(suffix).unlink(missing_ok=True)
 
 
 def copy_session(path: Path, folder: Path) -> Path:
     """Put a finished session and what lies beside it into a folder as well. Run again after a kill it goes on: what has
     arrived is not copied twice."""
-    make_private(folder)
-    there = [suffix for suffix in _BESIDE if path.with_suffix(suffix).is_file()]
+    make_private_folder(folder)
+    there = [suffix for suffix in _SUFFIXES if path.with_suffix(suffix).is_file()]
     target, number = folder / path.name, 1
     try:
-        while any(_is_other(path.with_suffix(suffix), target.with_suffix(suffix)) for suffix in there):
+        while any(_is_different_file(path.with_suffix(suffix), target.with_suffix(suffix)) for suffix in there):
             number += 1
             target = folder / f"{path.stem}-{number}{path.suffix}"
         for suffix in there:
-            _place(path.with_suffix(suffix), target.with_suffix(suffix))
+            _place_file(path.with_suffix(suffix), target.with_suffix(suffix))
         sync_folder(folder)
     except OSError as cause:
         raise write_fault(target, cause) from cause
     return target
 
 
-def _is_other(source: Path, target: Path) -> bool:
+def _is_different_file(source: Path, target: Path) -> bool:
     """Whether another file has the name."""
     return os.path.lexists(target) and not (target.is_file() and filecmp.cmp(source, target, shallow=False))
 
 
-def _place(source: Path, target: Path) -> None:
+def _place_file(source: Path, target: Path) -> None:
     if os.path.lexists(target):
         return
     with suppress(OSError):  # another disk, or one without hard links
         os.link(source, target)
         return
-    remove_leftovers(target, after_s=0.0)
+    remove_leftovers(target, min_age_s=0.0)
     part = temporary_path(target)
     try:
-        with source.open("rb") as file, open(part, "xb", opener=private) as copy:
-            hold(copy)
+        with source.open("rb") as file, open(part, "xb", opener=open_private) as copy:
+            lock_file(copy)
             shutil.copyfileobj(file, copy, 1 << 20)
             copy.flush()
             os.fsync(copy.fileno())
@@ -267,36 +268,38 @@ def _place(source: Path, target: Path) -> None:
         part.unlink(missing_ok=True)
 
 
-def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) -> tuple[list[Path], list[CarpusFault]]:
+def import_spooled(
+    data_folder: Path, find_folder: Callable[[str, str], Path | None]
+) -> tuple[list[Path], list[CarpusFault]]:
     """Finish what was interrupted on this computer, and publish what waits, into the folder of each patient, by
     identity and pseudonym; of whom there is none, it is erased. The sessions that had been interrupted, as they lie
     now, and what is to be told."""
-    place = recordings_folder(data_folder)
+    place = spool_folder(data_folder)
     if not place.is_dir():
         return [], []
     found = recover_recordings(place)
     recovered: list[Path] = []
-    told: list[CarpusFault] = [NothingRecorded(path.name) for path in found.empty]
-    erased = [one for one in sorted(place.iterdir()) if one.is_dir() and folder_of(one.name, "") is None]
-    for folder in erased if not found.busy else ():
+    told: list[CarpusFault] = [RecordingTooShort(path.name) for path in found.empty]
+    erased = [one for one in sorted(place.iterdir()) if one.is_dir() and find_folder(one.name, "") is None]
+    for folder in erased if not found.in_progress else ():
         try:
             shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
-            told.append(WaitingErased())
+            told.append(SpooledSessionErased())
         except OSError as cause:
             told.append(OutputNotWritable(place, cause.strerror or ""))
     told += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
     for path in sorted(one for one in place.rglob("*.h5") if not one.name.startswith(".")):
         try:
-            home = folder_of(path.parent.name, read_outline(path).header.subject_id)
+            home = find_folder(path.parent.name, read_outline(path).header.subject_id)
             if home is None:
-                told.append(WaitingErased())
+                told.append(SpooledSessionErased())
                 remove_published(path)
             else:
                 arrived = publish_session(path, home)
                 if path in found.recovered:
                     recovered.append(arrived)
                 else:
-                    told.append(RecordingReturned(arrived))
+                    told.append(SpooledSessionMoved(arrived))
             if path.parent != place:
                 with suppress(OSError):  # another recording waits in it
                     path.parent.rmdir()

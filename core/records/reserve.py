@@ -7,7 +7,7 @@ import os
 import shutil
 from pathlib import Path
 
-from carpus.core.durable import private
+from carpus.core.durable import open_private
 
 RESERVE_FILE = ".reserve"
 RESERVE_BYTES = 2 << 20
@@ -15,12 +15,12 @@ RESERVE_BYTES = 2 << 20
 MIN_FREE_BYTES = 20 * RESERVE_BYTES
 
 
-def keep_reserve(folder: Path) -> None:
+def create_reserve(folder: Path) -> None:
     """Take the room where there is plenty and none is taken yet."""
     path = folder / RESERVE_FILE
     with contextlib.suppress(OSError):
         if not path.exists() and shutil.disk_usage(folder).free > MIN_FREE_BYTES:
-            with open(path, "xb", opener=private) as file:
+            with open(path, "xb", opener=open_private) as file:
                 file.write(os.urandom(RESERVE_BYTES))  # what no disk can make smaller
 
 

@@ -18,34 +18,34 @@ from typing import Any
 
 from sqlalchemy import Select, insert, select, update
 
-from carpus.core.durable import make_private, sync_folder, write_fault
-from carpus.core.errors import BackupUnequal, OutputExists, RegisterUnreadable
+from carpus.core.durable import make_private_folder, sync_folder, write_fault
+from carpus.core.errors import BackupMismatch, OutputExists, PatientListUnreadable
 from carpus.core.records.backup import (
-    BLOCK,
+    BLOCK_BYTES,
     SESSIONS_PREFIX,
     SETTINGS_PREFIX,
     Backup,
-    Kept,
+    BackupFile,
     Progress,
-    backups,
-    find_object,
-    hash_of,
-    walk_files,
+    hash_file,
+    list_backups,
+    list_files,
+    object_path,
     write_hashed,
 )
-from carpus.core.records.changes import ERASED, fingerprint
-from carpus.core.records.database import STORE_FILE, copied
-from carpus.core.records.erasure import finish_erasing
-from carpus.core.records.log import Log
-from carpus.core.records.schema import DEED, PATIENT, SESSION
+from carpus.core.records.changes import ERASED_SUBJECTS, fingerprint
+from carpus.core.records.database import STORE_FILE, copy_to_memory
+from carpus.core.records.erasure import resume_erasures
+from carpus.core.records.log import AuditLogWriter
+from carpus.core.records.schema import AUDIT_LOG, PATIENT, SESSION
 from carpus.core.records.store import Store
 
 
 @dataclass(frozen=True, slots=True)
-class Past:
+class LogHistory:
     """What the log knows by now: its rows, and the fingerprints of what is erased."""
 
-    deeds: tuple[Mapping[str, Any], ...] = ()
+    entries: tuple[Mapping[str, Any], ...] = ()
     erased: frozenset[str] = frozenset()
 
 
@@ -56,34 +56,37 @@ class RestorePlan:
 
     added: tuple[str, ...]
     replaced: tuple[str, ...]
-    lost: tuple[str, ...]
-    erased: int
+    removed: tuple[str, ...]
+    erased_count: int
 
 
-def read_past(place: Path, present: Store | None) -> Past:
+def read_history(backup_folder: Path, store: Store | None) -> LogHistory:
     """Read what was done until now: in the store that is there, and as the newest backup of the place has it."""
-    known = _prints(present) if present is not None else set[str]()
-    past = [_past_of(present)] if present is not None else []
-    with suppress(BackupUnequal, RegisterUnreadable), _store_of(next(iter(backups(place)), None), place) as newest:
-        past += [_past_of(newest)] if newest is not None else []
-    deeds = {deed["id"]: deed for one in reversed(past) for deed in one.deeds}
-    return Past(tuple(deeds.values()), frozenset().union(*(one.erased for one in past)) - known)
+    known = _fingerprints(store) if store is not None else set[str]()
+    past = [_store_history(store)] if store is not None else []
+    with (
+        suppress(BackupMismatch, PatientListUnreadable),
+        _open_backup_store(next(iter(list_backups(backup_folder)), None), backup_folder) as newest,
+    ):
+        past += [_store_history(newest)] if newest is not None else []
+    deeds = {deed["id"]: deed for one in reversed(past) for deed in one.entries}
+    return LogHistory(tuple(deeds.values()), frozenset().union(*(one.erased for one in past)) - known)
 
 
-def _past_of(store: Store) -> Past:
-    deeds = tuple(dict(row._mapping) for row in store.rows(select(DEED)))
-    return Past(deeds, frozenset(str(row[0]) for row in store.rows(ERASED)) - _prints(store))
+def _store_history(store: Store) -> LogHistory:
+    deeds = tuple(dict(row._mapping) for row in store.rows(select(AUDIT_LOG)))
+    return LogHistory(deeds, frozenset(str(row[0]) for row in store.rows(ERASED_SUBJECTS)) - _fingerprints(store))
 
 
-def plan_restore(backup: Backup, place: Path, data_folder: Path, past: Past) -> RestorePlan:
+def plan_restore(backup: Backup, backup_folder: Path, data_folder: Path, history: LogHistory) -> RestorePlan:
     """Find out what of the sessions that are there now would be different."""
-    with _store_of(backup, place) as store:
-        people, paths = _erased_rows(store, past) if store else ([], {})
+    with _open_backup_store(backup, backup_folder) as store:
+        people, paths = _find_erased(store, history) if store else ([], {})
     going = (*(f"{SESSIONS_PREFIX}{one}/" for one in people), *(f"{SESSIONS_PREFIX}{one}" for one in paths.values()))
     wanted = (one for one in backup.files if one.path.endswith(".h5") and not one.path.startswith(going))
     old = {one.path: one for one in wanted}
-    now = {name: path for name, path in walk_files(data_folder, None, []) if name.endswith(".h5")}
-    changed = (path for path in old.keys() & now.keys() if hash_of(now[path]) != old[path].sha256)
+    now = {name: path for name, path in list_files(data_folder, None, []) if name.endswith(".h5")}
+    changed = (path for path in old.keys() & now.keys() if hash_file(now[path]) != old[path].sha256)
     return RestorePlan(
         tuple(sorted(old.keys() - now.keys())), tuple(sorted(changed)), tuple(sorted(now.keys() - old.keys())),
         len(people) + len(paths),
@@ -92,27 +95,28 @@ def plan_restore(backup: Backup, place: Path, data_folder: Path, past: Past) -> 
 
 def restore(
     backup: Backup,
-    place: Path,
+    backup_folder: Path,
     target: Path,
-    past: Past,
+    history: LogHistory,
     *,
     settings_folder: Path | None = None,
     progress: Progress = lambda _done, _total: None,
-    replaces: bool = False,
+    overwrite: bool = False,
 ) -> int:
-    """Write a backup beside ``target``, every content checked on its way; :func:`put_in_place` gives it the name. How
+    """Write a backup beside ``target``, every content checked on its way; :func:`activate_restored` gives it the
+    name. How
     many patients and sessions that were erased since were taken out again.
 
     Settings come only where there are none. Raises :class:`OutputExists` for a folder with something in it unless it
-    is to be replaced, :class:`BackupUnequal`, :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
+    is to be replaced, :class:`BackupMismatch`, :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
     """
-    if not replaces and target.exists() and (not target.is_dir() or any(target.iterdir())):
+    if not overwrite and target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise OutputExists(target)
-    folder, parts = _beside(target, "restoring"), dict[Path, Path]()
+    folder, parts = _sibling(target, "restoring"), dict[Path, Path]()
     try:
-        for left in (folder, _beside(target, "restored")):
+        for left in (folder, _sibling(target, "restored")):
             shutil.rmtree(left, ignore_errors=True)
-        make_private(folder)
+        make_private_folder(folder)
         done, total = 0, backup.size_bytes or 1
         for one in backup.files:
             if not one.path.startswith(SETTINGS_PREFIX):
@@ -122,13 +126,13 @@ def restore(
             else:
                 into = parts[own] = own.with_name(f".{own.name}.new")
                 into.unlink(missing_ok=True)  # of a program that was killed
-            _fetch(place, one, into)
+            _restore_file(backup_folder, one, into)
             done += one.size
             progress(done, total)
-        gone = _bring_up_to_date(folder, past)
+        gone = _apply_history(folder, history)
         for own, part in parts.items():
             part.replace(own)
-        folder.rename(_beside(target, "restored"))
+        folder.rename(_sibling(target, "restored"))
     except BaseException as cause:
         shutil.rmtree(folder, ignore_errors=True)
         for part in parts.values():
@@ -139,17 +143,17 @@ def restore(
     return gone
 
 
-def is_restored(target: Path) -> bool:
+def has_restored_folder(target: Path) -> bool:
     """Whether a whole data folder lies beside a place and waits for its name."""
-    return _beside(target, "restored").is_dir()
+    return _sibling(target, "restored").is_dir()
 
 
-def drop_unfinished(target: Path) -> None:
+def delete_unfinished(target: Path) -> None:
     """Delete what a restore that was killed has left beside a data folder."""
-    shutil.rmtree(_beside(target, "restoring"), ignore_errors=True)
+    shutil.rmtree(_sibling(target, "restoring"), ignore_errors=True)
 
 
-def put_in_place(target: Path, now: datetime) -> Path | None:
+def activate_restored(target: Path, now: datetime) -> Path | None:
     """Give a restored folder the name, which no program may have open; where the folder lies now that had it.
 
     Raises :class:`OutputNotWritable`.
@@ -163,7 +167,7 @@ def put_in_place(target: Path, now: datetime) -> Path | None:
             else:
                 target.rmdir()
         try:
-            _beside(target, "restored").rename(target)
+            _sibling(target, "restored").rename(target)
         except OSError:
             if aside is not None:
                 aside.rename(target)
@@ -174,71 +178,71 @@ def put_in_place(target: Path, now: datetime) -> Path | None:
     return aside
 
 
-def _beside(target: Path, what: str) -> Path:
-    return target.with_name(f".{target.name}.{what}")
+def _sibling(target: Path, label: str) -> Path:
+    return target.with_name(f".{target.name}.{label}")
 
 
-def _fetch(place: Path, one: Kept, into: Path) -> None:
-    wrong = BackupUnequal(one.sha256[:12], Path(one.path).suffix)
-    for above in reversed([one for one in into.parents if not one.exists()]):
-        make_private(above)
+def _restore_file(backup_folder: Path, file: BackupFile, target: Path) -> None:
+    wrong = BackupMismatch(file.sha256[:12], Path(file.path).suffix)
+    for above in reversed([one for one in target.parents if not one.exists()]):
+        make_private_folder(above)
     try:
-        with find_object(place, one.sha256).open("rb") as file:
-            sha256, _ = write_hashed(into, iter(lambda: file.read(BLOCK), b""))
+        with object_path(backup_folder, file.sha256).open("rb") as stored:
+            sha256, _ = write_hashed(target, iter(lambda: stored.read(BLOCK_BYTES), b""))
         with suppress(OverflowError):
-            os.utime(into, ns=(one.changed_ns, one.changed_ns))
+            os.utime(target, ns=(file.modified_ns, file.modified_ns))
     except FileNotFoundError as cause:
         raise wrong from cause
-    if sha256 != one.sha256:
+    if sha256 != file.sha256:
         raise wrong
 
 
-def _bring_up_to_date(folder: Path, past: Past) -> int:
+def _apply_history(folder: Path, history: LogHistory) -> int:
     """Take out of a restored folder what was erased since, and add to its log what was done since."""
-    left = [one for one in (folder / SESSIONS_PREFIX).glob("*") if fingerprint(one.name) in past.erased]
+    left = [one for one in (folder / SESSIONS_PREFIX).glob("*") if fingerprint(one.name) in history.erased]
     for one in left:
         shutil.rmtree(one)
     if not (folder / STORE_FILE).is_file():  # the rows are on the clinic's server
         return len(left)
     with Store(folder) as store:
-        known = {row.id for row in store.rows(select(DEED.c.id))}
-        names = {column.name for column in DEED.c}
-        rows = [{k: v for k, v in one.items() if k in names} for one in past.deeds if one["id"] not in known]
-        people, sessions = _erased_rows(store, past)
-        store.own(
-            *(insert(DEED).values(**row) for row in rows),
+        known = {row.id for row in store.rows(select(AUDIT_LOG.c.id))}
+        names = {column.name for column in AUDIT_LOG.c}
+        rows = [{k: v for k, v in one.items() if k in names} for one in history.entries if one["id"] not in known]
+        people, sessions = _find_erased(store, history)
+        store.execute_local(
+            *(insert(AUDIT_LOG).values(**row) for row in rows),
             update(PATIENT).where(PATIENT.c.id.in_(people)).values(erasing=1),
             update(SESSION).where(SESSION.c.id.in_(sessions)).values(erasing=1),
         )
-        finish_erasing(store, Log(store, "command"))
+        resume_erasures(store, AuditLogWriter(store, "command"))
     return len(people) + len(sessions)
 
 
-def _erased_rows(store: Store, past: Past) -> tuple[list[str], dict[str, str]]:
+def _find_erased(store: Store, history: LogHistory) -> tuple[list[str], dict[str, str]]:
     """Patients of a store that were erased since, and of the others' sessions the erased ones, with their paths: every
     result of such a recording."""
-    people = [str(row.id) for row in store.rows(select(PATIENT.c.id)) if fingerprint(row.id) in past.erased]
+    people = [str(row.id) for row in store.rows(select(PATIENT.c.id)) if fingerprint(row.id) in history.erased]
     rows = store.rows(select(SESSION.c.id, SESSION.c.patient_id, SESSION.c.recording_id, SESSION.c.path))
-    recordings = {row.recording_id for row in rows if fingerprint(row.id) in past.erased}
+    recordings = {row.recording_id for row in rows if fingerprint(row.id) in history.erased}
     gone = (row for row in rows if row.recording_id in recordings and row.patient_id not in people)
     return people, {str(row.id): str(row.path) for row in gone}
 
 
-def _prints(store: Store) -> set[str]:
+def _fingerprints(store: Store) -> set[str]:
     """Fingerprints of who and what is in a store, and not being erased."""
     queries: list[Select[Any]] = [select(table.c.id).where(table.c.erasing == 0) for table in (PATIENT, SESSION)]
     return {fingerprint(row.id) for query in queries for row in store.rows(query)}
 
 
 @contextmanager
-def _store_of(backup: Backup | None, place: Path) -> Iterator[Store | None]:
-    """The store that a backup holds, in memory. Raises :class:`BackupUnequal`, :class:`RegisterUnreadable`."""
+def _open_backup_store(backup: Backup | None, backup_folder: Path) -> Iterator[Store | None]:
+    """The store that a backup holds, in memory. Raises :class:`BackupMismatch`, :class:`PatientListUnreadable`."""
     found = next((one for one in (backup.files if backup else ()) if one.path == STORE_FILE), None)
     if found is None:
         yield None
         return
-    path = find_object(place, found.sha256)
-    if hash_of(path) != found.sha256:
-        raise BackupUnequal(found.sha256[:12], path.suffix)
-    with Store(place, copy=copied(path)) as store:
+    path = object_path(backup_folder, found.sha256)
+    if hash_file(path) != found.sha256:
+        raise BackupMismatch(found.sha256[:12], path.suffix)
+    with Store(backup_folder, copy=copy_to_memory(path)) as store:
         yield store

@@ -31,8 +31,8 @@ def _reals(*names: str, nullable: bool = False) -> list[Column[Any]]:
     return [Column(name, _REAL, nullable=nullable, server_default=default) for name in names]
 
 
-def _of(table: str) -> Column[Any]:
-    return Column(f"{table}_id", Text, ForeignKey(f"{table}.id", ondelete="CASCADE"), nullable=False, index=True)
+def _foreign_key(parent: str) -> Column[Any]:
+    return Column(f"{parent}_id", Text, ForeignKey(f"{parent}.id", ondelete="CASCADE"), nullable=False, index=True)
 
 
 def _table(name: str, *columns: Column[Any] | list[Column[Any]]) -> Table:
@@ -75,7 +75,7 @@ SESSION = _table(
 """``path`` with slashes, in the folder of the sessions. ``by``: initials of who recorded."""
 Index("session_of_patient", SESSION.c.patient_id, SESSION.c.recorded_s)
 
-COMMENT = _table("comment", _of("session"), _texts("text", "by", "entered"), Column("entered_ns", _LONG))
+COMMENT = _table("comment", _foreign_key("session"), _texts("text", "by", "entered"), Column("entered_ns", _LONG))
 CORRECTION = _table(
     "correction",
     Column("session_id", Text, ForeignKey("session.id", ondelete="CASCADE"), nullable=False, unique=True),
@@ -83,19 +83,21 @@ CORRECTION = _table(
     _numbers("not_counted"),
 )
 """``left_out`` and ``edges_s`` as JSON, by the number of the repetition."""
-MEASURED = _table(
-    "measured", _of("patient"), _texts("measure", "way", "side", "day", "tries", "place", "by", "entered"),
+MANUAL_MEASUREMENT = _table(
+    "measured", _foreign_key("patient"), _texts("measure", "way", "side", "day", "tries", "place", "by", "entered"),
     Column("entered_ns", _LONG, nullable=False),
 )  # fmt: skip
 """By a person with a goniometer, a dynamometer, a questionnaire; ``tries`` as JSON."""
 SET_UP = _table(
-    "set_up", _of("patient"), _texts("side", "exercise", "discs", "set_id"),
+    "set_up", _foreign_key("patient"), _texts("side", "exercise", "discs", "set_id"),
     _numbers("repetitions", "keep_pictures", "ends_free", "for_child"),
     _reals("positive_deg", "negative_deg", nullable=True),
 )  # fmt: skip
-GOAL = _table("goal", _of("patient"), _texts("exercise", "side"), _reals("positive_deg", "negative_deg", nullable=True))
+GOAL = _table(
+    "goal", _foreign_key("patient"), _texts("exercise", "side"), _reals("positive_deg", "negative_deg", nullable=True)
+)
 HOME_PLAN = _table(
-    "home_plan", _of("patient"), _texts("exercises", "made", "again", "at", "note", "language"),
+    "home_plan", _foreign_key("patient"), _texts("exercises", "made", "again", "at", "note", "language"),
     _numbers("times", "rounds"),
 )  # fmt: skip
 """The last sheet for home; ``exercises`` in a line each, ``again`` the next appointment."""
@@ -104,14 +106,16 @@ REPORT_FORM = _table("report_form", _texts("name", "address", "logo", "paper", "
 RECIPIENT = _table("recipient", _texts("address"), _reals("used_s"))
 DIAGNOSIS = _table("diagnosis", _texts("words"))
 """The clinic's own list, to choose from; what a patient has stands with the patient."""
-MADE = _table("made", _of("session"), _texts("path", "kind"))
+OUTPUT_FILE = _table("made", _foreign_key("session"), _texts("path", "kind"))
 """Files outside the data folder that were made from a session."""
 BACKUP = _table("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
-DEED = _table("deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True))
+AUDIT_LOG = _table(
+    "deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True)
+)
 """Only ever added to. ``subject``: a fingerprint of the patient's or session's id, so that what was erased is
 nobody's."""
 
-SEEN = Table(
+FILE_STATE = Table(
     "seen", METADATA, Column("path", Text, primary_key=True), Column("size", _LONG, nullable=False),
     Column("changed_ns", _LONG, nullable=False), Column("reason", Text, nullable=False), sqlite_strict=True,
 )  # fmt: skip
@@ -120,10 +124,23 @@ SEEN = Table(
 TABLES = {
     table.name: table
     for table in (
-        PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, HOME_PLAN, EXERCISE_SET, REPORT_FORM, RECIPIENT,
-        DIAGNOSIS, MADE, BACKUP, DEED,
+        PATIENT,
+        SESSION,
+        COMMENT,
+        CORRECTION,
+        MANUAL_MEASUREMENT,
+        SET_UP,
+        GOAL,
+        HOME_PLAN,
+        EXERCISE_SET,
+        REPORT_FORM,
+        RECIPIENT,
+        DIAGNOSIS,
+        OUTPUT_FILE,
+        BACKUP,
+        AUDIT_LOG,
     )
-}  # fmt: skip
+}
 """Of what people write, in an order in which no row comes before what it belongs to."""
 
 SQLITE_LOG = """

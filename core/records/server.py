@@ -14,116 +14,121 @@ from typing import Any
 from sqlalchemy import Connection, create_engine, text
 from sqlalchemy.exc import ArgumentError, DBAPIError
 
-from carpus.core.errors import DiskFull, OutputNotWritable, RegisterBusy, ServerGone, SettingsInvalid
+from carpus.core.errors import DiskFull, OutputNotWritable, PatientListBusy, ServerUnavailable, SettingsInvalid
 from carpus.core.phrase import phrase
-from carpus.core.records.database import up_to_date
+from carpus.core.records.database import migrate
 
 logging.getLogger("sqlalchemy.pool").addHandler(logging.NullHandler())  # what a broken line says is told as a fault
-STALL_S = 6.0
+STALL_TIMEOUT_S = 6.0
 """A line on which nothing came for so long is cut: the window waits for it."""
-SILENT_S = 10.0
+RETRY_AFTER_S = 10.0
 """So long nobody but who looks waits for a server that did not answer."""
 _OPTIONS = {
     "connect_timeout": 3, "tcp_user_timeout": 4000, "keepalives_idle": 5, "keepalives_interval": 5,
     "keepalives_count": 3, "application_name": "carpus",
     "options": "-c lock_timeout=4000 -c idle_in_transaction_session_timeout=10000",
 }  # fmt: skip
-_BUSY, _FULL, _NO_RIGHT = ("55P03", "40P01"), ("53100",), ("42501", "25006")
+_BUSY, _DISK_FULL, _READ_ONLY = ("55P03", "40P01"), ("53100",), ("42501", "25006")
 """As PostgreSQL calls them: another writes, no room, no right to write."""
 
 
 class Server:
     """Reading and writing as in :class:`core.records.database.Database`; nothing is asked before the first use.
 
-    ``make_ready`` is called in a transaction of its own the first time that the server answers, when its tables are
+    ``prepare`` is called in a transaction of its own the first time that the server answers, when its tables are
     there and of this version; what it returns is called when that is stored.
     """
 
-    def __init__(self, url: str, make_ready: Callable[[Connection], Callable[[], None]]) -> None:
+    def __init__(self, url: str, prepare: Callable[[Connection], Callable[[], None]]) -> None:
         plain = url.removeprefix("postgresql+psycopg").removeprefix("postgresql").removeprefix("postgres")
         try:
             self._engine = create_engine(f"postgresql+psycopg{plain}", connect_args=_OPTIONS, pool_size=2)
         except (ArgumentError, ValueError) as cause:
             raise SettingsInvalid("records.url", str(cause)) from cause
         self.name = self._engine.url.render_as_string(hide_password=True).split("@")[-1]
-        self._make_ready, self._is_ready = make_ready, False
-        self._readying = threading.RLock()
-        self._silent_until = 0.0
+        self._prepare, self._is_ready = prepare, False
+        self._prepare_lock = threading.RLock()
+        self._retry_at_s = 0.0
 
     @property
     def is_away(self) -> bool:
         """Whether it did not answer when it was last asked."""
-        return self._silent_until > 0.0
+        return self._retry_at_s > 0.0
 
     def close(self) -> None:
         """May be called twice."""
         self._engine.dispose()
 
-    def look(self) -> None:
-        """Ask whether it is there. Raises :class:`ServerGone` and the faults of a store that is not to be used."""
-        self._silent_until = min(self._silent_until, time.monotonic())
+    def ping(self) -> None:
+        """Ask whether it is there. Raises :class:`ServerUnavailable` and the faults of a store that is not to be
+        used."""
+        self._retry_at_s = min(self._retry_at_s, time.monotonic())
         with self.reading():
             pass
 
-    def leave_no_trace(self) -> bool:
+    def purge_deleted(self) -> bool:
         """A server sees to it by itself."""
         return True
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:
-        with self._complaints(), self._line() as connection:
+        with self._translate_errors(), self._connect() as connection:
             yield connection.execution_options(isolation_level="AUTOCOMMIT")
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
         """All of it is stored, or, after an exception, nothing; one writes at a time, whichever the computer."""
-        with self._complaints(), self._line() as connection, connection.begin():
+        with self._translate_errors(), self._connect() as connection, connection.begin():
             connection.execute(text("SELECT pg_advisory_xact_lock(2026)"))
             yield connection
 
     @contextlib.contextmanager
-    def unchanging(self) -> Iterator[Connection]:
+    def snapshot(self) -> Iterator[Connection]:
         """To read for long, all of it as of one moment."""
-        self.look()
+        self.ping()
         options = {"isolation_level": "REPEATABLE READ"}
-        with self._complaints(), self._engine.connect().execution_options(**options) as connection, connection.begin():
+        with (
+            self._translate_errors(),
+            self._engine.connect().execution_options(**options) as connection,
+            connection.begin(),
+        ):
             yield connection
 
     @contextlib.contextmanager
-    def _line(self) -> Iterator[Connection]:
-        if time.monotonic() < self._silent_until:
-            raise ServerGone(self.name, phrase("no answer"))
-        with self._readying:
+    def _connect(self) -> Iterator[Connection]:
+        if time.monotonic() < self._retry_at_s:
+            raise ServerUnavailable(self.name, phrase("no answer"))
+        with self._prepare_lock:
             if not self._is_ready:
-                with self._alone() as connection:
-                    up_to_date(connection, self.name)
-                with self._alone() as connection:  # its own: what changes tables holds up everybody
-                    then = self._make_ready(connection)
+                with self._setup_transaction() as connection:
+                    migrate(connection, self.name)
+                with self._setup_transaction() as connection:  # its own: what changes tables holds up everybody
+                    then = self._prepare(connection)
                 self._is_ready = True
                 then()
-        with self._answering() as connection:
-            self._silent_until = 0.0
+        with self._checked_connection() as connection:
+            self._retry_at_s = 0.0
             yield connection
 
     @contextlib.contextmanager
-    def _alone(self) -> Iterator[Connection]:
+    def _setup_transaction(self) -> Iterator[Connection]:
         """While no other computer makes the server ready: one that brings much takes minutes."""
         with self._engine.begin() as connection:
             try:
                 connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
             except DBAPIError as cause:
-                self._silent_until = time.monotonic() + SILENT_S
-                raise ServerGone(self.name, phrase("another computer is bringing what it has")) from cause
+                self._retry_at_s = time.monotonic() + RETRY_AFTER_S
+                raise ServerUnavailable(self.name, phrase("another computer is bringing what it has")) from cause
             yield connection
 
     @contextlib.contextmanager
-    def _answering(self) -> Iterator[Connection]:
+    def _checked_connection(self) -> Iterator[Connection]:
         """A line on which the server has just answered, a new one where an old one was cut; it is cut again where
         nothing comes on it any more."""
         for is_last in (False, True):
             with contextlib.closing(self._engine.connect()) as connection:
                 line = connection.connection.driver_connection
-                stall = threading.Timer(STALL_S, _cut, (line,))
+                stall = threading.Timer(STALL_TIMEOUT_S, _shut_down, (line,))
                 stall.daemon = True
                 stall.start()
                 try:
@@ -140,25 +145,25 @@ class Server:
                     stall.cancel()
 
     @contextlib.contextmanager
-    def _complaints(self) -> Iterator[None]:
+    def _translate_errors(self) -> Iterator[None]:
         try:
             yield
         except DBAPIError as cause:
             said = " ".join(str(cause.orig).split())[:200]
             state = getattr(cause.orig, "sqlstate", None)
             if state in _BUSY:
-                raise RegisterBusy(self.name, said) from cause
-            if state in _FULL:
+                raise PatientListBusy(self.name, said) from cause
+            if state in _DISK_FULL:
                 raise DiskFull(self.name, said) from cause
-            if state in _NO_RIGHT:
+            if state in _READ_ONLY:
                 raise OutputNotWritable(self.name, said) from cause
             if cause.connection_invalidated or state is None or state[:2] in ("08", "28", "3D", "53", "57"):
-                self._silent_until = time.monotonic() + SILENT_S
-                raise ServerGone(self.name, said) from cause
+                self._retry_at_s = time.monotonic() + RETRY_AFTER_S
+                raise ServerUnavailable(self.name, said) from cause
             raise
 
 
-def _cut(line: Any) -> None:
+def _shut_down(connection: Any) -> None:
     """End a connection from another thread than the one that waits for its answer."""
-    with contextlib.suppress(Exception), socket.fromfd(line.fileno(), socket.AF_INET, socket.SOCK_STREAM) as wire:
+    with contextlib.suppress(Exception), socket.fromfd(connection.fileno(), socket.AF_INET, socket.SOCK_STREAM) as wire:
         wire.shutdown(socket.SHUT_RDWR)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from carpus.core.hand.exercises import EXERCISES, Exercise, exercise_named
-from carpus.core.hand.protocols import MarkerProtocol, protocol_named, protocol_names
+from carpus.core.hand.exercises import EXERCISES, Exercise, get_exercise
+from carpus.core.hand.protocols import MarkerProtocol, get_protocol, protocol_names
 from carpus.core.phrase import phrase
 from carpus.core.types import Side
 
@@ -25,7 +25,7 @@ PRACTICE_REPETITIONS = 3
 
 
 @dataclass(frozen=True, slots=True)
-class CoursePart:
+class SetPart:
     """One exercise of a set: until ``repetitions`` are done or, where these are 0, for ``seconds``; then ``rest_s``."""
 
     exercise: Exercise
@@ -35,24 +35,25 @@ class CoursePart:
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
-    """A set that runs; ``run_id`` is the same for all its sessions, ``number`` the part that it has come to, from 0."""
+class SetRun:
+    """A set that runs; ``run_id`` is the same for all its sessions, ``part_index`` the part that it has come to, from
+    0."""
 
     set_id: str
     name: str
     run_id: str
-    parts: tuple[CoursePart, ...]
-    number: int = 0
+    parts: tuple[SetPart, ...]
+    part_index: int = 0
     goals_deg: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Targets of the exercises for this hand of the patient, as of :class:`SetUp`."""
+    """Targets of the exercises for this hand of the patient, as of :class:`SessionSetup`."""
 
     @property
-    def part(self) -> CoursePart:
-        return self.parts[self.number]
+    def part(self) -> SetPart:
+        return self.parts[self.part_index]
 
 
 @dataclass(frozen=True, slots=True)
-class SetUp:
+class SessionSetup:
     """What was chosen before measuring.
 
     Targets in degrees of the trained angle with its sign (the negative direction below zero), NaN for none.
@@ -65,14 +66,14 @@ class SetUp:
     repetitions: int
     target_positive_deg: float
     target_negative_deg: float
-    keep_pictures: bool = False
-    ends_free: bool = False
+    stores_frames: bool = False
+    is_dip_free: bool = False
     """Whether the end joints of the fingers are measured by themselves, not taken to follow the middle joints."""
-    discs: str = ""
+    protocol_name: str = ""
     """Name of the marker protocol; empty for the exercise's usual one."""
     for_child: bool = False
     """Whether the patient's view speaks and draws for a child."""
-    course: Course | None = None
+    set_run: SetRun | None = None
     """The set that it is a part of."""
 
     @property
@@ -82,28 +83,28 @@ class SetUp:
 
     @property
     def protocol(self) -> MarkerProtocol:
-        return protocol_named(self.discs) if self.discs in protocol_names() else self.exercise.protocol
+        return get_protocol(self.protocol_name) if self.protocol_name in protocol_names() else self.exercise.protocol
 
 
-def practice_set_up(pseudonym: str) -> SetUp:
+def practice_setup(pseudonym: str) -> SessionSetup:
     """What the practice patient does first."""
     nothing = float("nan")
-    return SetUp(PRACTICE_PATIENT, pseudonym, "right", EXERCISES[0], PRACTICE_REPETITIONS, nothing, nothing)
+    return SessionSetup(PRACTICE_PATIENT, pseudonym, "right", EXERCISES[0], PRACTICE_REPETITIONS, nothing, nothing)
 
 
-MOST_PARTS = 8
-MOST_NAME = 40
-MOST_REPETITIONS, MOST_SECONDS, MOST_REST_S = 50, 600, 600
+MAX_PARTS = 8
+MAX_NAME_CHARACTERS = 40
+MAX_REPETITIONS, MAX_SECONDS, MAX_REST_S = 50, 600, 600
 
 
 @dataclass(frozen=True, slots=True)
 class ExerciseSet:
-    """A set by its name; ``discs`` the marker protocol that all its exercises are done with."""
+    """A set by its name; ``protocol_name`` the marker protocol that all its exercises are done with."""
 
     set_id: str
     name: str
-    discs: str
-    parts: tuple[CoursePart, ...]
+    protocol_name: str
+    parts: tuple[SetPart, ...]
 
     @property
     def problem(self) -> str:
@@ -113,14 +114,14 @@ class ExerciseSet:
         return "" if self.parts else "parts"
 
 
-USUAL_SETS = (
+DEFAULT_SETS = (
     ExerciseSet(
         "usual-wrist", phrase("Wrist, all ways"), "wrist6",
-        tuple(CoursePart(exercise_named(name), 10, 0, 30) for name in ("WRIST_FE", "WRIST_RU", "FOREARM_PS")),
+        tuple(SetPart(get_exercise(name), 10, 0, 30) for name in ("WRIST_FE", "WRIST_RU", "FOREARM_PS")),
     ),
     ExerciseSet(
         "usual-hand", phrase("Fist, hook, spread"), "hand21",
-        tuple(CoursePart(exercise_named(name), 10, 0, 30) for name in ("FIST_COMPOSITE", "FIST_HOOK", "FINGER_ABAD")),
+        tuple(SetPart(get_exercise(name), 10, 0, 30) for name in ("FIST_COMPOSITE", "FIST_HOOK", "FINGER_ABAD")),
     ),
 )  # fmt: skip
 
@@ -130,26 +131,26 @@ def new_set_id() -> str:
     return str(uuid.uuid4())
 
 
-def begun(one: ExerciseSet, set_up: SetUp, goals: Goals) -> SetUp:
+def start_set(exercise_set: ExerciseSet, set_up: SessionSetup, goals: Goals) -> SessionSetup:
     """The first exercise of a set, for the patient, hand and choices of a set-up, with the goals there are."""
     own = {exercise: targets for (exercise, side), targets in goals.items() if side == set_up.side}
-    course = Course(one.set_id, one.name, str(uuid.uuid4()), one.parts, goals_deg=own)
-    return at_part(replace(set_up, discs=one.discs), course)
+    course = SetRun(exercise_set.set_id, exercise_set.name, str(uuid.uuid4()), exercise_set.parts, goals_deg=own)
+    return with_part(replace(set_up, protocol_name=exercise_set.protocol_name), course)
 
 
-def next_part(set_up: SetUp) -> SetUp | None:
+def next_part(set_up: SessionSetup) -> SessionSetup | None:
     """The exercise that comes after the one of a set-up; None after the last and outside a set."""
-    course = set_up.course
-    if course is None or course.number + 1 >= len(course.parts):
+    course = set_up.set_run
+    if course is None or course.part_index + 1 >= len(course.parts):
         return None
-    return at_part(set_up, replace(course, number=course.number + 1))
+    return with_part(set_up, replace(course, part_index=course.part_index + 1))
 
 
-def at_part(set_up: SetUp, course: Course) -> SetUp:
+def with_part(set_up: SessionSetup, set_run: SetRun) -> SessionSetup:
     """A set-up at the part that a course has come to, with the goals of its exercise."""
-    part, none = course.part, float("nan")
-    positive, negative = course.goals_deg.get(part.exercise.id, (none, none))
+    part, none = set_run.part, float("nan")
+    positive, negative = set_run.goals_deg.get(part.exercise.id, (none, none))
     return replace(
         set_up, exercise=part.exercise, repetitions=part.repetitions, target_positive_deg=positive,
-        target_negative_deg=negative, course=course,
+        target_negative_deg=negative, set_run=set_run,
     )  # fmt: skip

@@ -13,43 +13,44 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from sqlalchemy import Connection, Delete, Insert, Row, Select, Update, insert, select
 
-from carpus.core.durable import hold, make_private, make_private_file
+from carpus.core.durable import lock_file, make_private_file, make_private_folder
 from carpus.core.errors import (
     CarpusFault,
+    DataFolderMissing,
     DiskFull,
     FolderMissing,
-    LogUnguarded,
-    NoDataFolder,
+    LogProtectionRestored,
     OutputNotWritable,
-    RegisterBusy,
-    RegisterDamaged,
-    RegisterMissing,
-    RegisterSetAside,
+    PatientListBusy,
+    PatientListDamaged,
+    PatientListMissing,
+    PatientListRebuilt,
 )
 from carpus.core.phrase import phrase
-from carpus.core.records.changes import PRACTICE, Change, make, new
-from carpus.core.records.database import STORE_FILE, Database, copied, rescue, set_aside
+from carpus.core.records.changes import PRACTICE, ChangeSet, apply_changes, insert_row
+from carpus.core.records.database import STORE_FILE, Database, copy_to_memory, move_aside, rescue_rows
 from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import PATIENT, TABLES
-from carpus.core.session.disk import below
+from carpus.core.session.disk import iter_paths
 
 if TYPE_CHECKING:
     from carpus.core.records.server import Server
 
 T = TypeVar("T")
 SESSIONS_FOLDER = "sessions"
-MOST_ALONE_S = 60.0
+LOCK_TIMEOUT_S = 60.0
 """To wait for another program that opens the store: one that brings a large one up to date takes long."""
-MOST_SAID = 100
+MAX_DETAIL_CHARACTERS = 100
 """Signs of what is wrong with a row."""
-ROWS_AT_ONCE = 500
+BATCH_ROWS = 500
 PRACTICE_NAME = "Practice patient"
 
 
 class Store:
     """May be used from several threads and programs at once. It lies in the data folder, as SQLite, or, with the
     ``url`` of one, in a clinic's PostgreSQL, which is first asked when something is read. A damaged file is set aside,
-    told, and made again. Raises what :class:`Database` does; with a server each use raises :class:`ServerGone` while
+    told, and made again. Raises what :class:`Database` does; with a server each use raises :class:`ServerUnavailable`
+    while
     that does not answer.
     """
 
@@ -58,66 +59,68 @@ class Store:
         folder: Path,
         sessions_folder: Path | None = None,
         url: str = "",
-        tell: Callable[[CarpusFault], None] = lambda _: None,
+        on_fault: Callable[[CarpusFault], None] = lambda _: None,
         copy: sqlite3.Connection | None = None,
     ) -> None:
-        """``copy``: of a folder that cannot be written, for :func:`reading`."""
+        """``copy``: of a folder that cannot be written, for :func:`open_to_read`."""
         self.folder = folder
         self.sessions_folder = sessions_folder or folder / SESSIONS_FOLDER
-        self.on_share = self.sessions_folder != folder / SESSIONS_FOLDER
+        self.uses_share = self.sessions_folder != folder / SESSIONS_FOLDER
         """Whether the sessions lie in a folder of several computers, which is never made here and keeps its rights."""
         if copy is None:
-            make_private(folder)
-            if not self.on_share:
-                make_private(self.sessions_folder)
-        self._tell, self._unsound = tell, set[str]()
-        self.told: list[CarpusFault] = []
+            make_private_folder(folder)
+            if not self.uses_share:
+                make_private_folder(self.sessions_folder)
+        self._on_fault, self._reported_rows = on_fault, set[str]()
+        self.startup_faults: list[CarpusFault] = []
         """What was found when the store was opened."""
         self.server: Server | None = None
         self._path = folder / STORE_FILE
         if url:
             from carpus.core.records.server import Server
 
-            self._database: Database | Server = Server(url, self._meet)
+            self._database: Database | Server = Server(url, self._prepare_server)
             self.server = self._database
             return
-        self._database = database = self._opened() if copy is None else Database(self._path, copy)
-        if database.was_unguarded:
-            self.told.append(LogUnguarded(self._path))
-        if database.is_new and not self.told and self._has_sessions():
-            self.told.append(RegisterMissing(self._path))
+        self._database = database = self._open_database() if copy is None else Database(self._path, copy)
+        if database.had_unguarded_log:
+            self.startup_faults.append(LogProtectionRestored(self._path))
+        if database.is_new and not self.startup_faults and self._has_sessions():
+            self.startup_faults.append(PatientListMissing(self._path))
         with database.writing() as connection:
-            _enter_practice(connection)
+            _ensure_practice_patient(connection)
 
-    def _meet(self, there: Connection) -> Callable[[], None]:
+    def _prepare_server(self, connection: Connection) -> Callable[[], None]:
         """Make a server ready in an open transaction, and give it what this computer has of its own; what is then to be
         done once that is stored."""
-        _enter_practice(there)
+        _ensure_practice_patient(connection)
         if not self._path.is_file():
             return lambda: None
-        from carpus.core.records.hand_over import HandOver
+        from carpus.core.records.hand_over import LocalStoreImport
 
         try:
-            with _alone(self._path), there.begin_nested():
-                done = HandOver(self._path, there)
+            with _exclusive_lock(self._path), connection.begin_nested():
+                done = LocalStoreImport(self._path, connection)
         except sqlite3.Error:
-            self._opened().close()  # what can be read of a damaged one
-            done = HandOver(self._path, there)
+            self._open_database().close()  # what can be read of a damaged one
+            done = LocalStoreImport(self._path, connection)
 
-        def then() -> None:
+        def finish() -> None:
             for fault in done.faults:
-                self._tell(fault)
-            if done.was_copy:  # it would keep the names of who is erased elsewhere
+                self._on_fault(fault)
+            if done.was_server_copy:  # it would keep the names of who is erased elsewhere
                 for tail in ("", "-wal", "-shm"):
                     self._path.with_name(self._path.name + tail).unlink(missing_ok=True)
             else:
-                set_aside(self._path, datetime.now(), "before-server")
+                move_aside(self._path, datetime.now(), "before-server")
 
-        return then
+        return finish
 
-    def _opened(self) -> Database:
+    def _open_database(self) -> Database:
         path = self._path
-        with _alone(path):  # two programs that meet a damaged one would each set aside what the other has just made
+        with _exclusive_lock(
+            path
+        ):  # two programs that meet a damaged one would each set aside what the other has just made
             try:
                 try:
                     return Database(path)
@@ -125,16 +128,16 @@ class Store:
                     if not free_reserve(self.folder):
                         raise
                     return Database(path)
-            except RegisterDamaged as fault:
-                aside, database = set_aside(path, datetime.now()), Database(path)
-                rows = rescue(aside, database)
-                self.told.append(
-                    RegisterSetAside(aside, phrase("{detail}; {count} rows read", detail=fault.detail, count=rows))
+            except PatientListDamaged as fault:
+                aside, database = move_aside(path, datetime.now()), Database(path)
+                rows = rescue_rows(aside, database)
+                self.startup_faults.append(
+                    PatientListRebuilt(aside, phrase("{detail}; {count} rows read", detail=fault.detail, count=rows))
                 )
                 return database
 
     def _has_sessions(self) -> bool:
-        files = (one.relative_to(self.sessions_folder) for one in below(self.sessions_folder, ".h5"))
+        files = (one.relative_to(self.sessions_folder) for one in iter_paths(self.sessions_folder, ".h5"))
         return any(one.parts[0] != PRACTICE for one in files)
 
     def __enter__(self) -> Self:
@@ -155,90 +158,90 @@ class Store:
         with self._database.reading() as connection:
             return connection.execute(query).first()
 
-    def do(self, change: Change) -> None:
+    def apply(self, changes: ChangeSet) -> None:
         """Make a change, whole or not at all.
 
-        Raises :class:`ChangedMeanwhile` where somebody else was quicker, :class:`PseudonymTaken` and the faults of
+        Raises :class:`ConcurrentChange` where somebody else was quicker, :class:`PseudonymTaken` and the faults of
         writing.
         """
         with self._database.writing() as connection:
-            make(connection, change)
+            apply_changes(connection, changes)
 
-    def sound(self, rows: Iterable[Row[Any]], read: Callable[[Row[Any]], T]) -> list[T]:
-        """What ``read`` makes of each row of one with an ``id``; a damaged one is left out, and told once."""
+    def valid_rows(self, rows: Iterable[Row[Any]], parse: Callable[[Row[Any]], T]) -> list[T]:
+        """What ``parse`` makes of each row of one with an ``id``; a damaged one is left out, and told once."""
         found = []
         for row in rows:
             try:
-                found.append(read(row))
+                found.append(parse(row))
             except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as cause:
-                if row.id not in self._unsound:
-                    self._unsound.add(row.id)
-                    self._tell(RegisterDamaged(self.folder / STORE_FILE, str(cause)[:MOST_SAID]))
+                if row.id not in self._reported_rows:
+                    self._reported_rows.add(row.id)
+                    self._on_fault(PatientListDamaged(self.folder / STORE_FILE, str(cause)[:MAX_DETAIL_CHARACTERS]))
         return found
 
-    def own(self, *statements: Insert | Delete | Update) -> None:
+    def execute_local(self, *statements: Insert | Delete | Update) -> None:
         """Change what has no version."""
         with self._database.writing() as connection:
             for statement in statements:
                 connection.execute(statement)
 
     @property
-    def is_away(self) -> bool:
+    def is_server_away(self) -> bool:
         """Whether there is a server that did not answer when it was last asked."""
         return self.server is not None and self.server.is_away
 
-    def copied(self) -> sqlite3.Connection:
-        """All of it as SQLite in memory, as of one moment. Raises :class:`RegisterUnreadable` and its kinds."""
+    def copy_to_memory(self) -> sqlite3.Connection:
+        """All of it as SQLite in memory, as of one moment. Raises :class:`PatientListUnreadable` and its kinds."""
         if self.server is None:
-            return copied(self._path)
+            return copy_to_memory(self._path)
         copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
-        with self.server.unchanging() as there, Database(self._path, copy).writing() as here:
+        with self.server.snapshot() as there, Database(self._path, copy).writing() as here:
             for table in TABLES.values():
-                for rows in there.execute(select(table)).mappings().partitions(ROWS_AT_ONCE):
+                for rows in there.execute(select(table)).mappings().partitions(BATCH_ROWS):
                     here.execute(insert(table), [dict(row) for row in rows])
         return copy
 
-    def leave_no_trace(self) -> bool:
+    def purge_deleted(self) -> bool:
         """Bring what was taken out to the disk as taken out; whether it is."""
-        return self._database.leave_no_trace()
+        return self._database.purge_deleted()
 
 
-def reading(
+def open_to_read(
     folder: Path,
     sessions_folder: Path | None = None,
     url: str = "",
-    tell: Callable[[CarpusFault], None] = lambda _: None,
+    on_fault: Callable[[CarpusFault], None] = lambda _: None,
 ) -> Store:
     """The store of a folder for who only reads: also of one that cannot be written. Raises the faults of a store."""
     try:
-        return Store(folder, sessions_folder, url, tell)
+        return Store(folder, sessions_folder, url, on_fault)
     except (OutputNotWritable, DiskFull):
-        return Store(folder, sessions_folder, copy=copied(folder / STORE_FILE))
+        return Store(folder, sessions_folder, copy=copy_to_memory(folder / STORE_FILE))
 
 
 @contextmanager
-def _alone(path: Path) -> Iterator[None]:
-    """While no other program opens that store. Raises :class:`RegisterBusy`, :class:`OutputNotWritable`."""
-    end = time.monotonic() + MOST_ALONE_S
+def _exclusive_lock(path: Path) -> Iterator[None]:
+    """While no other program opens that store. Raises :class:`PatientListBusy`, :class:`OutputNotWritable`."""
+    end = time.monotonic() + LOCK_TIMEOUT_S
     lock = path.with_suffix(".lock")
     make_private_file(lock)
     with lock.open("r+b") as file:
         while True:
             try:
-                hold(file)
+                lock_file(file)
                 break
             except OSError as cause:
                 if time.monotonic() > end:
-                    raise RegisterBusy(path, cause.strerror or "") from cause
+                    raise PatientListBusy(path, cause.strerror or "") from cause
                 time.sleep(0.02)
         yield
 
 
-def _enter_practice(connection: Connection) -> None:
+def _ensure_practice_patient(connection: Connection) -> None:
     """See that the practice patient is there."""
     if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)).first() is None:
-        practice = new(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE_NAME, side="right")
-        make(connection, [practice])
+        practice = insert_row(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE_NAME, side="right")
+        apply_changes(connection, [practice])
 
 
 def new_id() -> str:
@@ -246,14 +249,14 @@ def new_id() -> str:
     return uuid.uuid4().hex
 
 
-def is_kept_in(folder: Path) -> bool:
+def has_store(folder: Path) -> bool:
     """Whether there is a store in a folder."""
     return (folder / STORE_FILE).is_file()
 
 
-def look_for_store(folder: Path) -> None:
-    """Raises :class:`FolderMissing`, :class:`NoDataFolder` for one without a store: a look makes none."""
+def require_store(folder: Path) -> None:
+    """Raises :class:`FolderMissing`, :class:`DataFolderMissing` for one without a store: a look makes none."""
     if not folder.is_dir():
         raise FolderMissing(folder)
-    if not is_kept_in(folder):
-        raise NoDataFolder(folder)
+    if not has_store(folder):
+        raise DataFolderMissing(folder)

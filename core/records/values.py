@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Literal, TypeVar, get_args
 
 from carpus.core.dates import is_moment
-from carpus.core.errors import CarpusFault, ServerGone
-from carpus.core.names import name_of
+from carpus.core.errors import CarpusFault, ServerUnavailable
+from carpus.core.names import normalize_name
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
 
@@ -55,10 +55,13 @@ class Patient:
         if self.age_band not in get_args(AgeBand):
             raise ValueError(f"age band {self.age_band!r}")
 
-    def as_kept(self) -> Patient:
+    def with_normalized_names(self) -> Patient:
         """The same with names as they are kept. Raises :class:`NameUnsuited`."""
         return replace(
-            self, pseudonym=name_of(self.pseudonym), name=name_of(self.name), diagnosis=name_of(self.diagnosis)
+            self,
+            pseudonym=normalize_name(self.pseudonym),
+            name=normalize_name(self.name),
+            diagnosis=normalize_name(self.diagnosis),
         )
 
 
@@ -81,7 +84,8 @@ class HomePlan:
 class SessionEntry:
     """One session file as the store knows it.
 
-    ``recorded`` when the hand moved, ``created`` when the file was made; ``recording_id`` as in the file; ``by`` the
+    ``recorded`` when the hand moved, ``created`` when the file was made; ``recording_id`` as in the file;
+    ``initials`` the
     initials of who recorded it.
     """
 
@@ -95,14 +99,14 @@ class SessionEntry:
     frames: int
     duration_s: float
     simulated: bool = False
-    by: str = ""
+    initials: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Rebuilt:
+class ScanResult:
     """What a look at the files found: sessions entered, and one fault for each file it could not read."""
 
-    sessions: int
+    session_count: int
     faults: tuple[CarpusFault, ...]
 
 
@@ -110,25 +114,25 @@ T = TypeVar("T")
 U = TypeVar("U")
 
 
-def unless_away(read: Callable[[], T], otherwise: U) -> T | U:
+def read_or_default(read: Callable[[], T], default: U) -> T | U:
     """What is read of a store, something else while its server does not answer: for who measures all the same."""
     try:
         return read()
-    except ServerGone:
-        return otherwise
+    except ServerUnavailable:
+        return default
 
 
-def one_of(choices: Sequence[T], stored: T) -> T:
+def valid_choice(choices: Sequence[T], stored: T) -> T:
     """What is stored where it is one of the choices, else the first: a row that another program wrote."""
     return stored if stored in choices else choices[0]
 
 
-def moment(stored: str, stamp_s: float) -> datetime:
+def parse_time(stored: str, stamp_s: float) -> datetime:
     """A time as it is stored, by its stamp where another program wrote what is none, or none with a zone."""
     return datetime.fromisoformat(stored) if is_moment(stored) else datetime.fromtimestamp(stamp_s, UTC)
 
 
-def newest_results(entries: Iterable[SessionEntry]) -> list[SessionEntry]:
+def select_latest_versions(entries: Iterable[SessionEntry]) -> list[SessionEntry]:
     """Of every recording its newest result, the recordings newest first."""
     newest: dict[str, SessionEntry] = {}
     for entry in sorted(entries, key=lambda entry: (entry.created.timestamp(), str(entry.path))):
@@ -136,12 +140,12 @@ def newest_results(entries: Iterable[SessionEntry]) -> list[SessionEntry]:
     return sorted(newest.values(), key=lambda entry: (entry.recorded.timestamp(), str(entry.path)), reverse=True)
 
 
-def entry_of(path: Path, outline: SessionOutline) -> SessionEntry:
+def entry_from_outline(path: Path, outline: SessionOutline) -> SessionEntry:
     """A session as the store would know it, of a file that is not in it."""
     header = outline.header
     return SessionEntry(
-        header.session_id, path, header.when, datetime.fromisoformat(header.created), header.recording_id,
-        header.exercise, header.hand, outline.frames, outline.duration_s, header.simulated,
+        header.session_id, path, header.recording_time, datetime.fromisoformat(header.created), header.recording_id,
+        header.exercise, header.hand, outline.frames, outline.duration_s, header.is_simulated,
     )  # fmt: skip
 
 

@@ -6,34 +6,34 @@ import math
 from dataclasses import dataclass
 
 from carpus.core.dates import is_moment
-from carpus.core.provenance import said_in
+from carpus.core.provenance import parameter_section
 
 
 @dataclass(frozen=True, slots=True)
-class CameraSaid:
-    """``serial`` number, empty where nobody knows which camera it was; ``calibrated`` when with a board (ISO 8601),
+class RecordedCamera:
+    """``serial`` number, empty where nobody knows which camera it was; ``calibrated_at`` when with a board (ISO 8601),
     empty for not; ``age_days`` how old the calibration was when the hand moved, NaN without one."""
 
     serial: str = ""
-    calibrated: str = ""
+    calibrated_at: str = ""
     age_days: float = math.nan
 
 
-UNKNOWN_CAMERA = CameraSaid()
+UNKNOWN_CAMERA = RecordedCamera()
 
 
-def camera_said(parameters: str) -> CameraSaid:
+def parse_camera(parameters: str) -> RecordedCamera:
     """What the parameters of a session say.
 
     >>> said = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
     >>> camera_said(said) == CameraSaid("77", "2026-11-20T09:00+00:00", 5.0)
     True
     """
-    source = said_in(parameters, "source")
+    source = parameter_section(parameters, "source")
     calibrated = str(source.get("calibrated") or "")
     try:
         age_days = float(str(source.get("calibration_age_days")))
     except ValueError:
         age_days = math.nan
     serial = str(source.get("serial") or "")
-    return CameraSaid(serial, calibrated, age_days) if is_moment(calibrated) else CameraSaid(serial)
+    return RecordedCamera(serial, calibrated, age_days) if is_moment(calibrated) else RecordedCamera(serial)

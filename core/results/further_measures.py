@@ -14,25 +14,25 @@ from carpus.core.hand.clinical_angles import side_sign
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import DIGITS
 from carpus.core.measures.fingers import JointTrack
-from carpus.core.measures.forearm import rotation_in_place
+from carpus.core.measures.forearm import rotation_in_w0
 from carpus.core.measures.reach import TIP_NOISE, WRIST_NOISE, Reach, distance_m, find_reaches
-from carpus.core.measures.signals import BoolArray, even_signal, stretches
-from carpus.core.measures.together import co_flexion, digit_coherence, enslaving_share, synergy_share, tremor
+from carpus.core.measures.signals import BoolArray, find_runs, resample_evenly
+from carpus.core.measures.together import co_flexion, digit_coherence, enslaving_share, measure_tremor, synergy_share
 from carpus.core.phrase import Phrase, phrase
-from carpus.core.results.measure import Measure, Unknown, measure_values
-from carpus.core.results.seen import SeenSession, best_motion
+from carpus.core.results.measure import Measure, UnknownReason, summarise_values
+from carpus.core.results.seen import MeasurableSession, motion_estimate
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
 
-TOUCHED_M = 0.015
+TOUCH_DISTANCE_M = 0.015
 """Thumb and finger tip this near touch (clinical reference 8.2; both points lie under the skin)."""
-APART_M = 0.025
+RELEASE_DISTANCE_M = 0.025
 """Beyond this they are apart again: what flickers about the limit is one touch."""
-SURELY = 2.0
+CERTAIN_SDS = 2.0
 """So many standard deviations nearer a hidden tip may be than it is tracked."""
-LARGEST_APERTURE_SD_M = 0.015
+MAX_APERTURE_SD_M = 0.015
 """An aperture of hidden tips known worse than this is not told (looked back at, it is then 10 mm off at times)."""
-_THUMB = ("CMC1", "MCP1", "IP1")
+_THUMB_JOINTS = ("CMC1", "MCP1", "IP1")
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,74 +86,75 @@ U = TypeVar("U")
 
 
 @dataclass(frozen=True, slots=True)
-class Attempts:
-    """Computes each figure for itself: one that fails takes no other with it, and is ``failed`` by its name."""
+class GuardedComputation:
+    """Computes each figure for itself: one that fails takes no other with it, and is ``failed_names`` by its name."""
 
-    failed: list[str] = field(default_factory=list)
+    failed_names: list[str] = field(default_factory=list)
 
-    def compute(self, name: str, compute: Callable[[], T], otherwise: U) -> T | U:
-        """What ``compute`` returns, or ``otherwise`` where it fails, whatever the reason."""
+    def compute(self, name: str, compute: Callable[[], T], default: U) -> T | U:
+        """What ``compute`` returns, or ``default`` where it fails, whatever the reason."""
         try:
             return compute()
         except Exception:
             logging.getLogger(__name__).exception("%s could not be computed", name)
-            self.failed.append(name)
-            return otherwise
+            self.failed_names.append(name)
+            return default
 
-    def as_measures(self) -> tuple[Measure, ...]:
+    def to_measures(self) -> tuple[Measure, ...]:
         """A line for each that failed."""
         return tuple(
-            Measure("task", "session", name, "", (math.nan,), math.nan, unknown="failed") for name in self.failed
+            Measure("task", "session", name, "", (math.nan,), math.nan, unknown_reason="failed")
+            for name in self.failed_names
         )
 
 
-def _task(what: str, of: str, values: Sequence[float], unknown: Unknown = "") -> Measure:
-    return measure_values("task", of, what, QUANTITIES[what].unit, values, unknown=unknown)
+def _task_measure(quantity: str, subject: str, values: Sequence[float], unknown_reason: UnknownReason = "") -> Measure:
+    return summarise_values("task", subject, quantity, QUANTITIES[quantity].unit, values, unknown_reason=unknown_reason)
 
 
-def further_measures(seen: SeenSession) -> tuple[Measure, ...]:
+def compute_task_measures(seen: MeasurableSession) -> tuple[Measure, ...]:
     """What an exercise has beside its ranges, a held angle's tremor last; nothing that its discs do not show."""
-    session, wanted, attempts = seen.session, seen.exercise.further, Attempts()
+    session, wanted, attempts = seen.session, seen.exercise.task_measures, GuardedComputation()
     reaches: tuple[Reach, ...] = ()
     if "reaches" in wanted:
-        reaches = attempts.compute("reaches", lambda: session_reaches(session, seen.view), ())
-    groups: list[tuple[str, Callable[[], Sequence[Measure]]]] = [("reaches", lambda: reach_measures(reaches))]
+        reaches = attempts.compute("reaches", lambda: find_session_reaches(session, seen.is_in_view), ())
+    groups: list[tuple[str, Callable[[], Sequence[Measure]]]] = [("reaches", lambda: summarise_reaches(reaches))]
     if seen.tracks:
-        tips = _tips_m(session, best_motion(session))
+        tips = _fingertips_m(session, motion_estimate(session))
         has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
         if has_tip[0] and has_tip[1]:
             aperture_m = distance_m(tips[:, 0], tips[:, 1])
-            groups.append(("largest aperture", lambda: _aperture_measures(session, aperture_m, reaches)))
+            groups.append(("largest aperture", lambda: _measure_aperture(session, aperture_m, reaches)))
         if "spans" in wanted:
             spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
             there = [(name, a, b) for name, a, b in spans if has_tip[a] and has_tip[b]]
-            groups.append(("hand span", lambda: [_span(session, name, a, b, tips) for name, a, b in there]))
+            groups.append(("hand span", lambda: [_measure_span(session, name, a, b, tips) for name, a, b in there]))
         if "touches" in wanted and all(has_tip):
-            groups.append(("opposition", lambda: opposition_measures(session, tips)))
+            groups.append(("opposition", lambda: measure_opposition(session, tips)))
         if "thumb beside" in wanted and has_tip[0]:
-            groups.append(("thumb hidden", lambda: thumb_coherence(session)))
+            groups.append(("thumb hidden", lambda: measure_thumb_coherence(session)))
         if "together" in wanted:
-            groups.append(("synergy", lambda: _together(seen.tracks)))
+            groups.append(("synergy", lambda: _measure_coordination(seen.tracks)))
     angle = 1 if seen.exercise.angle is None else seen.exercise.angle
-    groups.append((TREMOR, lambda: held_tremor(session, angle, TREMOR_NOISE_RAD)))
+    groups.append((TREMOR, lambda: measure_wrist_tremor(session, angle, TREMOR_NOISE_RAD)))
     found = [one for name, compute in groups for one in attempts.compute(name, compute, ())]
-    return (*found, *attempts.as_measures())
+    return (*found, *attempts.to_measures())
 
 
-def session_reaches(session: Session, view: BoolArray) -> tuple[Reach, ...]:
+def find_session_reaches(session: Session, is_in_view: BoolArray) -> tuple[Reach, ...]:
     """Ways out and back of the wrist."""
-    if int(np.sum(view)) < 2:
+    if int(np.sum(is_in_view)) < 2:
         return ()
     time_s = session.timestamp_s - session.timestamp_s[0]
-    place = even_signal(time_s, best_motion(session).position_m, np.asarray(view, dtype=bool))
+    place = resample_evenly(time_s, motion_estimate(session).position_m, np.asarray(is_in_view, dtype=bool))
     return find_reaches(place, noise=WRIST_NOISE[session.smoothed is not None])
 
 
-def reach_measures(reaches: Sequence[Reach], ways: tuple[str, str] = ("reach", "return")) -> list[Measure]:
+def summarise_reaches(reaches: Sequence[Reach], names: tuple[str, str] = ("reach", "return")) -> list[Measure]:
     """Time, speed, straightness and smoothness of the ways out, and of those back."""
     out = []
-    for outward, way in zip((True, False), ways, strict=True):
-        some = [reach for reach in reaches if reach.outward is outward]
+    for outward, way in zip((True, False), names, strict=True):
+        some = [reach for reach in reaches if reach.is_outward is outward]
         if not some:
             continue
         for name, values in (
@@ -165,19 +166,19 @@ def reach_measures(reaches: Sequence[Reach], ways: tuple[str, str] = ("reach", "
             ("movement units", [reach.path.peaks for reach in some]),
             ("smoothness", [reach.path.sparc for reach in some]),
         ):
-            out.append(_task(name, way, values, _why_unknown(name, some)))
+            out.append(_task_measure(name, way, values, _unknown_reason(name, some)))
     return out
 
 
-def _why_unknown(name: str, reaches: Sequence[Reach]) -> Unknown:
-    seen = [reach for reach in reaches if not reach.hidden]
+def _unknown_reason(name: str, reaches: Sequence[Reach]) -> UnknownReason:
+    seen = [reach for reach in reaches if not reach.is_occluded]
     if not seen:
         return "hidden"
-    slow = all(reach.too_slow for reach in seen) or name in ("movement units", "smoothness")
+    slow = all(reach.is_too_slow for reach in seen) or name in ("movement units", "smoothness")
     return "too_slow" if slow else ""
 
 
-def opposition_measures(session: Session, tips_m: FloatArray) -> list[Measure]:
+def measure_opposition(session: Session, tips_m: FloatArray) -> list[Measure]:
     """How near the thumb's tip (N, 5, 3) comes to each finger's and how often they touch, and its ways across the palm
     and back, seen from the hand: what the hand itself moves is no movement of the thumb.
 
@@ -187,39 +188,43 @@ def opposition_measures(session: Session, tips_m: FloatArray) -> list[Measure]:
     out = []
     for k in range(1, 5):
         distance = distance_m(tips_m[:, 0], tips_m[:, k])
-        seen = _tip_seen(session, 0) & _tip_seen(session, k) & np.isfinite(distance)
+        seen = _is_tip_seen(session, 0) & _is_tip_seen(session, k) & np.isfinite(distance)
         with np.errstate(invalid="ignore"):
-            nearest = distance - SURELY * _distance_sd_m(session, k)
-            near = [part for part in stretches(distance < APART_M) if (distance[part][seen[part]] < TOUCHED_M).any()]
+            nearest = distance - CERTAIN_SDS * _thumb_distance_sd_m(session, k)
+            near = [
+                part
+                for part in find_runs(distance < RELEASE_DISTANCE_M)
+                if (distance[part][seen[part]] < TOUCH_DISTANCE_M).any()
+            ]
             in_touch = np.zeros(len(distance), dtype=bool)
             for part in near:
                 in_touch[part] = True
-            maybe = bool((~seen & ~in_touch & (nearest < TOUCHED_M)).any())
+            maybe = bool((~seen & ~in_touch & (nearest < TOUCH_DISTANCE_M)).any())
             least = float(distance[seen].min()) if seen.any() else math.nan
             nearer = not seen.any() or bool((~seen & (nearest < least)).any())
         if np.isfinite(distance).any():
             of = f"TIP1-TIP{k + 1}"
-            away = _task("least distance", of, (math.nan,), "hidden")
-            out.append(away if nearer else _task("least distance", of, (1e3 * least,)))
-            unsure = _task("touches", of, (math.nan,), "hidden")
-            out.append(unsure if maybe else _task("touches", of, (float(len(near)),)))
-    place = _in_the_hand(best_motion(session), _row(session, "TIP1"))
+            away = _task_measure("least distance", of, (math.nan,), "hidden")
+            out.append(away if nearer else _task_measure("least distance", of, (1e3 * least,)))
+            unsure = _task_measure("touches", of, (math.nan,), "hidden")
+            out.append(unsure if maybe else _task_measure("touches", of, (float(len(near)),)))
+    place = _to_hand_axes(motion_estimate(session), _marker_index(session, "TIP1"))
     known = np.isfinite(place).all(axis=1) & (np.asarray(session.status) != 2)
     if int(known.sum()) >= 2:
         time_s = session.timestamp_s - session.timestamp_s[0]
         ulnar = np.array([0.0, -side_sign(session.header.hand), 0.0])
-        hidden_s = even_signal(time_s, place, known & _tip_seen(session, 0)).gaps_s
+        hidden_s = resample_evenly(time_s, place, known & _is_tip_seen(session, 0)).gaps_s
         noise = TIP_NOISE[session.smoothed is not None]
-        reaches = find_reaches(even_signal(time_s, place, known), ulnar, noise, hidden_s)
-        out += reach_measures(reaches, ("thumb across", "thumb back"))
+        reaches = find_reaches(resample_evenly(time_s, place, known), ulnar, noise, hidden_s)
+        out += summarise_reaches(reaches, ("thumb across", "thumb back"))
     return out
 
 
-def _row(session: Session, marker: str) -> int:
+def _marker_index(session: Session, marker: str) -> int:
     return session.header.protocol.markers.index(marker)
 
 
-def _tips_m(session: Session, motion: Motion) -> FloatArray:
+def _fingertips_m(session: Session, motion: Motion) -> FloatArray:
     """Tips (N, 5, 3) of thumb and fingers, NaN while lost and of digits that carry no discs."""
     out = np.full((len(session), len(DIGITS), 3), np.nan)
     for digit, chain in session.header.protocol.chains.items():
@@ -228,38 +233,41 @@ def _tips_m(session: Session, motion: Motion) -> FloatArray:
     return out
 
 
-def _tip_seen(session: Session, tip: int) -> BoolArray:
+def _is_tip_seen(session: Session, tip: int) -> BoolArray:
     """Frames (N,) with a blob at a finger's tip, 0 the thumb's."""
-    return np.asarray(np.isfinite(session.markers.measured_px[:, _row(session, f"TIP{tip + 1}"), 0]), dtype=np.bool_)
+    return np.asarray(
+        np.isfinite(session.markers.measured_px[:, _marker_index(session, f"TIP{tip + 1}"), 0]), dtype=np.bool_
+    )
 
 
-def _distance_sd_m(session: Session, tip: int) -> FloatArray:
+def _thumb_distance_sd_m(session: Session, tip: int) -> FloatArray:
     """Standard deviation (N,) of the distance of the thumb's tip to another: that of each joint of both, times how far
     the tip lies from it. What joints are off together is taken for their own, which is more than it is."""
-    motion, names = best_motion(session), session.header.joint_names
+    motion, names = motion_estimate(session), session.header.joint_names
     variance = np.zeros(len(session))
     for digit in (0, tip):
-        at = motion.joint_position_m[:, _row(session, f"TIP{digit + 1}")]
+        at = motion.joint_position_m[:, _marker_index(session, f"TIP{digit + 1}")]
         for column, name in enumerate(names):
             joint = name.split("_")[0]
             if joint.endswith(str(digit + 1)):
-                arm = distance_m(at, motion.joint_position_m[:, _row(session, joint)])
+                arm = distance_m(at, motion.joint_position_m[:, _marker_index(session, joint)])
                 if joint.startswith("PIP") and f"DIP{digit + 1}_flexion" not in names:
-                    end = motion.joint_position_m[:, _row(session, f"DIP{digit + 1}")]
+                    end = motion.joint_position_m[:, _marker_index(session, f"DIP{digit + 1}")]
                     arm = arm + DIP_PER_PIP * distance_m(at, end)
                 variance += (motion.joint_angles_sd_rad[:, column] * arm) ** 2
     return np.asarray(np.sqrt(variance))
 
 
-def thumb_coherence(session: Session) -> list[Measure]:
+def measure_thumb_coherence(session: Session) -> list[Measure]:
     """How much of the time the thumb was hidden, and whether what was said of it meanwhile holds together.
 
     ``thumb hidden``: share of the frames without a blob at one of its outer discs; ``coherent`` and ``known though
-    hidden``: shares of those, as :func:`core.measures.together.digit_coherence` has them; ``jump when seen again`` of
+    hidden``: shares subject those, as :func:`core.measures.together.digit_coherence` has them; ``jump when seen
+    again`` of
     its tip.
     """
     motion, names = session.motion, session.header.joint_names
-    columns = [k for k, name in enumerate(names) if name.split("_")[0] in _THUMB]
+    columns = [k for k, name in enumerate(names) if name.split("_")[0] in _THUMB_JOINTS]
     outer = list(session.header.protocol.rows(("MCP1", "IP1", "TIP1")))
     hidden: BoolArray = np.any(~np.isfinite(session.markers.measured_px[:, outer, 0]), axis=1)
     found = digit_coherence(
@@ -267,76 +275,79 @@ def thumb_coherence(session: Session) -> list[Measure]:
         [names[k] for k in columns],
         motion.joint_angles_rad[:, columns],
         motion.joint_angles_sd_rad[:, columns],
-        _in_the_hand(motion, _row(session, "TIP1")),
+        _to_hand_axes(motion, _marker_index(session, "TIP1")),
         hidden,
         np.asarray(session.status) != 2,
     )
-    if not math.isfinite(found.hidden_share):
+    if not math.isfinite(found.occluded_share):
         return []
-    out = [_task("thumb hidden", "thumb", (found.hidden_share,))]
+    out = [_task_measure("thumb hidden", "thumb", (found.occluded_share,))]
     if math.isfinite(found.coherent_share):
-        out.append(_task("coherent though hidden", "thumb", (found.coherent_share,)))
-        out.append(_task("known though hidden", "thumb", (found.known_share,)))
+        out.append(_task_measure("coherent though hidden", "thumb", (found.coherent_share,)))
+        out.append(_task_measure("known though hidden", "thumb", (found.known_share,)))
     if found.jumps_m:
-        out.append(_task("jump when seen again", "TIP1", [1e3 * jump for jump in found.jumps_m]))
+        out.append(_task_measure("jump when seen again", "TIP1", [1e3 * jump for jump in found.jumps_m]))
     return out
 
 
-def _in_the_hand(motion: Motion, joint: int) -> FloatArray:
+def _to_hand_axes(motion: Motion, joint: int) -> FloatArray:
     """A joint centre (N, 3) in the axes of W2."""
-    turned = rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad)
+    turned = rotation_in_w0(motion.rotation_w2_w0, motion.w0_turn_rad)
     return np.asarray(np.einsum("nji,nj->ni", turned, motion.joint_position_m[:, joint] - motion.position_m))
 
 
 TREMOR = "tremor 3-12 Hz"
 
 
-def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[Measure]:
+def measure_wrist_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[Measure]:
     """Tremor of a wrist angle that was held; nothing where none was held for six seconds."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     if len(time_s) < 2:
         return ()
-    found = tremor(
-        even_signal(time_s, best_motion(session).angles_rad[:, angle], np.asarray(session.status) == 0), noise_rms_rad
+    found = measure_tremor(
+        resample_evenly(time_s, motion_estimate(session).angles_rad[:, angle], np.asarray(session.status) == 0),
+        noise_rms_rad,
     )
     if found.has_few_frames:
-        return (_task(TREMOR, "rms", (math.nan,), "few_frames"),)
-    return (_task(TREMOR, "rms", (math.degrees(found.rms_rad),)),) if found.is_tremor else ()
+        return (_task_measure(TREMOR, "rms", (math.nan,), "few_frames"),)
+    return (_task_measure(TREMOR, "rms", (math.degrees(found.rms_rad),)),) if found.is_tremor else ()
 
 
-def _aperture_measures(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[Measure]:
+def _measure_aperture(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[Measure]:
     """NaN of a reach of which a part was not seen, and of an aperture that is a guess."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
-    sure = (_tip_seen(session, 0) & _tip_seen(session, 1)) | (_distance_sd_m(session, 1) <= LARGEST_APERTURE_SD_M)
+    sure = (_is_tip_seen(session, 0) & _is_tip_seen(session, 1)) | (
+        _thumb_distance_sd_m(session, 1) <= MAX_APERTURE_SD_M
+    )
     largest, bent = [], []
-    for reach in (reach for reach in reaches if reach.outward):
+    for reach in (reach for reach in reaches if reach.is_outward):
         inside = (time_s >= reach.start_s) & (time_s <= reach.end_s) & np.isfinite(aperture_m)
         if inside.any():
             widest = int(np.argmax(np.where(inside, aperture_m, -math.inf)))
-            known = not reach.hidden and bool(sure[widest])
+            known = not reach.is_occluded and bool(sure[widest])
             largest.append(1e3 * float(aperture_m[widest]) if known else math.nan)
             at = int(np.searchsorted(time_s, reach.end_s))
-            angle = float(best_motion(session).angles_rad[min(at, len(time_s) - 1), 1])
-            bent.append(math.nan if reach.hidden else -math.degrees(angle))
+            angle = float(motion_estimate(session).angles_rad[min(at, len(time_s) - 1), 1])
+            bent.append(math.nan if reach.is_occluded else -math.degrees(angle))
     if not largest:
         return []
     return [
-        _task("largest aperture", "TIP1-TIP2", largest, "hidden"),
-        _task("wrist extension at grasp", "wrist", bent),
+        _task_measure("largest aperture", "TIP1-TIP2", largest, "hidden"),
+        _task_measure("wrist extension at grasp", "wrist", bent),
     ]
 
 
-def _span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> Measure:
+def _measure_span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> Measure:
     """The largest distance of two tips in the frames that show both."""
     values_m = distance_m(tips_m[:, one], tips_m[:, other])
-    known = values_m[np.isfinite(values_m) & _tip_seen(session, one) & _tip_seen(session, other)]
+    known = values_m[np.isfinite(values_m) & _is_tip_seen(session, one) & _is_tip_seen(session, other)]
     of = f"TIP{one + 1}-TIP{other + 1}"
     if not len(known):
-        return _task(name, of, (math.nan,), "hidden")
-    return _task(name, of, (1e3 * float(np.percentile(known, 99.0)),))
+        return _task_measure(name, of, (math.nan,), "hidden")
+    return _task_measure(name, of, (1e3 * float(np.percentile(known, 99.0)),))
 
 
-def _together(tracks: Mapping[str, JointTrack]) -> list[Measure]:
+def _measure_coordination(tracks: Mapping[str, JointTrack]) -> list[Measure]:
     """Co-flexion of neighbouring middle joints, of index and middle finger's knuckles, and their synergy."""
     out = []
     pairs = [(f"PIP{k}_flexion", f"PIP{k + 1}_flexion") for k in range(2, 5)]
@@ -345,12 +356,12 @@ def _together(tracks: Mapping[str, JointTrack]) -> list[Measure]:
         if len(a.value) != len(b.value) or not len(a.value):
             continue
         found = co_flexion(a.value, b.value, a.rate_hz)
-        out.append(_task("co-flexion", f"{one}, {other}", (found.correlation,)))
-        out.append(_task("lag", f"{one}, {other}", (found.lag_s,)))
-        out.append(_task("enslaving", f"{one}, {other}", (enslaving_share(a.value, b.value),)))
+        out.append(_task_measure("co-flexion", f"{one}, {other}", (found.correlation,)))
+        out.append(_task_measure("lag", f"{one}, {other}", (found.lag_s,)))
+        out.append(_task_measure("enslaving", f"{one}, {other}", (enslaving_share(a.value, b.value),)))
     bending = [track.tracked.value for name, track in tracks.items() if name.endswith("_flexion") and name[3] in "2345"]
     if bending and len({len(values) for values in bending}) == 1 and len(bending[0]):
-        out.append(_task("synergy", "fingers", (synergy_share(np.column_stack(bending)),)))
+        out.append(_task_measure("synergy", "fingers", (synergy_share(np.column_stack(bending)),)))
     return out
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.exercises import DEVIATION, FLEXION, Exercise
-from carpus.core.results.seen import best_motion
+from carpus.core.results.seen import motion_estimate
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray, TrackStatus
 
@@ -23,14 +23,14 @@ MARGIN_M = 0.03
 FINGER_SHARE, THUMB_SHARE, ARM_SHARE = 1.25, 0.9, 0.5
 """Where no disc is on the fingers: how far they reach beyond the knuckles, the thumb beside its base, and how much of
 the forearm stays, as parts of the way from the wrist to the middle knuckle."""
-FLAT = 34
+BACKGROUND_GREY = 34
 """The grey of what is cut away."""
-MOST_TILT_DEG = 20.0
+MAX_TILT_DEG = 20.0
 """Between a movement's axis and the line of sight: beyond it an angle on the picture would look too small."""
 
 
 @dataclass(frozen=True, slots=True)
-class DrawnAngle:
+class AngleOverlay:
     """An angle on the picture: from ``vertex`` towards ``zero`` it is 0, towards ``hand`` as it stands; pixels (2,)."""
 
     vertex: FloatArray
@@ -39,7 +39,7 @@ class DrawnAngle:
 
 
 @dataclass(frozen=True, slots=True)
-class CutOut:
+class HandCutout:
     """The part of a frame that holds the hand; ``left_px`` and ``top_px`` are where it lay in the frame."""
 
     image: ByteImage
@@ -47,7 +47,7 @@ class CutOut:
     top_px: int
 
 
-def discs_px(session: Session, row: int) -> FloatArray:
+def markers_px(session: Session, row: int) -> FloatArray:
     """Where the discs are, (M, 2): measured, else as the model has them; NaN while lost."""
     out = np.array(session.markers.measured_px[row], dtype=float)
     places = session.markers.position_cam_m[row]
@@ -57,9 +57,9 @@ def discs_px(session: Session, row: int) -> FloatArray:
     return out
 
 
-def _outline(session: Session, row: int) -> tuple[FloatArray, float] | None:
+def _hand_outline(session: Session, row: int) -> tuple[FloatArray, float] | None:
     """Points (K, 2) that hold the hand, and how many pixels around them stay; None while it is lost."""
-    spots, depth = discs_px(session, row), session.markers.position_cam_m[row][:, 2]
+    spots, depth = markers_px(session, row), session.markers.position_cam_m[row][:, 2]
     names = session.header.protocol.markers
     if session.status[row] == TrackStatus.LOST or not np.isfinite(spots).all() or not np.isfinite(depth).any():
         return None
@@ -78,9 +78,9 @@ def _outline(session: Session, row: int) -> tuple[FloatArray, float] | None:
     return np.array(points), MARGIN_M * float(session.camera.matrix[0, 0]) / float(np.nanmedian(depth))
 
 
-def cut_out(frame: ByteImage, session: Session, row: int) -> CutOut | None:
+def cut_out_hand(frame: ByteImage, session: Session, row: int) -> HandCutout | None:
     """Cut the hand of a row out of its frame, with nothing else in it; None where the hand was lost or is outside."""
-    found = _outline(session, row)
+    found = _hand_outline(session, row)
     if found is None:
         return None
     points, margin = found
@@ -92,17 +92,17 @@ def cut_out(frame: ByteImage, session: Session, row: int) -> CutOut | None:
     if not width:
         return None
     part = np.s_[top : top + height, left : left + width]
-    return CutOut(np.where(mask[part][..., None] > 0, frame[part], np.uint8(FLAT)), left, top)
+    return HandCutout(np.where(mask[part][..., None] > 0, frame[part], np.uint8(BACKGROUND_GREY)), left, top)
 
 
-def drawn_angle(session: Session, row: int, exercise: Exercise) -> DrawnAngle | None:
+def angle_overlay(session: Session, row: int, exercise: Exercise) -> AngleOverlay | None:
     """Where the trained angle lies on the picture; None where it does not lie in it, or the row was not measured."""
     if session.status[row] != TrackStatus.TRACKED:
         return None
-    spots = dict(zip(session.header.protocol.markers, discs_px(session, row), strict=True))
+    spots = dict(zip(session.header.protocol.markers, markers_px(session, row), strict=True))
     places = dict(zip(session.header.protocol.markers, session.markers.position_cam_m[row], strict=True))
     if exercise.angle in (DEVIATION, FLEXION) and session.calibration.start_angles_rad[exercise.angle] == 0.0:
-        return _of_wrist(session, row, exercise.angle, spots["WRIST"], spots["MCP3"])
+        return _wrist_overlay(session, row, exercise.angle, spots["WRIST"], spots["MCP3"])
     joint = exercise.joint.partition("_")
     names = {"MCP": ("WRIST", "MCP", "PIP"), "PIP": ("MCP", "PIP", "DIP")}.get(joint[0][:3])
     if names is None or joint[2] != "flexion" or not session.header.joint_names:
@@ -112,29 +112,29 @@ def drawn_angle(session: Session, row: int, exercise: Exercise) -> DrawnAngle | 
         return None
     normal = np.cross(places[at] - places[before], places[after] - places[at])
     size = float(np.linalg.norm(normal))
-    if size < 1e-9 or not _faces(normal / size):
+    if size < 1e-9 or not _is_facing_camera(normal / size):
         return None
     along = spots[at] - spots[before]
     length = float(np.linalg.norm(spots[after] - spots[at]))
-    return DrawnAngle(spots[at], spots[at] + length * along / max(float(np.linalg.norm(along)), 1.0), spots[after])
+    return AngleOverlay(spots[at], spots[at] + length * along / max(float(np.linalg.norm(along)), 1.0), spots[after])
 
 
-def _of_wrist(
+def _wrist_overlay(
     session: Session, row: int, angle: int, wrist_px: FloatArray, knuckle_px: FloatArray
-) -> DrawnAngle | None:
-    motion = best_motion(session)
+) -> AngleOverlay | None:
+    motion = motion_estimate(session)
     to_camera = session.calibration.rotation_w0_cam @ so3.exp(np.nan_to_num(motion.w0_turn_rad[row]))
     axis = to_camera[:, 1 if angle == FLEXION else 2]
-    if not np.isfinite(wrist_px).all() or not np.isfinite(knuckle_px).all() or not _faces(axis):
+    if not np.isfinite(wrist_px).all() or not np.isfinite(knuckle_px).all() or not _is_facing_camera(axis):
         return None
     length = 1.6 * float(np.linalg.norm(knuckle_px - wrist_px))
     ends = []
     for direction in (to_camera[:, 0], to_camera @ motion.rotation_w2_w0[row][:, 0]):
         flat = direction[:2]
         ends.append(wrist_px + length * flat / max(float(np.linalg.norm(flat)), 1e-9))
-    return DrawnAngle(wrist_px, ends[0], ends[1])
+    return AngleOverlay(wrist_px, ends[0], ends[1])
 
 
-def _faces(axis_cam: FloatArray) -> bool:
+def _is_facing_camera(axis_cam: FloatArray) -> bool:
     """Whether a movement about an axis (3,) in camera axes lies in the picture."""
-    return abs(float(axis_cam[2])) >= math.cos(math.radians(MOST_TILT_DEG))
+    return abs(float(axis_cam[2])) >= math.cos(math.radians(MAX_TILT_DEG))

@@ -15,51 +15,53 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
+from carpus.core.measures.motion_range import MIN_REPETITIONS_FOR_SD
 
 Group = Literal["range", "task", "share", "speed", "still"]
 """Ranges of motion; what an exercise has beside them; shares of usual totals; speed of single strokes; largest size of
 what should have stayed still."""
-Unknown = Literal["", "too_slow", "hidden", "few_frames", "failed"]
+UnknownReason = Literal["", "too_slow", "hidden", "few_frames", "failed"]
 """Why nothing is known: every movement was so slow that the tracker's noise hides it, the camera did not see what
 decides it or gave too few frames a second for it, or it could not be computed."""
 MeasureKey = tuple[str, str]
-"""``of`` and ``what`` of a measure."""
+"""``subject`` and ``quantity`` of a measure."""
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
     """One quantity of one session.
 
-    ``of`` is an angle, joint, ``TAM3`` (total active motion of a finger), pair of discs or way by its name in every
-    file; ``what`` is measured of it, for a range its movement: ``arc`` or one of its two ends. Of the wrist each end
+    ``subject`` is an angle, joint, ``TAM3`` (total active motion of a finger), pair of discs or way by its name in
+    every
+    file; ``quantity`` is measured of it, for a range its movement: ``arc`` or one of its two ends. Of the wrist each
+    end
     counts in its own direction, below zero where neutral was not reached; ``flexion`` and ``extension`` of a joint are
     its most and its least bent angle with their sign. ``values`` are one for each repetition, stroke or way;
     ``best`` is NaN where neither way is better, ``measurement_sd`` that of one value by the tracker's noise.
     """
 
     group: Group
-    of: str
-    what: str
+    subject: str
+    quantity: str
     unit: str
     values: tuple[float, ...]
     mean: float
     sd: float = math.nan
     best: float = math.nan
     measurement_sd: float = math.nan
-    at_least: bool = False
+    is_lower_bound: bool = False
     """Whether it is a lower bound, since the camera's view limits it."""
     seen_share: float = math.nan
     """Share of all frames in which the joint was seen."""
-    inferred: bool = False
+    is_inferred: bool = False
     """Whether an end joint that no disc measures is part of it."""
-    passive: bool = False
+    is_passive: bool = False
     """Whether it is of the repetitions in which somebody else moved the hand: they are in no other row."""
-    unknown: Unknown = ""
+    unknown_reason: UnknownReason = ""
 
     @property
     def key(self) -> MeasureKey:
-        return self.of, self.what
+        return self.subject, self.quantity
 
     @property
     def count(self) -> int:
@@ -67,46 +69,46 @@ class Measure:
         return sum(map(math.isfinite, self.values))
 
     @property
-    def angle(self) -> int:
+    def wrist_angle(self) -> int:
         """Column of the wrist's angle, -1 for anything else."""
-        return wrist_column(self.of)
+        return wrist_angle_index(self.subject)
 
 
-def measure_values(
-    group: Group, of: str, what: str, unit: str, values: Sequence[float], *, sds: Sequence[float] = (),
-    best: Callable[[Sequence[float]], float] | None = None, unknown: Unknown = "",
+def summarise_values(
+    group: Group, subject: str, quantity: str, unit: str, values: Sequence[float], *, sds: Sequence[float] = (),
+    best: Callable[[Sequence[float]], float] | None = None, unknown_reason: UnknownReason = "",
 ) -> Measure:  # fmt: skip
     """Summarise values of repetitions, strokes or ways, of which unknown ones are left out.
 
     ``sds`` are the values' standard deviations by the tracker's noise, ``best`` chooses the best of them (None where
-    neither way is better), ``unknown`` says why there is none where none is known.
+    neither way is better), ``unknown_reason`` says why there is none where none is known.
     """
     known = np.array([value for value in values if math.isfinite(value)])
     if not len(known):
-        return Measure(group, of, what, unit, tuple(values), math.nan, unknown=unknown)
+        return Measure(group, subject, quantity, unit, tuple(values), math.nan, unknown_reason=unknown_reason)
     stated = np.array([sd for value, sd in zip(values, sds, strict=False) if math.isfinite(value + sd)])
     return Measure(
-        group, of, what, unit, tuple(values), float(known.mean()),
-        sd=float(known.std(ddof=1)) if len(known) >= FEWEST_FOR_SPREAD else math.nan,
+        group, subject, quantity, unit, tuple(values), float(known.mean()),
+        sd=float(known.std(ddof=1)) if len(known) >= MIN_REPETITIONS_FOR_SD else math.nan,
         best=math.nan if best is None else float(best(known.tolist())),
         measurement_sd=float(np.sqrt(np.mean(stated**2))) if len(stated) else math.nan,
     )  # fmt: skip
 
 
-def wrist_column(of: str) -> int:
+def wrist_angle_index(subject: str) -> int:
     """Return the column of a wrist's angle, -1 for a joint or anything else.
 
     >>> wrist_column("flexion"), wrist_column("PIP3_flexion")
     (1, -1)
     """
-    return WRIST_ANGLES.index(of) if of in WRIST_ANGLES else -1
+    return WRIST_ANGLES.index(subject) if subject in WRIST_ANGLES else -1
 
 
-def is_total(of: str) -> bool:
+def is_total_active_motion(subject: str) -> bool:
     """Whether it is the total active motion of a finger."""
-    return of.startswith("TAM")
+    return subject.startswith("TAM")
 
 
-def turn_round(row: Measure) -> Measure:
+def negate_measure(row: Measure) -> Measure:
     """Return a deficit of an end that was never reached, counted upwards."""
     return replace(row, mean=-row.mean, best=-row.best, values=tuple(-value for value in row.values))

@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measure import Measure, is_total
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.measure import Measure, is_total_active_motion
 from carpus.core.results.norms import grade_share
 
 
 @dataclass(frozen=True, slots=True)
-class SessionFigure:
+class MeasureRow:
     """One figure of one session. ``measure`` and ``of``: the arc of flexion, the peak speed of the trained angle;
     ``positive`` what a larger figure means, the same in every column of the row; ``estimate`` filter or smoother;
     ``mean``, ``sd`` between repetitions, ``best``, ``measurement_sd`` of one value, over ``count`` of them;
@@ -48,10 +48,10 @@ class SessionFigure:
     estimate: str = ""
 
 
-def measure_rows(figures: SessionFigures, session: str) -> tuple[SessionFigure, ...]:
+def build_measure_rows(figures: SessionResults, session: str) -> tuple[MeasureRow, ...]:
     """All measures of a session whose file is called ``session``."""
-    estimate = "smoother" if figures.smoothed else "filter"
-    return tuple(replace(row, estimate=estimate, positive=_positive(row)) for row in _rows(figures, session))
+    estimate = "smoother" if figures.is_smoothed else "filter"
+    return tuple(replace(row, estimate=estimate, positive=_row_direction(row)) for row in _rows(figures, session))
 
 
 MEASURE_COLUMNS = {
@@ -76,7 +76,7 @@ _JOINT_MEASURES = {"flexion": "largest", "extension": "smallest"}
 _TOTAL_MEASURES = {"arc": "total active motion", "extension": "extension deficit"}
 
 
-def positive_of(angle: str) -> str:
+def positive_direction(angle: str) -> str:
     """What a larger angle means, of the wrist or of a joint by its name in every file.
 
     >>> positive_of("deviation"), positive_of("MCP2_abduction"), positive_of("CMC1_extension")
@@ -94,9 +94,9 @@ def positive_of(angle: str) -> str:
     return {"flexion": "flexed", "abduction": "to the thumb" if joint[-1:] != "1" else "thumb abducted"}.get(kind, "")
 
 
-def _positive(row: SessionFigure) -> str:
+def _row_direction(row: MeasureRow) -> str:
     if row.measure in ("largest", "smallest"):
-        return positive_of(row.of.partition(",")[0])
+        return positive_direction(row.of.partition(",")[0])
     words = {
         "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar",
         "supination": "supinated, 0 is thumb up", "pronation": "pronated, 0 is thumb up",
@@ -106,26 +106,36 @@ def _positive(row: SessionFigure) -> str:
     return words.get(row.measure, "more")
 
 
-def _name_in_table(row: Measure) -> str:
+def _table_name(row: Measure) -> str:
     """A measure by its name in the table: of a joint and of a total, an end is no movement."""
     if row.group == "share":
-        return ", ".join(filter(None, (row.what, grade_share(row))))
-    if row.group != "range" or row.angle >= 0:
-        return row.what
-    return (_TOTAL_MEASURES if is_total(row.of) else _JOINT_MEASURES).get(row.what, row.what)
+        return ", ".join(filter(None, (row.quantity, grade_share(row))))
+    if row.group != "range" or row.wrist_angle >= 0:
+        return row.quantity
+    return (_TOTAL_MEASURES if is_total_active_motion(row.subject) else _JOINT_MEASURES).get(row.quantity, row.quantity)
 
 
-def _rows(figures: SessionFigures, session: str) -> Iterator[SessionFigure]:
+def _rows(figures: SessionResults, session: str) -> Iterator[MeasureRow]:
     quality = figures.quality
     common = (
         session, figures.session_id, figures.recording_id, figures.subject_id,
-        figures.when.isoformat(timespec="seconds"), figures.simulated, figures.side, figures.protocol,
-        figures.exercise.id, figures.duration_s, quality.frames, quality.measured_share, figures.counted,
+        figures.when.isoformat(timespec="seconds"), figures.is_simulated, figures.side, figures.protocol,
+        figures.exercise.id, figures.duration_s, quality.frames, quality.measured_share, figures.repetition_count,
     )  # fmt: skip
     for row in figures.measures:
         if row.group == "still" or (row.group == "speed" and not row.count):
             continue
-        yield SessionFigure(
-            *common, _name_in_table(row), f"{row.of}, passive" if row.passive else row.of, row.unit, row.mean, row.sd,
-            row.best, row.measurement_sd, row.count, row.at_least, row.seen_share, row.inferred,
-        )  # fmt: skip
+        yield MeasureRow(
+            *common,
+            _table_name(row),
+            f"{row.subject}, passive" if row.is_passive else row.subject,
+            row.unit,
+            row.mean,
+            row.sd,
+            row.best,
+            row.measurement_sd,
+            row.count,
+            row.is_lower_bound,
+            row.seen_share,
+            row.is_inferred,
+        )

@@ -14,57 +14,59 @@ import numpy as np
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, zyz_with_sd
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.fingers import bending_weights
-from carpus.core.measures.forearm import rotation_in_place
+from carpus.core.measures.fingers import flexion_weights
+from carpus.core.measures.forearm import rotation_in_w0
 from carpus.core.measures.signals import BoolArray, valid_wrist_angles
-from carpus.core.results.measure import is_total, wrist_column
-from carpus.core.results.ranges import bending_joints
-from carpus.core.results.seen import JointCurves, best_motion, joint_curves, read_angles_rad, seen_well
+from carpus.core.results.measure import is_total_active_motion, wrist_angle_index
+from carpus.core.results.ranges import flexion_joints
+from carpus.core.results.seen import JointCurves, clinical_angles_rad, joint_curves, motion_estimate, palm_in_view
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray, Side, TrackStatus
 
 
 @dataclass(frozen=True, slots=True)
 class MotionCurves:
-    """N frames. ``time_s`` (N,) after the first; ``predicted`` (N,); ``position_mm`` and ``velocity_mm_s`` (N, 3) of
-    the wrist in W0, ``turning_deg_s`` (N, 3) about the hand's axes, ``axes`` (N, 3, 3) columns X, Y, Z of W2 in W0;
+    """N frames. ``time_s`` (N,) after the first; ``is_predicted`` (N,); ``position_mm`` and ``velocity_mm_s`` (N, 3) of
+    the wrist in W0, ``angular_velocity_deg_s`` (N, 3) about the hand's axes, ``axes`` (N, 3, 3) columns X, Y, Z of W2
+    in W0;
     ``zyz_deg`` and ``zyz_sd_deg`` (N, 3), ``zyz_sum_deg`` (N,) alpha + gamma; ``joint_mm`` (N, M, 3) the joints and
-    tips by ``joint_names`` in W0, M 0 for the wrist alone; ``joint_seen`` (N, M) whether the disc there has a blob."""
+    tips by ``joint_names`` in W0, M 0 for the wrist alone; ``is_joint_seen`` (N, M) whether the disc there has a
+    blob."""
 
     side: Side
     time_s: FloatArray
-    predicted: BoolArray
+    is_predicted: BoolArray
     position_mm: FloatArray
     velocity_mm_s: FloatArray
-    turning_deg_s: FloatArray
+    angular_velocity_deg_s: FloatArray
     axes: FloatArray
     zyz_deg: FloatArray
     zyz_sd_deg: FloatArray
     zyz_sum_deg: FloatArray
     joint_names: tuple[str, ...]
     joint_mm: FloatArray
-    joint_seen: BoolArray
+    is_joint_seen: BoolArray
 
 
-def motion_curves(session: Session) -> MotionCurves:
+def compute_motion_curves(session: Session) -> MotionCurves:
     """Of the smoother's result where there is one; nothing where the hand was lost."""
-    motion, side = best_motion(session), session.header.hand
+    motion, side = motion_estimate(session), session.header.hand
     count = motion.joint_position_m.shape[1]
     zyz, sd, total = zyz_with_sd(motion.rotation_w2_w0, motion.angles_sd_rad, side)
     return MotionCurves(
         side=side,
         time_s=session.timestamp_s - session.timestamp_s[:1],
-        predicted=np.asarray(session.status) == TrackStatus.PREDICTED,
+        is_predicted=np.asarray(session.status) == TrackStatus.PREDICTED,
         position_mm=1e3 * motion.position_m,
         velocity_mm_s=1e3 * motion.velocity_m_s,
-        turning_deg_s=np.degrees(motion.angular_velocity_rad_s),
-        axes=rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad),
+        angular_velocity_deg_s=np.degrees(motion.angular_velocity_rad_s),
+        axes=rotation_in_w0(motion.rotation_w2_w0, motion.w0_turn_rad),
         zyz_deg=np.degrees(zyz),
         zyz_sd_deg=np.degrees(sd),
         zyz_sum_deg=np.degrees(total),
         joint_names=session.header.protocol.markers[:count],
         joint_mm=1e3 * motion.joint_position_m,
-        joint_seen=np.isfinite(session.markers.measured_px[:, :count, 0]),
+        is_joint_seen=np.isfinite(session.markers.measured_px[:, :count, 0]),
     )
 
 
@@ -98,29 +100,29 @@ def motion_columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
             yield CurveColumn(f"joint_{marker}_{letter}_mm", 1e3 * motion.joint_position_m[:, m, axis])
 
 
-def seen_angle(session: Session, of: str) -> FloatArray:
+def visible_angle_deg(session: Session, name: str) -> FloatArray:
     """One angle (N,) in degrees: the wrist's, a joint's or ``TAM3``, by its name in every file.
     NaN where it was not seen well enough to be measured by the rules of its ranges, or the session does not have it."""
-    if (angle := wrist_column(of)) >= 0:
-        motion = best_motion(session)
-        angles_rad = read_angles_rad(session)
-        valid = valid_wrist_angles(seen_well(session), angles_rad, motion.angles_sd_rad)
+    if (angle := wrist_angle_index(name)) >= 0:
+        motion = motion_estimate(session)
+        angles_rad = clinical_angles_rad(session)
+        valid = valid_wrist_angles(palm_in_view(session), angles_rad, motion.angles_sd_rad)
         return np.degrees(np.where(valid, angles_rad, np.nan))[:, angle]
     joints = joint_curves(session)
-    if joints is not None and is_total(of):
-        return _total_bending(joints, int(of.removeprefix("TAM")))
-    if joints is None or of not in joints.names:
+    if joints is not None and is_total_active_motion(name):
+        return _total_flexion_deg(joints, int(name.removeprefix("TAM")))
+    if joints is None or name not in joints.names:
         return np.full(len(session), np.nan)
-    column = joints.names.index(of)
-    return np.where(joints.seen[:, column], joints.angles_deg[:, column], np.nan)
+    column = joints.names.index(name)
+    return np.where(joints.is_valid[:, column], joints.angles_deg[:, column], np.nan)
 
 
-def _total_bending(joints: JointCurves, finger: int) -> FloatArray:
+def _total_flexion_deg(joints: JointCurves, finger: int) -> FloatArray:
     """Sum of a finger's bending (N,) where all its joints were seen; an end joint without a disc is two thirds of the
     middle joint."""
-    names, inferred = bending_joints(finger, joints.names)
+    names, inferred = flexion_joints(finger, joints.names)
     if not set(names) <= set(joints.names):
         return np.full(len(joints.time_s), np.nan)
     columns = [joints.names.index(name) for name in names]
-    bend = np.where(joints.seen[:, columns], np.maximum(joints.angles_deg[:, columns], 0.0), np.nan)
-    return np.asarray(bend @ bending_weights(len(columns), inferred=inferred))
+    bend = np.where(joints.is_valid[:, columns], np.maximum(joints.angles_deg[:, columns], 0.0), np.nan)
+    return np.asarray(bend @ flexion_weights(len(columns), inferred=inferred))

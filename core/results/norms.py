@@ -11,12 +11,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from carpus.core.hand.exercises import SIDES, Exercise
+from carpus.core.hand.exercises import DIRECTIONS, Exercise
 from carpus.core.phrase import phrase
-from carpus.core.results.measure import Measure, is_total
+from carpus.core.results.measure import Measure, is_total_active_motion
 
 Grade = Literal["excellent", "good", "fair", "poor"]
-USUAL_TOTAL_DEG = {1: 140.0, 2: 260.0, 3: 260.0, 4: 260.0, 5: 260.0}
+NORMAL_TOTAL_DEG = {1: 140.0, 2: 260.0, 3: 260.0, 4: 260.0, 5: 260.0}
 """TAM of a healthy finger where the other hand is not known (clinical reference 4.3)."""
 
 
@@ -26,7 +26,7 @@ def total_share(total_deg: float, finger: int, other_hand_deg: float = math.nan)
     >>> round(total_share(195.0, 3), 2)
     0.75
     """
-    norm = other_hand_deg if other_hand_deg > 0.0 else USUAL_TOTAL_DEG[finger]
+    norm = other_hand_deg if other_hand_deg > 0.0 else NORMAL_TOTAL_DEG[finger]
     return total_deg / norm
 
 
@@ -75,7 +75,7 @@ def wrist_norm(movement: str, angle: int, exercise: Exercise) -> Norm | None:
     >>> (found.low_deg, found.high_deg), wrist_norm("flexion", 1, exercise_named("WRIST_RU"))
     ((120.0, 150.0), None)
     """
-    ends = SIDES[angle] if movement == "arc" else (movement,)
+    ends = DIRECTIONS[angle] if movement == "arc" else (movement,)
     if exercise.angle != angle or not all(end in _WRIST_DEG for end in ends):
         return None
     low, high = (sum(_WRIST_DEG[end][side] for end in ends) for side in (0, 1))
@@ -84,33 +84,35 @@ def wrist_norm(movement: str, angle: int, exercise: Exercise) -> Norm | None:
 
 def total_norm(finger: int, exercise: Exercise) -> Norm | None:
     """Of a finger's total active motion, where the exercise is the fist of which the source speaks."""
-    if not (exercise.total and exercise.joint):
+    if not (exercise.has_total_motion and exercise.joint):
         return None
-    total = USUAL_TOTAL_DEG[finger]
+    total = NORMAL_TOTAL_DEG[finger]
     return Norm(total, total, _TOTAL_SOURCE, _ADULTS, _BOTH)
 
 
-SHARE_OF_USUAL, SHARE_OF_OTHER = "share of the usual TAM", "share of the other hand's TAM"
+SHARE_OF_NORMAL, SHARE_OF_OTHER = "share of the usual TAM", "share of the other hand's TAM"
 
 
-def total_shares(
+def compute_total_shares(
     rows: Sequence[Measure], exercise: Exercise, other_hand: Sequence[Measure] = ()
 ) -> tuple[Measure, ...]:
     """Every finger's TAM as a share of the other hand's where that was seen whole, else of the usual one in the
     exercise that its source speaks of. That of a lower bound is one too."""
     out = []
-    beside = {row.of: row.mean for row in other_hand if row.what == "arc" and row.count and not row.at_least}
+    beside = {
+        row.subject: row.mean for row in other_hand if row.quantity == "arc" and row.count and not row.is_lower_bound
+    }
     for row in rows:
-        if is_total(row.of) and row.what == "arc" and row.count:
-            finger, own = int(row.of[3:]), beside.get(row.of, math.nan)
+        if is_total_active_motion(row.subject) and row.quantity == "arc" and row.count:
+            finger, own = int(row.subject[3:]), beside.get(row.subject, math.nan)
             if not own > 0.0 and total_norm(finger, exercise) is None:
                 continue
             share = total_share(row.mean, finger, own)
-            what = SHARE_OF_OTHER if own > 0.0 else SHARE_OF_USUAL
-            out.append(Measure("share", row.of, what, "share", (share,), share, at_least=row.at_least))
+            what = SHARE_OF_OTHER if own > 0.0 else SHARE_OF_NORMAL
+            out.append(Measure("share", row.subject, what, "share", (share,), share, is_lower_bound=row.is_lower_bound))
     return tuple(out)
 
 
 def grade_share(share: Measure) -> Grade | None:
     """Grade a share of a finger's total; None for one that was not seen whole."""
-    return None if share.at_least else total_grade(share.mean)
+    return None if share.is_lower_bound else total_grade(share.mean)

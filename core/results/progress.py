@@ -10,9 +10,9 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise
+from carpus.core.hand.exercises import DIRECTIONS, PRONOSUPINATION, Exercise
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.by_hand import HandValue
+from carpus.core.measures.by_hand import ManualValue
 from carpus.core.measures.change import (
     ARC_LIMIT_FACTOR,
     DEFAULT_LIMITS,
@@ -21,14 +21,14 @@ from carpus.core.measures.change import (
     RetestStudy,
     change_limit_rad,
 )
-from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measure import Measure, MeasureKey, is_total
-from carpus.core.rounding import rounded
+from carpus.core.measures.motion_range import MIN_REPETITIONS_FOR_SD
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.measure import Measure, MeasureKey, is_total_active_motion
+from carpus.core.rounding import round_half_away
 from carpus.core.types import Side
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
-Unfairness = Literal[
+IncomparableReason = Literal[
     "side",
     "protocol",
     "exercise",
@@ -45,22 +45,32 @@ Unfairness = Literal[
     "angle_order",
     "only_passive",
 ]
-NAMES_DOUBTED = ("swapped", "shifted", "misnamed", "wrong_side", "other_length", "depth_off", "other_spot", "no_palm")
+INVALIDATING_FINDINGS = (
+    "swapped",
+    "shifted",
+    "misnamed",
+    "wrong_side",
+    "other_length",
+    "depth_off",
+    "other_spot",
+    "no_palm",
+)
 """Findings at the calibration after which the angles may be something else: such a session never compares."""
-LARGEST_DISTANCE_STEP_M = 0.10
-LARGEST_START_ANGLE_STEP_DEG = 5.0
+MAX_DISTANCE_STEP_M = 0.10
+MAX_START_ANGLE_STEP_DEG = 5.0
 """Beyond these two sessions were not set up alike."""
 
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """One range in two sessions, ``after`` against ``before``: the means differ by more than ``limit_deg``, or not."""
+    """One range in two sessions, ``after`` against ``before``: the means differ by more than ``change_limit_deg``, or
+    not."""
 
     before: Measure
     after: Measure
     limit_deg: float
     verdict: Verdict
-    reasons: tuple[Unfairness, ...] = ()
+    reasons: tuple[IncomparableReason, ...] = ()
     """Why the two are not judged; empty when they are."""
 
     @property
@@ -69,45 +79,45 @@ class Comparison:
         return self.after.key
 
     @property
-    def is_of_joint(self) -> bool:
-        return self.after.angle < 0
+    def is_joint(self) -> bool:
+        return self.after.wrist_angle < 0
 
     @property
     def difference_deg(self) -> float:
         return self.after.mean - self.before.mean
 
     @property
-    def is_beyond(self) -> bool:
+    def is_beyond_error(self) -> bool:
         """Whether the two differ by more than error."""
         return self.verdict in ("improved", "worse")
 
     @property
-    def are_bounds(self) -> tuple[bool, bool]:
+    def lower_bounds(self) -> tuple[bool, bool]:
         """Whether the value before and the one after are lower bounds, since the joint was hidden in part."""
-        return (self.before.at_least, self.after.at_least) if self.is_of_joint else (False, False)
+        return (self.before.is_lower_bound, self.after.is_lower_bound) if self.is_joint else (False, False)
 
     @property
-    def at_least(self) -> bool:
+    def is_lower_bound(self) -> bool:
         """Whether the gain is a lower bound."""
-        return self.are_bounds == (False, True)
+        return self.lower_bounds == (False, True)
 
     @property
-    def shown_difference_deg(self) -> float:
+    def display_difference_deg(self) -> float:
         """Difference of the rounded means, so that the figures on a page agree with each other."""
         if not math.isfinite(self.difference_deg):
             return math.nan
-        return float(rounded(self.after.mean) - rounded(self.before.mean))
+        return float(round_half_away(self.after.mean) - round_half_away(self.before.mean))
 
 
 @dataclass(frozen=True, slots=True)
 class ProgressPoint:
-    """One session on the way; not ``fair`` means that it is shown but not compared, for ``reasons``."""
+    """One session on the way; not ``is_comparable`` means that it is shown but not compared, for ``reasons``."""
 
-    figures: SessionFigures
-    reasons: tuple[Unfairness, ...]
+    results: SessionResults
+    reasons: tuple[IncomparableReason, ...]
 
     @property
-    def fair(self) -> bool:
+    def is_comparable(self) -> bool:
         """Whether it compares with the first session."""
         return not self.reasons
 
@@ -116,80 +126,82 @@ class ProgressPoint:
 class Progress:
     """Sessions of one hand and exercise in order of time; first and last fair ones compared, arc first.
 
-    ``keys`` what of the whole hand is followed, of any session; empty for the wrist. ``replaced`` earlier results of
+    ``keys`` what of the whole hand is followed, of any session; empty for the wrist. ``superseded`` earlier results of
     recordings that were tracked again: a recording counts once, by its newest result.
     """
 
     points: tuple[ProgressPoint, ...]
     comparisons: tuple[Comparison, ...]
-    other_hand: SessionFigures | None
+    other_hand: SessionResults | None
     keys: tuple[MeasureKey, ...] = ()
-    replaced: tuple[SessionFigures, ...] = ()
-    by_hand: tuple[HandValue, ...] = ()
+    superseded: tuple[SessionResults, ...] = ()
+    manual_measurements: tuple[ManualValue, ...] = ()
     """What counts of what was measured by hand, of this hand and of the person, by day; beside ours, never in it."""
 
     @property
     def earlier_results(self) -> int:
         """How many earlier results of the same recordings there are, read or not."""
-        return max(len(self.replaced), sum(point.figures.earlier_results for point in self.points))
+        return max(len(self.superseded), sum(point.results.earlier_results for point in self.points))
 
     @property
-    def first(self) -> SessionFigures | None:
+    def reference(self) -> SessionResults | None:
         """The session compared with: the first that is fair in itself, else the first of all."""
-        chosen = next((point for point in self.points if point.fair), self.points[0] if self.points else None)
-        return chosen.figures if chosen is not None else None
+        chosen = next((point for point in self.points if point.is_comparable), self.points[0] if self.points else None)
+        return chosen.results if chosen is not None else None
 
     @property
-    def last(self) -> SessionFigures | None:
+    def current(self) -> SessionResults | None:
         """The last one that compares."""
-        fair = [point.figures for point in self.points if point.fair]
+        fair = [point.results for point in self.points if point.is_comparable]
         return fair[-1] if fair else None
 
     @property
     def study(self) -> RetestStudy | None:
         """The clinic's own test and retest by which changes are judged, None for the default limits."""
-        return self.last.study if self.last is not None else None
+        return self.current.study if self.current is not None else None
 
     @property
-    def headline(self) -> Comparison | None:
+    def main_comparison(self) -> Comparison | None:
         """The comparison that answers the question: of the trained arc, or the largest change beyond error."""
-        beyond = [item for item in self.comparisons if item.is_beyond]
-        arcs = [item for item in self.comparisons if item.after.what == "arc"]
+        beyond = [item for item in self.comparisons if item.is_beyond_error]
+        arcs = [item for item in self.comparisons if item.after.quantity == "arc"]
         best: list[Comparison | None] = [*(item for item in arcs if item in beyond), *beyond, *arcs, None]
         return best[0]
 
 
-def compare(
-    before: SessionFigures, after: SessionFigures, rows: Sequence[Measure] | None = None
+def compare_ranges(
+    before: SessionResults, after: SessionResults, rows: Sequence[Measure] | None = None
 ) -> tuple[Comparison, ...]:
     """Compare the means of ranges that both sessions have: some ``rows`` of the later one, or those of its wrist.
 
     Nothing is a change within measurement error. A hidden joint is not judged, but for a sure gain. Sessions that the
     progress leaves out are not judged here either: there is one judgement, wherever it is shown.
     """
-    unfair = tuple(dict.fromkeys((*unfair_reasons(before, before), *unfair_reasons(before, after))))
+    unfair = tuple(dict.fromkeys((*incomparable_reasons(before, before), *incomparable_reasons(before, after))))
     out = []
     for row in after.wrist_ranges if rows is None else rows:
         other = before.find(*row.key)
         if other is None:
             continue
-        limit = limit_deg(after, row, of_arcs=True)
+        limit = change_limit_deg(after, row, is_arc_change=True)
         difference = row.mean - other.mean
-        limited = (other.at_least, row.at_least) if row.angle < 0 else (False, False)
+        limited = (other.is_lower_bound, row.is_lower_bound) if row.wrist_angle < 0 else (False, False)
         # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
-        sure_gain = row.what == "arc" and limited == (False, True) and difference > limit
-        reasons = tuple(dict.fromkeys((*unfair, *_obstacles(before, other, after, row))))
+        sure_gain = row.quantity == "arc" and limited == (False, True) and difference > limit
+        reasons = tuple(dict.fromkeys((*unfair, *_range_obstacles(before, other, after, row))))
         if not reasons and any(limited) and not sure_gain:
             reasons = ("hidden",)
         verdict: Verdict = "not_judged"
         if not reasons:
-            better = difference > 0 if row.angle >= 0 or row.what != "extension" else difference < 0
+            better = difference > 0 if row.wrist_angle >= 0 or row.quantity != "extension" else difference < 0
             verdict = "no_change" if not abs(difference) > limit else "improved" if better else "worse"
         out.append(Comparison(other, row, limit, verdict, reasons))
     return tuple(out)
 
 
-def _obstacles(before: SessionFigures, old: Measure, after: SessionFigures, new: Measure) -> Iterator[Unfairness]:
+def _range_obstacles(
+    before: SessionResults, old: Measure, after: SessionResults, new: Measure
+) -> Iterator[IncomparableReason]:
     """Why two ranges do not compare, whatever else speaks against their sessions. One of a session without repetitions
     (free movement) never does."""
     if before.side != after.side:
@@ -198,159 +210,178 @@ def _obstacles(before: SessionFigures, old: Measure, after: SessionFigures, new:
         yield "protocol"
     if before.exercise.id != after.exercise.id:
         yield "exercise"
-    if not before.counted or old.count < FEWEST_FOR_SPREAD:
+    if not before.repetition_count or old.count < MIN_REPETITIONS_FOR_SD:
         yield "few_repetitions_before"
-    if not after.counted or new.count < FEWEST_FOR_SPREAD:
+    if not after.repetition_count or new.count < MIN_REPETITIONS_FOR_SD:
         yield "few_repetitions_after"
     if not math.isfinite(new.mean - old.mean):
         yield "unknown"
 
 
-def limit_deg(figures: SessionFigures, row: Measure, *, of_arcs: bool = False) -> float:
+def change_limit_deg(figures: SessionResults, row: Measure, *, is_arc_change: bool = False) -> float:
     """Return what a change of a range must exceed: the clinic's own limit where it has one, else the default, which is
-    that of one end unless it is ``of_arcs``, whose two ends may both be off."""
-    own = figures.study.limit_deg(row.of, row.what) if figures.study is not None else None
-    both_ends = of_arcs and row.what == "arc" and not is_total(row.of)
+    that of one end unless it is ``is_arc_change``, whose two ends may both be off."""
+    own = figures.study.limit_deg(row.subject, row.quantity) if figures.study is not None else None
+    both_ends = is_arc_change and row.quantity == "arc" and not is_total_active_motion(row.subject)
     default = math.degrees(change_limit_rad(_limit_name(row))) * (ARC_LIMIT_FACTOR if both_ends else 1.0)
     return default if own is None else own
 
 
 def _limit_name(row: Measure) -> str:
-    return TOTAL_ACTIVE_MOTION if is_total(row.of) else row.of
+    return TOTAL_ACTIVE_MOTION if is_total_active_motion(row.subject) else row.subject
 
 
-def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfairness, ...]:
+def incomparable_reasons(first: SessionResults, other: SessionResults) -> tuple[IncomparableReason, ...]:
     """Why a session does not compare with the first one; with itself: why it compares with none."""
-    reasons: list[Unfairness] = []
-    if other.simulated != first.simulated:
+    reasons: list[IncomparableReason] = []
+    if other.is_simulated != first.is_simulated:
         reasons.append("simulated")
     if other.angle_order != first.angle_order:
         reasons.append("angle_order")
-    if any(finding.kind in NAMES_DOUBTED for finding in other.findings):
+    if any(finding.kind in INVALIDATING_FINDINGS for finding in other.findings):
         reasons.append("doubtful")
-    if other.not_counted:
+    if other.is_excluded:
         reasons.append("not_counted")
-    if abs(first.quality.distance_m - other.quality.distance_m) > LARGEST_DISTANCE_STEP_M:
+    if abs(first.quality.distance_m - other.quality.distance_m) > MAX_DISTANCE_STEP_M:
         reasons.append("distance")
-    if float(np.abs(first.start_angles_deg - other.start_angles_deg).max()) > LARGEST_START_ANGLE_STEP_DEG:
+    if float(np.abs(first.start_angles_deg - other.start_angles_deg).max()) > MAX_START_ANGLE_STEP_DEG:
         reasons.append("start_angle")
-    if other.exercise.pure_wrist and other.quality.forearm_moved:
+    if other.exercise.is_forearm_fixed and other.quality.has_forearm_moved:
         reasons.append("forearm_moved")
-    if other.has_passive and not other.counted:
+    if other.has_passive and not other.repetition_count:
         reasons.append("only_passive")
-    elif 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.counts and not other.counted):
+    elif 0 < other.repetition_count < MIN_REPETITIONS_FOR_SD or (
+        other.exercise.has_repetitions and not other.repetition_count
+    ):
         reasons.append("few_repetitions_after")
     return tuple(reasons)
 
 
-def progress(
-    sessions: Sequence[SessionFigures], other_hand: SessionFigures | None = None, keys: Sequence[MeasureKey] = ()
+def compute_progress(
+    sessions: Sequence[SessionResults], other_hand: SessionResults | None = None, keys: Sequence[MeasureKey] = ()
 ) -> Progress:
     """Sessions of one hand, protocol and exercise over time, compared with the first one that is fair in itself.
 
     ``keys`` choose what of the whole hand is followed; without them it is the wrist.
     """
-    ordered = newest_results(sessions)
-    real = [figures for figures in ordered if not figures.simulated]
-    first = next((figures for figures in real or ordered if not unfair_reasons(figures, figures)), None)
-    points = tuple(ProgressPoint(figures, unfair_reasons(first or figures, figures)) for figures in ordered)
-    fair = [point.figures for point in points if point.fair]
+    ordered = select_latest_versions(sessions)
+    real = [figures for figures in ordered if not figures.is_simulated]
+    first = next((figures for figures in real or ordered if not incomparable_reasons(figures, figures)), None)
+    points = tuple(ProgressPoint(figures, incomparable_reasons(first or figures, figures)) for figures in ordered)
+    fair = [point.results for point in points if point.is_comparable]
     comparisons: tuple[Comparison, ...] = ()
     if len(fair) > 1:
         wanted = [row for row in (fair[-1].find(*key) for key in keys) if row is not None] if keys else None
-        comparisons = compare(fair[0], fair[-1], wanted)
+        comparisons = compare_ranges(fair[0], fair[-1], wanted)
     replaced = tuple(figures for figures in sessions if all(figures is not kept for kept in ordered))
     return Progress(points, comparisons, other_hand, tuple(keys), replaced)
 
 
-def newest_results(sessions: Sequence[SessionFigures]) -> list[SessionFigures]:
+def select_latest_versions(sessions: Sequence[SessionResults]) -> list[SessionResults]:
     """Of every recording its newest result, in order of when the hand moved."""
-    newest: dict[str, SessionFigures] = {}
+    newest: dict[str, SessionResults] = {}
     for figures in sorted(sessions, key=lambda figures: figures.created or figures.when):
         newest[figures.recording_id or figures.session_id] = figures
     return sorted(newest.values(), key=lambda figures: figures.when)
 
 
-def previous_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
+def find_previous(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
     """The last earlier session of the same hand, protocol and exercise that counts."""
-    alike = [other for other in newest_results(history) if _alike(other, figures) and other.side == figures.side]
+    alike = [
+        other
+        for other in select_latest_versions(history)
+        if _is_same_task(other, figures) and other.side == figures.side
+    ]
     return max((other for other in alike if other.when < figures.when), key=lambda other: other.when, default=None)
 
 
-def limits_of(history: Sequence[SessionFigures]) -> ErrorLimits:
+def error_limits(history: Sequence[SessionResults]) -> ErrorLimits:
     """Against which the figures of a patient are judged; of nobody the default ones."""
     return history[0].error_limits if history else DEFAULT_LIMITS
 
 
-def other_hand_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
+def find_other_hand(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
     """The last session of the other hand in the same protocol and exercise."""
-    alike = [other for other in newest_results(history) if _alike(other, figures) and other.side != figures.side]
+    alike = [
+        other
+        for other in select_latest_versions(history)
+        if _is_same_task(other, figures) and other.side != figures.side
+    ]
     return max(alike, key=lambda other: other.when, default=None)
 
 
-def _alike(one: SessionFigures, other: SessionFigures) -> bool:
-    same_kind = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
-    return same_kind and bool(one.group("range")) and not one.not_counted and not _same_recording(one, other)
+def _is_same_task(one: SessionResults, other: SessionResults) -> bool:
+    same_kind = (one.exercise.id, one.protocol, one.is_simulated) == (
+        other.exercise.id,
+        other.protocol,
+        other.is_simulated,
+    )
+    return (
+        same_kind
+        and bool(one.measures_in_group("range"))
+        and not one.is_excluded
+        and not _is_same_recording(one, other)
+    )
 
 
-def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
+def _is_same_recording(one: SessionResults, other: SessionResults) -> bool:
     return bool(one.recording_id) and one.recording_id == other.recording_id
 
 
 Goals = Mapping[tuple[str, Side], tuple[float, float]]
 """What was accepted: exercise and hand to the targets of the positive and the negative direction, signed, NaN none."""
 
-SESSIONS = 3
+GOAL_SESSIONS = 3
 """So many sessions back: enough that one good day is no goal, few enough that the hand is still the same."""
-STEP_DEG = 5.0
+MAX_GOAL_STEP_DEG = 5.0
 """At most so far above their mean: near enough to be reached on the same day."""
-MOST_DEG = 90.0
+MAX_GOAL_DEG = 90.0
 
 
 @dataclass(frozen=True, slots=True)
 class GoalProposal:
     """For one direction, degrees that way (supination is below 0
     where thumb up was not reached): the mean of the last ``sessions``, the ``goal_deg`` proposed, whole
-    degrees, and ``told_from_deg``, from where on a gain exceeds measurement error; the goal is never above it."""
+    degrees, and ``detectable_from_deg``, from where on a gain exceeds measurement error; the goal is never above it."""
 
     direction: int
     basis_deg: float
     sessions: int
     goal_deg: float
-    told_from_deg: float
+    detectable_from_deg: float
 
 
-def proposals(
-    history: Sequence[SessionFigures], exercise: Exercise, side: Side, protocol: str
+def propose_goals(
+    history: Sequence[SessionResults], exercise: Exercise, side: Side, protocol: str
 ) -> tuple[GoalProposal, ...]:
     """For both directions of the wrist, or the one of a joint, as far as sessions speak for any: of this exercise, hand
     and discs, which compare with the newest of them."""
     same = [one for one in history if (one.exercise.id, one.side, one.protocol) == (exercise.id, side, protocol)]
     newest_first = sorted(same, key=lambda one: one.when, reverse=True)
-    sound = [one for one in newest_first if not unfair_reasons(one, one)]
-    recent = [one for one in sound if not unfair_reasons(sound[0], one)][:SESSIONS]
-    found = (_proposal(recent, exercise, direction) for direction in (1, -1))
+    sound = [one for one in newest_first if not incomparable_reasons(one, one)]
+    recent = [one for one in sound if not incomparable_reasons(sound[0], one)][:GOAL_SESSIONS]
+    found = (_propose_goal(recent, exercise, direction) for direction in (1, -1))
     return tuple(one for one in found if one is not None)
 
 
-def row_aimed_at(figures: SessionFigures, exercise: Exercise, direction: int) -> Measure | None:
+def goal_measure(figures: SessionResults, exercise: Exercise, direction: int) -> Measure | None:
     """The range whose end a target of a direction is, None where there is none."""
     if exercise.angle is not None:
-        return figures.find(WRIST_ANGLES[exercise.angle], SIDES[exercise.angle][0 if direction > 0 else 1])
+        return figures.find(WRIST_ANGLES[exercise.angle], DIRECTIONS[exercise.angle][0 if direction > 0 else 1])
     return figures.find(exercise.joint, "flexion") if exercise.joint and direction > 0 else None
 
 
-def _proposal(recent: Sequence[SessionFigures], exercise: Exercise, direction: int) -> GoalProposal | None:
-    rows = [(one, row_aimed_at(one, exercise, direction)) for one in recent]
-    known = [(one, row) for one, row in rows if row is not None and row.count and not row.at_least]
+def _propose_goal(recent: Sequence[SessionResults], exercise: Exercise, direction: int) -> GoalProposal | None:
+    rows = [(one, goal_measure(one, exercise, direction)) for one in recent]
+    known = [(one, row) for one, row in rows if row is not None and row.count and not row.is_lower_bound]
     means = [row.mean for _, row in known if math.isfinite(row.mean)]
     if not means:
         return None
     basis = sum(means) / len(means)
-    limit = limit_deg(*known[0])
+    limit = change_limit_deg(*known[0])
     told_from = math.ceil(basis + limit)
-    goal = min(math.floor(basis + min(STEP_DEG, limit)), MOST_DEG)
-    least = 1.0 if exercise.angle != PRONOSUPINATION else -MOST_DEG  # a palm turns up from 90 degrees of pronation
-    if goal < least or (goal == MOST_DEG and goal < basis):  # no step up is left
+    goal = min(math.floor(basis + min(MAX_GOAL_STEP_DEG, limit)), MAX_GOAL_DEG)
+    least = 1.0 if exercise.angle != PRONOSUPINATION else -MAX_GOAL_DEG  # a palm turns up from 90 degrees of pronation
+    if goal < least or (goal == MAX_GOAL_DEG and goal < basis):  # no step up is left
         return None
     return GoalProposal(direction, basis, len(means), float(goal), float(told_from))

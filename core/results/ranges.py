@@ -14,34 +14,34 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.clinical_angles import angle_rates_matrix, isb_from_rotation
-from carpus.core.hand.exercises import PRONOSUPINATION, SIDES, Exercise, Movement
-from carpus.core.hand.forearm_rotation import is_from_thumb_up
+from carpus.core.hand.exercises import DIRECTIONS, PRONOSUPINATION, Exercise, Movement
+from carpus.core.hand.forearm_rotation import is_counted_from_thumb_up
 from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.fingers import FINGERS, JointTrack, joint_range, total_active_motion
-from carpus.core.measures.motion_range import MotionRange, RangeFigure, motion_range
-from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
+from carpus.core.measures.motion_range import MotionRange, RangeStatistics, motion_range
+from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.results.measure import Measure, MeasureKey
-from carpus.core.results.seen import SeenSession
+from carpus.core.results.seen import MeasurableSession
 from carpus.core.session.values import AngleOrder, Motion, Session
 from carpus.core.types import FloatArray, Side
 
 _STEP_RAD = 1e-6
 
 
-def in_order(session: Session, order: AngleOrder) -> Session:
+def with_angle_order(session: Session, order: AngleOrder) -> Session:
     """The session with its wrist angles and their standard deviations in an order; its turns stay as they are."""
     if order == session.angle_order:
         return session
     if session.angle_order != "zyx":
         raise ValueError(f"a session in the order {session.angle_order}")
     side = session.header.hand
-    smoothed = None if session.smoothed is None else _in_isb(session.smoothed, side)
-    return replace(session, motion=_in_isb(session.motion, side), smoothed=smoothed, angle_order=order)
+    smoothed = None if session.smoothed is None else _with_isb_angles(session.smoothed, side)
+    return replace(session, motion=_with_isb_angles(session.motion, side), smoothed=smoothed, angle_order=order)
 
 
-def _in_isb(motion: Motion, side: Side) -> Motion:
+def _with_isb_angles(motion: Motion, side: Side) -> Motion:
     turned = motion.rotation_w2_w0
     return replace(
         motion,
@@ -67,70 +67,76 @@ FREE_ORDER = (1, 0, 2)
 """Bending first where no angle is trained."""
 
 
-def range_measure(of: str, movement: Movement, figure: RangeFigure, at_least: bool) -> Measure:
+def make_range_measure(subject: str, movement: Movement, figure: RangeStatistics, is_lower_bound: bool) -> Measure:
     """Make the row of one movement of an angle or joint."""
     values = tuple(math.degrees(value) for value in figure.values)
     return Measure(
-        "range", of, movement, "deg", values, math.degrees(figure.mean), math.degrees(figure.spread_sd),
-        math.degrees(figure.best), math.degrees(figure.measurement_sd), at_least,
+        "range", subject, movement, "deg", values, math.degrees(figure.mean), math.degrees(figure.spread_sd),
+        math.degrees(figure.best), math.degrees(figure.measurement_sd), is_lower_bound,
     )  # fmt: skip
 
 
-def wrist_ranges(seen: SeenSession, counted: Sequence[Repetition]) -> tuple[Measure, ...]:
+def measure_wrist_ranges(seen: MeasurableSession, repetitions: Sequence[Repetition]) -> tuple[Measure, ...]:
     """Measure the angle that the exercise trains, else all three: over the repetitions that count, without any over the
     whole session. A rotation that accompanies another movement is no pronation or supination: it has its arc alone."""
     angles = FREE_ORDER if seen.exercise.angle is None else (seen.exercise.angle,)
     smoothed = seen.session.smoothed is not None
-    rows = (row for angle in angles for row in _angle_ranges(angle, seen.signals[angle], counted, smoothed))
-    thumb_up = is_from_thumb_up(seen.exercise)
-    return tuple(row for row in rows if thumb_up or row.angle != PRONOSUPINATION or row.what == "arc")
+    rows = (row for angle in angles for row in _measure_angle_ranges(angle, seen.signals[angle], repetitions, smoothed))
+    thumb_up = is_counted_from_thumb_up(seen.exercise)
+    return tuple(row for row in rows if thumb_up or row.wrist_angle != PRONOSUPINATION or row.quantity == "arc")
 
 
-def _angle_ranges(angle: int, signal: Signal, counted: Sequence[Repetition], smoothed: bool) -> list[Measure]:
+def _measure_angle_ranges(
+    angle: int, signal: Signal, repetitions: Sequence[Repetition], smoothed: bool
+) -> list[Measure]:
     """Arc, positive and negative direction of one angle. A direction that was never reached is below zero: by so much
     the other one does not come back to neutral (a deficit). Without repetitions it is left out."""
     if not len(signal.time_s):
         return []
-    smooth = low_pass(signal, HIGHEST_CUTOFF_HZ)
-    found = motion_range(smooth.column(0), signal.column(1), tuple(counted), smoothed=smoothed)
-    (positive, negative), of = SIDES[angle], WRIST_ANGLES[angle]
+    smooth = low_pass(signal, MAX_CUTOFF_HZ)
+    found = motion_range(smooth.column(0), signal.column(1), tuple(repetitions), smoothed=smoothed)
+    (positive, negative), of = DIRECTIONS[angle], WRIST_ANGLES[angle]
     turned = replace(found.minimum, values=-found.minimum.values, best=-found.minimum.best)
     rows = [
-        range_measure(of, "arc", found.arc, found.top_limited or found.bottom_limited),
-        range_measure(of, positive, found.maximum, found.top_limited),
-        range_measure(of, negative, turned, found.bottom_limited),
+        make_range_measure(of, "arc", found.arc, found.top_limited or found.bottom_limited),
+        make_range_measure(of, positive, found.maximum, found.top_limited),
+        make_range_measure(of, negative, turned, found.bottom_limited),
     ]
-    least = -math.inf if counted else 0.0
-    return [row for row in rows if row.count and (row.what == "arc" or row.mean > least)]
+    least = -math.inf if repetitions else 0.0
+    return [row for row in rows if row.count and (row.quantity == "arc" or row.mean > least)]
 
 
-def joint_ranges(
-    tracks: Mapping[str, JointTrack], counted: Sequence[Repetition], exercise: Exercise
+def measure_joint_ranges(
+    tracks: Mapping[str, JointTrack], repetitions: Sequence[Repetition], exercise: Exercise
 ) -> tuple[Measure, ...]:
     """Measure the total (TAM) of every finger, then arc, most and least bent angle of every joint: ``extension`` holds
     the least bent one with its sign, what is missing to straight, below zero bent back."""
     rows: list[Measure] = []
-    for finger in FINGERS if tracks and exercise.total else ():
-        joints, inferred = bending_joints(finger, tuple(tracks))
+    for finger in FINGERS if tracks and exercise.has_total_motion else ():
+        joints, inferred = flexion_joints(finger, tuple(tracks))
         if set(joints) <= set(tracks):
             own = [tracks[name] for name in joints]
-            share = min(track.seen_share for track in own) if all(track.known for track in own) else 0.0
-            rows += _joint_rows(f"TAM{finger}", total_active_motion(own, counted, inferred=inferred), share, inferred)
+            share = min(track.visible_share for track in own) if all(track.is_known for track in own) else 0.0
+            rows += _make_joint_measures(
+                f"TAM{finger}", total_active_motion(own, repetitions, inferred=inferred), share, inferred
+            )
     for name, track in tracks.items():
-        rows += _joint_rows(name, joint_range(track, counted), track.seen_share)
+        rows += _make_joint_measures(name, joint_range(track, repetitions), track.visible_share)
     return tuple(rows)
 
 
-def _joint_rows(of: str, found: MotionRange, seen_share: float, inferred: bool = False) -> Iterator[Measure]:
+def _make_joint_measures(
+    subject: str, found: MotionRange, seen_share: float, inferred: bool = False
+) -> Iterator[Measure]:
     for row in (
-        range_measure(of, "arc", found.arc, found.top_limited or found.bottom_limited),
-        range_measure(of, "flexion", found.maximum, found.top_limited),
-        range_measure(of, "extension", found.minimum, found.bottom_limited),
+        make_range_measure(subject, "arc", found.arc, found.top_limited or found.bottom_limited),
+        make_range_measure(subject, "flexion", found.maximum, found.top_limited),
+        make_range_measure(subject, "extension", found.minimum, found.bottom_limited),
     ):
-        yield replace(row, seen_share=seen_share, inferred=inferred)
+        yield replace(row, seen_share=seen_share, is_inferred=inferred)
 
 
-def bending_joints(finger: int, names: Sequence[str]) -> tuple[tuple[str, ...], bool]:
+def flexion_joints(finger: int, names: Sequence[str]) -> tuple[tuple[str, ...], bool]:
     """Names of the joints that bend a finger, base first, and whether its end joint is inferred, not measured."""
     if finger == 1:
         return ("MCP1_flexion", "IP1_flexion"), False
@@ -139,29 +145,29 @@ def bending_joints(finger: int, names: Sequence[str]) -> tuple[tuple[str, ...], 
     return ((*measured, end), False) if end in names else (measured, True)
 
 
-def finger_keys(finger: int) -> tuple[MeasureKey, ...]:
+def finger_measure_keys(finger: int) -> tuple[MeasureKey, ...]:
     """What is followed of one finger: its total, then the arcs of its joints; of finger 0 the totals of all."""
     if finger == 0:
         return tuple((f"TAM{k}", "arc") for k in FINGERS)
-    joints, _ = bending_joints(finger, joint_angle_names(True))
+    joints, _ = flexion_joints(finger, joint_angle_names(True))
     return ((f"TAM{finger}", "arc"), *((name, "arc") for name in joints))
 
 
-def spread_keys() -> tuple[MeasureKey, ...]:
+def abduction_measure_keys() -> tuple[MeasureKey, ...]:
     """The arcs of spreading, thumb to little finger."""
     return (("CMC1_extension", "arc"), *((f"MCP{k}_abduction", "arc") for k in FINGERS[1:]))
 
 
-def thumb_keys() -> tuple[MeasureKey, ...]:
+def thumb_measure_keys() -> tuple[MeasureKey, ...]:
     """What is followed where the thumb's base is trained: its lift and spread first, then its bending."""
-    names = ("CMC1_abduction", "CMC1_extension", *bending_joints(1, joint_angle_names(True))[0])
+    names = ("CMC1_abduction", "CMC1_extension", *flexion_joints(1, joint_angle_names(True))[0])
     return tuple((name, "arc") for name in names)
 
 
-STILL = "largest size"
+LARGEST_SIZE = "largest size"
 
 
-def measure_still_angles(seen: SeenSession) -> tuple[Measure, ...]:
+def measure_still_angles(seen: MeasurableSession) -> tuple[Measure, ...]:
     """Measure how far the angles went that should stay still; none where the exercise sets no limit."""
     if not math.isfinite(seen.exercise.trick_limit_deg):
         return ()
@@ -171,5 +177,5 @@ def measure_still_angles(seen: SeenSession) -> tuple[Measure, ...]:
             size_rad = np.abs(low_pass(signal.column(0)).value)
             if np.isfinite(size_rad).any():
                 size_deg = math.degrees(float(np.nanmax(size_rad)))
-                out.append(Measure("still", WRIST_ANGLES[angle], STILL, "deg", (size_deg,), size_deg))
+                out.append(Measure("still", WRIST_ANGLES[angle], LARGEST_SIZE, "deg", (size_deg,), size_deg))
     return tuple(out)

@@ -16,10 +16,10 @@ LETTER_COUNTRIES = ("US", "CA")
 SECTIONS = ("diagnosis", "table", "curves", "bars", "quality", "speed", "by_hand", "motion")
 """Parts of a session's report that may be left out. Who and when, the sentences, warnings, method, legal sentence and
 origin always stay; so does ``quality`` where something is not as it should be."""
-UNASKED_OUT = frozenset({"diagnosis"})
+DEFAULT_EXCLUDED = frozenset({"diagnosis"})
 """Left out until the clinic wants it."""
-MOST_SENTENCES = 60
-MOST_NAME, MOST_ADDRESS_LINES, MOST_ADDRESS = 60, 4, 80
+MAX_SENTENCES = 60
+MAX_NAME_CHARACTERS, MAX_ADDRESS_LINES, MAX_ADDRESS_CHARACTERS = 60, 4, 80
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,19 +46,20 @@ class Letterhead:
 
 @dataclass(frozen=True, slots=True)
 class ReportForm:
-    """What a report is printed on and with. ``left_out``: of :data:`SECTIONS`; ``sentences`` the therapist's own,
+    """What a report is printed on and with. ``excluded_sections``: of :data:`SECTIONS`; ``sentences`` the therapist's
+    own,
     to write comments with."""
 
     letterhead: Letterhead = field(default_factory=Letterhead)
     paper: Paper = "a4"
-    left_out: frozenset[str] = UNASKED_OUT
+    excluded_sections: frozenset[str] = DEFAULT_EXCLUDED
     sentences: tuple[str, ...] = ()
 
-    def has(self, section: str) -> bool:
-        return section not in self.left_out
+    def includes(self, section: str) -> bool:
+        return section not in self.excluded_sections
 
 
-def usual_paper(country: str) -> Paper:
+def default_paper(country: str) -> Paper:
     """The paper of a country by its two letters.
 
     >>> usual_paper("US"), usual_paper("DE")
@@ -67,5 +68,5 @@ def usual_paper(country: str) -> Paper:
     return "letter" if country.upper() in LETTER_COUNTRIES else "a4"
 
 
-USUAL_FORM = ReportForm()
+DEFAULT_FORM = ReportForm()
 """No letterhead, A4, everything but the diagnosis."""

@@ -7,30 +7,37 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.hand.exercises import Exercise, exercise_named
-from carpus.core.hand.forearm_rotation import read_wrist_angles
-from carpus.core.measures.fingers import JointTrack, joint_track, joints_seen, possible_joints, valid_joints
-from carpus.core.measures.signals import BoolArray, Signal, even_signal, settled, valid_view, valid_wrist_angles
+from carpus.core.hand.exercises import Exercise, get_exercise
+from carpus.core.hand.forearm_rotation import to_clinical_wrist_angles
+from carpus.core.measures.fingers import JointTrack, joint_track, plausible_joints, valid_joints, visible_joints
+from carpus.core.measures.signals import (
+    BoolArray,
+    Signal,
+    exclude_view_edges,
+    resample_evenly,
+    valid_view,
+    valid_wrist_angles,
+)
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
 
 
-def best_motion(session: Session) -> Motion:
+def motion_estimate(session: Session) -> Motion:
     """The smoother's result where there is one, else the filter's."""
     return session.motion if session.smoothed is None else session.smoothed
 
 
-def read_angles_rad(session: Session) -> FloatArray:
+def clinical_angles_rad(session: Session) -> FloatArray:
     """The wrist's angles (N, 3) as a clinician reads them, by the smoother where there is one."""
-    exercise = exercise_named(session.header.exercise)
-    return read_wrist_angles(best_motion(session).angles_rad, exercise, session.calibration.start_angles_rad)
+    exercise = get_exercise(session.header.exercise)
+    return to_clinical_wrist_angles(motion_estimate(session).angles_rad, exercise, session.calibration.start_angles_rad)
 
 
 @dataclass(frozen=True, slots=True)
-class ReportCurves:
+class WristCurves:
     """Angles over the session as they are drawn: ``time_s`` (N,) after the first frame, the rest (N, 3).
 
-    The wrist's are counted as :func:`core.hand.forearm_rotation.read_wrist_angles` says.
+    The wrist's are counted as :func:`core.hand.forearm_rotation.to_clinical_wrist_angles` says.
     """
 
     time_s: FloatArray
@@ -39,25 +46,25 @@ class ReportCurves:
     status: FloatArray
 
 
-def session_curves(session: Session) -> ReportCurves:
+def wrist_curves(session: Session) -> WristCurves:
     """Angles ready to draw."""
-    motion = best_motion(session)
+    motion = motion_estimate(session)
     time_s = session.timestamp_s - session.timestamp_s[0] if len(session) else np.empty(0)
-    return ReportCurves(
-        time_s, np.degrees(read_angles_rad(session)), np.degrees(motion.angles_sd_rad), np.asarray(session.status)
+    return WristCurves(
+        time_s, np.degrees(clinical_angles_rad(session)), np.degrees(motion.angles_sd_rad), np.asarray(session.status)
     )
 
 
 @dataclass(frozen=True, slots=True)
 class JointCurves:
     """Joint angles over the session as they are drawn: ``time_s`` (N,) after the first frame, angles and sds (N, J),
-    ``seen`` bool (N, J) where the angle was measured directly and counts."""
+    ``is_valid`` bool (N, J) where the angle was measured directly and counts."""
 
     names: tuple[str, ...]
     time_s: FloatArray
     angles_deg: FloatArray
     sds_deg: FloatArray
-    seen: np.ndarray
+    is_valid: np.ndarray
 
 
 def joint_curves(session: Session) -> JointCurves | None:
@@ -65,9 +72,9 @@ def joint_curves(session: Session) -> JointCurves | None:
     names = session.header.joint_names
     if not names:
         return None
-    motion = best_motion(session)
-    seen = joints_seen(names, session.header.protocol.markers, session.markers.measured_px)
-    possible = possible_joints(names, motion.joint_angles_rad)
+    motion = motion_estimate(session)
+    seen = visible_joints(names, session.header.protocol.markers, session.markers.measured_px)
+    possible = plausible_joints(names, motion.joint_angles_rad)
     angles = np.where(possible, motion.joint_angles_rad, np.nan)
     sds = np.where(possible, motion.joint_angles_sd_rad, np.nan)
     return JointCurves(
@@ -75,54 +82,57 @@ def joint_curves(session: Session) -> JointCurves | None:
         time_s=session.timestamp_s - session.timestamp_s[:1],
         angles_deg=np.degrees(angles),
         sds_deg=np.degrees(sds),
-        seen=valid_joints(session.status, seen, angles, sds),
+        is_valid=valid_joints(session.status, seen, angles, sds),
     )
 
 
-def joint_tracks(session: Session, only: Collection[str] | None = None) -> dict[str, JointTrack]:
-    """Every joint by its name, or ``only`` some; empty for the wrist alone."""
+def joint_tracks(session: Session, names: Collection[str] | None = None) -> dict[str, JointTrack]:
+    """Every joint by its name, or ``names`` some; empty for the wrist alone."""
     curves = joint_curves(session)
     if curves is None:
         return {}
     angles, sds = np.radians(curves.angles_deg), np.radians(curves.sds_deg)
     return {
-        name: joint_track(name, curves.time_s, angles[:, k], sds[:, k], curves.seen[:, k], session.smoothed is not None)
+        name: joint_track(
+            name, curves.time_s, angles[:, k], sds[:, k], curves.is_valid[:, k], session.smoothed is not None
+        )
         for k, name in enumerate(curves.names)
-        if only is None or name in only
+        if names is None or name in names
     }
 
 
-def seen_well(session: Session) -> BoolArray:
+def palm_in_view(session: Session) -> BoolArray:
     """Frames (N,) that the camera saw well enough to measure the wrist."""
-    motion, palm = best_motion(session), list(session.header.protocol.palm)
+    motion, palm = motion_estimate(session), list(session.header.protocol.palm)
     view = valid_view(
         session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
     )
-    return settled(view, session.timestamp_s - session.timestamp_s[:1])
+    return exclude_view_edges(view, session.timestamp_s - session.timestamp_s[:1])
 
 
-def wrist_signals(session: Session, view: BoolArray) -> list[Signal]:
+def wrist_signals(session: Session, is_in_view: BoolArray) -> list[Signal]:
     """The wrist's three angles as they are read, each with its sd, with gaps where it was not seen well."""
-    angles_rad, sds_rad = read_angles_rad(session), best_motion(session).angles_sd_rad
-    valid = valid_wrist_angles(view, angles_rad, sds_rad)
+    angles_rad, sds_rad = clinical_angles_rad(session), motion_estimate(session).angles_sd_rad
+    valid = valid_wrist_angles(is_in_view, angles_rad, sds_rad)
     time_s = session.timestamp_s - session.timestamp_s[:1]
-    return [even_signal(time_s, np.column_stack((angles_rad[:, k], sds_rad[:, k])), valid[:, k]) for k in range(3)]
+    return [resample_evenly(time_s, np.column_stack((angles_rad[:, k], sds_rad[:, k])), valid[:, k]) for k in range(3)]
 
 
 @dataclass(frozen=True, slots=True)
-class SeenSession:
-    """A session with what of it may be measured: ``view`` (N,) the frames that show the palm well, ``signals`` the
+class MeasurableSession:
+    """A session with what of it may be measured: ``is_in_view`` (N,) the frames that show the palm well, ``signals``
+    the
     wrist's three angles, ``tracks`` every joint by its name."""
 
     session: Session
     exercise: Exercise
-    view: BoolArray
+    is_in_view: BoolArray
     signals: list[Signal]
     tracks: dict[str, JointTrack]
 
     @classmethod
-    def of(cls, session: Session, joints: Collection[str] | None = None) -> SeenSession:
+    def from_session(cls, session: Session, joints: Collection[str] | None = None) -> MeasurableSession:
         """By the rules of the ranges; ``joints`` alone where no other is asked for."""
-        view = seen_well(session)
-        exercise = exercise_named(session.header.exercise)
+        view = palm_in_view(session)
+        exercise = get_exercise(session.header.exercise)
         return cls(session, exercise, view, wrist_signals(session, view), joint_tracks(session, joints))

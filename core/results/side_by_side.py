@@ -12,55 +12,62 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.measure import Measure, MeasureKey
 from carpus.core.results.progress import (
     Comparison,
-    Unfairness,
+    IncomparableReason,
     Verdict,
-    compare,
-    newest_results,
-    other_hand_of,
-    unfair_reasons,
+    compare_ranges,
+    find_other_hand,
+    incomparable_reasons,
+    select_latest_versions,
 )
-from carpus.core.results.repetition_rows import ShownRepetition
+from carpus.core.results.repetition_rows import RepetitionResult
 from carpus.core.types import FloatArray, Side
 
 Relation = Literal["hands", "dates"]
 
 
 @dataclass(frozen=True, slots=True)
-class SideBySide:
+class SessionPair:
     """The ``first`` session is the one in question, the ``second`` what it is held against: the healthy hand, or the
     earlier date. ``ranges`` of the first against the second: a verdict says of two dates whether it improved, of two
-    hands only whether the difference is beyond error. ``alone`` what only one of the two has, with whether that is the
+    hands only whether the difference is beyond error. ``unpaired`` what only one of the two has, with whether that is
+    the
     first. ``reasons`` why nothing is judged; empty where the pair is fair."""
 
-    first: SessionFigures
-    second: SessionFigures
+    first: SessionResults
+    second: SessionResults
     relation: Relation
     ranges: tuple[Comparison, ...]
-    reasons: tuple[Unfairness, ...]
-    alone: tuple[tuple[Measure, bool], ...] = ()
+    reasons: tuple[IncomparableReason, ...]
+    unpaired: tuple[tuple[Measure, bool], ...] = ()
 
     @property
-    def fair(self) -> bool:
+    def is_comparable(self) -> bool:
         """Whether the two compare at all."""
         return not self.reasons
 
     @property
-    def main(self) -> Comparison | None:
+    def main_comparison(self) -> Comparison | None:
         """What answers the question: the trained arc where it differs, the largest other difference, else the arc."""
-        arcs = [one for one in self.ranges if one.after.what == "arc"]
-        trained = [one for one in arcs if (one.after.of if one.is_of_joint else "") == self.first.exercise.joint]
-        largest = sorted((one for one in self.ranges if one.is_beyond), key=lambda one: -abs(one.difference_deg))
-        best: list[Comparison | None] = [*(one for one in trained if one.is_beyond), *largest, *trained, *arcs, None]
+        arcs = [one for one in self.ranges if one.after.quantity == "arc"]
+        trained = [one for one in arcs if (one.after.subject if one.is_joint else "") == self.first.exercise.joint]
+        largest = sorted((one for one in self.ranges if one.is_beyond_error), key=lambda one: -abs(one.difference_deg))
+        best: list[Comparison | None] = [
+            *(one for one in trained if one.is_beyond_error),
+            *largest,
+            *trained,
+            *arcs,
+            None,
+        ]
         return best[0]
 
 
-def ordered(
-    one: SessionFigures, other: SessionFigures, affected: Side | Literal["both", ""] = ""
-) -> tuple[SessionFigures, SessionFigures]:
+def order_pair(
+    one: SessionResults, other: SessionResults, affected: Side | Literal["both", ""] = ""
+) -> tuple[SessionResults, SessionResults]:
     """Which of two stands first: of two hands the affected one, else the right; of two dates the newer."""
     if one.side != other.side:
         asked = affected if affected in ("right", "left") else "right"
@@ -68,7 +75,7 @@ def ordered(
     return (one, other) if (one.when, one.session_id) >= (other.when, other.session_id) else (other, one)
 
 
-def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[MeasureKey] = ()) -> SideBySide:
+def compare_pair(first: SessionResults, second: SessionResults, keys: Sequence[MeasureKey] = ()) -> SessionPair:
     """Compare two sessions; ``keys`` choose what of the whole hand is looked at, without them it is the wrist."""
     relation: Relation = "hands" if first.side != second.side else "dates"
     # That it is the other hand is the question here, no obstacle to an answer.
@@ -77,9 +84,9 @@ def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[M
         [row for row in (one.find(*key) for key in keys) if row is not None] if keys else list(one.wrist_ranges)
         for one in (first, alike)
     )
-    ranges = list(compare(alike, first, rows))
+    ranges = list(compare_ranges(alike, first, rows))
     if relation == "hands":  # neither hand comes first: what is sure of the one way is sure of the other
-        turned = {item.key: item.verdict for item in compare(first, alike, [one.before for one in ranges])}
+        turned = {item.key: item.verdict for item in compare_ranges(first, alike, [one.before for one in ranges])}
         opposite: dict[str, Verdict] = {"improved": "worse", "worse": "improved"}
         for number, item in enumerate(ranges):
             if item.verdict == "not_judged" and turned.get(item.key) in opposite:
@@ -87,45 +94,49 @@ def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[M
     shared = {one.key for one in ranges}
     alone = [(row, True) for row in rows if row.key not in shared]
     alone += [(row, False) for row in others if row.key not in shared]
-    return SideBySide(first, second, relation, tuple(ranges), pair_reasons(first, second), tuple(alone))
+    return SessionPair(first, second, relation, tuple(ranges), pair_incomparable_reasons(first, second), tuple(alone))
 
 
-def pair_reasons(first: SessionFigures, second: SessionFigures) -> tuple[Unfairness, ...]:
+def pair_incomparable_reasons(first: SessionResults, second: SessionResults) -> tuple[IncomparableReason, ...]:
     """Why two sessions do not compare, whatever hand they are of; empty where they do."""
-    obstacles: list[Unfairness] = []
+    obstacles: list[IncomparableReason] = []
     if first.protocol != second.protocol:
         obstacles.append("protocol")
     if first.exercise.id != second.exercise.id:
         obstacles.append("exercise")
-    if any(not one.counted and not one.has_passive for one in (first, second)):
+    if any(not one.repetition_count and not one.has_passive for one in (first, second)):
         obstacles.append("few_repetitions_after")
-    return tuple(dict.fromkeys((*obstacles, *unfair_reasons(second, second), *unfair_reasons(second, first))))
+    return tuple(
+        dict.fromkeys((*obstacles, *incomparable_reasons(second, second), *incomparable_reasons(second, first)))
+    )
 
 
-def partner_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
+def find_partner(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
     """What a session is best held against: the other hand of the same day, else the last earlier session that
     compares, else the other hand of another day, else the nearest session of the same kind; None without any."""
-    other = other_hand_of(history, figures)
-    same_day = [one for one in newest_results(history) if one.side != figures.side and _alike(one, figures)]
+    other = find_other_hand(history, figures)
+    same_day = [
+        one for one in select_latest_versions(history) if one.side != figures.side and _is_same_task(one, figures)
+    ]
     same_day = [one for one in same_day if one.when.date() == figures.when.date()]
     if same_day:
-        fair = [one for one in same_day if not pair_reasons(figures, one)]
+        fair = [one for one in same_day if not pair_incomparable_reasons(figures, one)]
         return (fair or same_day)[-1]
-    mine = [one for one in newest_results(history) if one.side == figures.side and _alike(one, figures)]
+    mine = [one for one in select_latest_versions(history) if one.side == figures.side and _is_same_task(one, figures)]
     earlier = [one for one in mine if one.when < figures.when]
-    fair_earlier = [one for one in earlier if not pair_reasons(figures, one)]
+    fair_earlier = [one for one in earlier if not pair_incomparable_reasons(figures, one)]
     later = [one for one in mine if one.when > figures.when]
-    best: list[SessionFigures | None] = [*fair_earlier[-1:], other, *earlier[-1:], *later[:1], None]
+    best: list[SessionResults | None] = [*fair_earlier[-1:], other, *earlier[-1:], *later[:1], None]
     return next((one for one in best if one is not None), None)
 
 
-def _alike(one: SessionFigures, other: SessionFigures) -> bool:
-    same = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
-    return same and one.session_id != other.session_id and not one.not_counted
+def _is_same_task(one: SessionResults, other: SessionResults) -> bool:
+    same = (one.exercise.id, one.protocol, one.is_simulated) == (other.exercise.id, other.protocol, other.is_simulated)
+    return same and one.session_id != other.session_id and not one.is_excluded
 
 
 @dataclass(frozen=True, slots=True)
-class InStep:
+class PlaybackTimeline:
     """Knots (K,) between which time runs evenly: ``player_s`` rises strictly, ``first_s`` and ``second_s`` never fall.
 
     ``starts_s`` the player's time at which each pair of repetitions begins.
@@ -141,21 +152,21 @@ class InStep:
         """How long the player runs."""
         return float(self.player_s[-1])
 
-    def at(self, player_s: float) -> tuple[float, float]:
+    def recording_times(self, player_s: float) -> tuple[float, float]:
         """Where the first and the second recording are."""
         both = (np.interp(player_s, self.player_s, side) for side in (self.first_s, self.second_s))
         first, second = (float(value) for value in both)
         return first, second
 
-    def when_first(self, time_s: float) -> float:
+    def player_time_of_first(self, time_s: float) -> float:
         """The player's first moment at which the first recording has come to a time."""
-        return self._when(self.first_s, time_s)
+        return self._player_time(self.first_s, time_s)
 
-    def when_second(self, time_s: float) -> float:
+    def player_time_of_second(self, time_s: float) -> float:
         """The player's first moment at which the second recording has come to a time."""
-        return self._when(self.second_s, time_s)
+        return self._player_time(self.second_s, time_s)
 
-    def _when(self, side_s: FloatArray, time_s: float) -> float:
+    def _player_time(self, side_s: FloatArray, time_s: float) -> float:
         wanted = min(max(time_s, float(side_s[0])), float(side_s[-1]))
         k = int(np.searchsorted(side_s, wanted))  # the first knot at or after it
         if k == 0 or side_s[k] == side_s[k - 1]:
@@ -164,17 +175,17 @@ class InStep:
         return float(self.player_s[k - 1] + share * (self.player_s[k] - self.player_s[k - 1]))
 
 
-def in_step(
-    first: Sequence[ShownRepetition], second: Sequence[ShownRepetition], durations_s: tuple[float, float]
-) -> InStep:
+def align_playback(
+    first: Sequence[RepetitionResult], second: Sequence[RepetitionResult], durations_s: tuple[float, float]
+) -> PlaybackTimeline:
     """The first repetition beside the first one, the second beside the second, and so on, as both were found.
 
     The first recording runs at its own speed, the second so that both are in the same part of their repetition. What
     comes before the first repetition runs so that both begin it together; what comes after the last common one, and all
     where one has no repetition, runs at its own speed until each ends.
     """
-    knots = _Knots()
-    pairs = list(zip(_edges(first, durations_s[0]), _edges(second, durations_s[1])))  # noqa: B905
+    knots = _TimelineBuilder()
+    pairs = list(zip(_repetition_edges(first, durations_s[0]), _repetition_edges(second, durations_s[1])))  # noqa: B905
     starts: list[float] = []
     if pairs:
         (start_first, _), (start_second, _) = pairs[0]
@@ -184,15 +195,15 @@ def in_step(
         knots.add(lead_s, start_first, start_second)
     for number, (mine, other) in enumerate(pairs):
         starts.append(knots.player_s)
-        knots.go_on(mine[1] - mine[0] or other[1] - other[0], mine[1], other[1])
+        knots.advance(mine[1] - mine[0] or other[1] - other[0], mine[1], other[1])
         if number + 1 < len(pairs):
             (next_first, _), (next_second, _) = pairs[number + 1]
-            knots.run_to(next_first, next_second, together=True)
-    knots.run_to(*durations_s, together=False)
-    return knots.made(tuple(starts))
+            knots.advance_both(next_first, next_second, together=True)
+    knots.advance_both(*durations_s, together=False)
+    return knots.build(tuple(starts))
 
 
-class _Knots:
+class _TimelineBuilder:
     """Collects knots; time never goes back."""
 
     def __init__(self) -> None:
@@ -208,25 +219,25 @@ class _Knots:
         if row[0] > last[0]:
             self._rows.append(row)
 
-    def go_on(self, by_s: float, first_s: float, second_s: float) -> None:
+    def advance(self, by_s: float, first_s: float, second_s: float) -> None:
         self.add(self.player_s + by_s, first_s, second_s)
 
-    def run_to(self, first_s: float, second_s: float, *, together: bool) -> None:
+    def advance_both(self, first_s: float, second_s: float, *, together: bool) -> None:
         """To a place in each: evenly so that both arrive at once, or each at its own speed, waiting there."""
         _, at_first, at_second = self._rows[-1]
         ways = (max(first_s - at_first, 0.0), max(second_s - at_second, 0.0))
         if not together:
-            self.go_on(min(ways), at_first + min(ways), at_second + min(ways))
-            self.go_on(max(ways) - min(ways), at_first + ways[0], at_second + ways[1])
+            self.advance(min(ways), at_first + min(ways), at_second + min(ways))
+            self.advance(max(ways) - min(ways), at_first + ways[0], at_second + ways[1])
         else:
-            self.go_on(max(ways), at_first + ways[0], at_second + ways[1])
+            self.advance(max(ways), at_first + ways[0], at_second + ways[1])
 
-    def made(self, starts_s: tuple[float, ...]) -> InStep:
+    def build(self, starts_s: tuple[float, ...]) -> PlaybackTimeline:
         rows = np.array(self._rows if len(self._rows) > 1 else [*self._rows, (1e-3, 0.0, 0.0)])
-        return InStep(rows[:, 0], rows[:, 1], rows[:, 2], starts_s)
+        return PlaybackTimeline(rows[:, 0], rows[:, 1], rows[:, 2], starts_s)
 
 
-def _edges(repetitions: Sequence[ShownRepetition], duration_s: float) -> list[tuple[float, float]]:
+def _repetition_edges(repetitions: Sequence[RepetitionResult], duration_s: float) -> list[tuple[float, float]]:
     """Start and end of each whole one, in order and inside the recording, whatever a person moved them to."""
     out: list[tuple[float, float]] = []
     last = 0.0

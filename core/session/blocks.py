@@ -9,7 +9,7 @@ import numpy as np
 
 from carpus.core.session import schema
 from carpus.core.session.schema import Field, TableLayout
-from carpus.core.session.values import Event, Motion, RawPictures
+from carpus.core.session.values import EncodedImages, Event, Motion
 from carpus.core.types import SurfaceSamples, TrackedFrame
 
 Blocks = dict[str, Any]
@@ -17,7 +17,7 @@ Blocks = dict[str, Any]
 blocks, the ends of pictures from their first byte."""
 
 
-def frame_blocks(layout: TableLayout, frames: Sequence[TrackedFrame]) -> Blocks:
+def build_frame_blocks(layout: TableLayout, frames: Sequence[TrackedFrame]) -> Blocks:
     """Frames with their blobs and readings."""
     blobs = [frame.detections for frame in frames]
     counts = np.array([len(some) for some in blobs])
@@ -34,13 +34,13 @@ def frame_blocks(layout: TableLayout, frames: Sequence[TrackedFrame]) -> Blocks:
     for field in schema.FINGER_FIELDS if layout.protocol.has_fingers else ():
         found[field.path] = _fill_readings(field, [some.fingers for some in blobs])
     for field in filter(layout.has, schema.FRAME_FIELDS):
-        of = [frame.moment for frame in frames] if field in schema.MOTION_FIELDS else frames
+        of = [frame.kinematics for frame in frames] if field in schema.MOTION_FIELDS else frames
         values = [getattr(one, field.attribute) for one in of]
         found[field.path] = check_shape(field, values, (len(frames), *layout.row_shape(field)))
     return found
 
 
-def smoothed_blocks(layout: TableLayout, motion: Motion) -> Blocks:
+def build_motion_blocks(layout: TableLayout, motion: Motion) -> Blocks:
     """The smoother's result of some frames."""
     count = len(motion.position_m)
     return {
@@ -49,7 +49,7 @@ def smoothed_blocks(layout: TableLayout, motion: Motion) -> Blocks:
     }
 
 
-def event_blocks(event: Event) -> Blocks:
+def build_event_blocks(event: Event) -> Blocks:
     """One event, in as many rows as its text needs."""
     rows = [Event(event.time_s, event.kind, part) for part in _split_text(event.text)]
     found = {}
@@ -60,11 +60,11 @@ def event_blocks(event: Event) -> Blocks:
     return found
 
 
-def picture_blocks(pictures: Sequence[RawPictures]) -> Blocks:
+def build_image_blocks(images: Sequence[EncodedImages]) -> Blocks:
     """The pictures of some frames, and where each ends."""
     found: Blocks = {}
     for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True):
-        contents = [getattr(both, stream.attribute) for both in pictures]
+        contents = [getattr(both, stream.attribute) for both in images]
         found[stream.path] = np.frombuffer(b"".join(contents), np.uint8)
         found[end.path] = np.cumsum([len(content) for content in contents])
     return found

@@ -14,10 +14,10 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from carpus.core.durable import FULL, sync_folder, write_fault
+from carpus.core.durable import DISK_FULL_ERRNOS, sync_folder, write_fault
 from carpus.core.errors import DiskFull, OutputExists
 from carpus.core.phrase import phrase
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 
 if sys.platform != "win32":
     import fcntl
@@ -26,7 +26,7 @@ _SUPERBLOCK = struct.Struct("<8sB4xB10xQ8xQ")
 """Start of an HDF5 file: signature, version, size of addresses, base address, end-of-file address."""
 _END_OF_FILE_AT = _SUPERBLOCK.size - 8
 TEMPORARY = ".tmp"
-LEFT_AFTER_S = 60.0
+STALE_AFTER_S = 60.0
 """A file in the making is written to every few seconds; where locks do not work, one that is older is nobody's."""
 _PART = re.compile(r"(?P<target>.+)\.[0-9a-f]{8}\.part")
 
@@ -36,21 +36,21 @@ def temporary_path(target: Path) -> Path:
     return target.with_name(f".{target.name}.{secrets.token_hex(4)}{TEMPORARY}")
 
 
-def remove_leftovers(target: Path, after_s: float = LEFT_AFTER_S) -> None:
+def remove_leftovers(target: Path, min_age_s: float = STALE_AFTER_S) -> None:
     """Take away what killed programs left of a file in the making."""
     for left in target.parent.glob(f".{glob.escape(target.name)}.*{TEMPORARY}"):
         with contextlib.suppress(OSError):  # another program takes it away, or it is nobody's to take
-            if time.time() - left.stat().st_mtime >= after_s and not is_being_written(left):
+            if time.time() - left.stat().st_mtime >= min_age_s and not is_being_written(left):
                 left.unlink()
 
 
-def target_of_part(part: Path) -> Path | None:
+def find_part_target(part: Path) -> Path | None:
     """The name that a part file of Carpus 0.2.0 was to get; None for any other file."""
     match = _PART.fullmatch(part.name)
     return part.with_name(match["target"]) if match else None
 
 
-def reserve(descriptor: int, path: Path, begin: int, length: int) -> None:
+def reserve_space(descriptor: int, path: Path, begin: int, length: int) -> None:
     """Make sure that ``length`` bytes after ``begin`` can be written, or raise :class:`DiskFull` before any is.
 
     HDF5 writes its index in many small steps; if the disk fills between two of them the file is lost.
@@ -60,13 +60,13 @@ def reserve(descriptor: int, path: Path, begin: int, length: int) -> None:
             os.posix_fallocate(descriptor, begin, length)
             return
     except OSError as cause:
-        if cause.errno in FULL:
+        if cause.errno in DISK_FULL_ERRNOS:
             raise DiskFull(
-                path, phrase("no room for another {length} MB", length=written(length / 1000000.0, 1))
+                path, phrase("no room for another {length} MB", length=format_rounded(length / 1000000.0, 1))
             ) from cause
         # this file system cannot reserve: ask how much is free instead
     if shutil.disk_usage(path.parent).free < length:
-        raise DiskFull(path, phrase("no room for another {length} MB", length=written(length / 1000000.0, 1)))
+        raise DiskFull(path, phrase("no room for another {length} MB", length=format_rounded(length / 1000000.0, 1)))
 
 
 def is_being_written(path: Path) -> bool:
@@ -114,7 +114,7 @@ def _rename_to_free_name(whole: Path, target: Path) -> None:
         whole.unlink()
 
 
-def allow_written_bytes(part: Path) -> None:
+def repair_file_end(part: Path) -> None:
     """Set the end-of-file address to the file's true length.
 
     HDF5 writes that address last. A kill before it left good data behind an end that is too early, which HDF5
@@ -134,7 +134,7 @@ def allow_written_bytes(part: Path) -> None:
         raise write_fault(part, cause) from cause
 
 
-def free_name(target: Path) -> Path:
+def find_free_name(target: Path) -> Path:
     """The name itself, or with a number where a file has it."""
     candidate, number = target, 1
     while candidate.exists() or candidate.is_symlink():
@@ -143,14 +143,14 @@ def free_name(target: Path) -> Path:
     return candidate
 
 
-def below(folder: Path, ending: str = "") -> Iterator[Path]:
+def iter_paths(folder: Path, ending: str = "") -> Iterator[Path]:
     """All that lies below a folder under a name with that ending, links not followed. What another program takes away
     meanwhile, as it erases a patient, is passed over, where ``rglob`` fails. Raises OSError for what else keeps it from
     being seen."""
 
-    def failed(fault: OSError) -> None:
+    def handle_error(fault: OSError) -> None:
         if not isinstance(fault, FileNotFoundError | PermissionError):
             raise fault
 
-    for here, folders, files in os.walk(folder, onerror=failed):
+    for here, folders, files in os.walk(folder, onerror=handle_error):
         yield from (Path(here, name) for name in (*folders, *files) if name.endswith(ending))

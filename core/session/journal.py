@@ -31,11 +31,11 @@ import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.durable import Writing, hold, private, sync_folder, write_fault
+from carpus.core.durable import FileWriter, lock_file, open_private, sync_folder, write_fault
 from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, SessionUnreadable, TimesUnordered
 from carpus.core.phrase import phrase
-from carpus.core.session.blocks import Blocks, event_blocks, frame_blocks, smoothed_blocks
-from carpus.core.session.new_file import empty_session
+from carpus.core.session.blocks import Blocks, build_event_blocks, build_frame_blocks, build_motion_blocks
+from carpus.core.session.new_file import build_empty_session
 from carpus.core.session.schema import TableLayout
 from carpus.core.session.values import Event, Motion, SessionHeader
 from carpus.core.types import TrackedFrame
@@ -44,12 +44,12 @@ SUFFIX = ".journal"
 MAGIC = b"CARPUSRJ"
 SYNC_EVERY_S = 0.5
 """A kill or a power cut costs what came since; with the writing on a busy computer that stays below a second."""
-MAX_HELD = 256
+MAX_PENDING_ROWS = 256
 """Rows held in memory, where frames come faster than the clock: a stored recording that is played."""
 _RECORD = struct.Struct("<4sIIII")
 
 
-class RecordingJournal(Writing):
+class RecordingJournal(FileWriter):
     """Adds to a journal; used by one thread. What is held is written and synchronised twice a second."""
 
     def __init__(
@@ -63,23 +63,26 @@ class RecordingJournal(Writing):
     ) -> None:
         """Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then nothing is left."""
         self.path = path
-        self.rows = self.smoothed_rows = 0
+        self.rows = self.smoother_row_count = 0
         self._layout = TableLayout(header.protocol, header.joint_names)
         self._clock, self._synced_at_s = clock, clock()
         self._last_time_s = -np.inf
-        self._frames: list[TrackedFrame] = []
-        self._waiting: list[tuple[bytes, bytes]] = []
+        self._pending_frames: list[TrackedFrame] = []
+        self._pending_records: list[tuple[bytes, bytes]] = []
         self._count = 0
         self._fault: CarpusFault | None = None
         try:
-            self._file: FileIO | None = FileIO(path, "xb", opener=private)
+            self._file: FileIO | None = FileIO(path, "xb", opener=open_private)
         except FileExistsError as cause:
             raise OutputExists(path) from cause
         except OSError as cause:
             raise OutputNotWritable(path.parent, cause.strerror or "") from cause
         try:
-            hold(self._file)
-            self._waiting += [(b"SESS", empty_session(header, camera, calibration)), (b"PATI", patient_id.encode())]
+            lock_file(self._file)
+            self._pending_records += [
+                (b"SESS", build_empty_session(header, camera, calibration)),
+                (b"PATI", patient_id.encode()),
+            ]
             self._write(MAGIC)
         except BaseException:
             self.discard()
@@ -92,27 +95,27 @@ class RecordingJournal(Writing):
             times = {"timestamp_s": f"{tracked.timestamp_s:.6f}", "last_time_s": f"{self._last_time_s:.6f}"}
             raise TimesUnordered(self.path, phrase("{timestamp_s} s after {last_time_s} s", **times))
         self._last_time_s = tracked.timestamp_s
-        self._frames.append(tracked)
+        self._pending_frames.append(tracked)
         self.rows += 1
         self._write_when_due()
 
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
         """Note something that happened at a time of the recording."""
-        self._waiting.append((b"ROWS", pack_arrays(event_blocks(Event(time_s, kind, text)))))
+        self._pending_records.append((b"ROWS", pack_arrays(build_event_blocks(Event(time_s, kind, text)))))
         self._write_when_due()
 
     def add_smoothed(self, motion: Motion) -> None:
         """Take the smoother's result for the next frames, from the first appended on."""
-        self._waiting.append((b"SMOO", pack_arrays(smoothed_blocks(self._layout, motion))))
-        self.smoothed_rows += len(motion.position_m)
+        self._pending_records.append((b"SMOO", pack_arrays(build_motion_blocks(self._layout, motion))))
+        self.smoother_row_count += len(motion.position_m)
 
     def flush(self) -> None:
         """Bring everything taken so far to the disk."""
         if self._fault is not None:
             raise self._fault
-        if self._frames:
-            self._waiting.append((b"ROWS", pack_arrays(frame_blocks(self._layout, self._frames))))
-            self._frames = []
+        if self._pending_frames:
+            self._pending_records.append((b"ROWS", pack_arrays(build_frame_blocks(self._layout, self._pending_frames))))
+            self._pending_frames = []
         self._write()
 
     def close(self) -> None:
@@ -121,7 +124,7 @@ class RecordingJournal(Writing):
             try:
                 self.flush()
             finally:
-                self._let_go()
+                self._close_file()
 
     def abandon(self) -> None:
         """Stop after a fault; what was taken stays."""
@@ -130,31 +133,31 @@ class RecordingJournal(Writing):
 
     def discard(self) -> None:
         """Stop and remove the file: nothing was recorded, or the session has been written."""
-        self._let_go()
+        self._close_file()
         self.path.unlink(missing_ok=True)
 
-    def _let_go(self) -> None:
+    def _close_file(self) -> None:
         if self._file is not None:
             self._file.close()
             self._file = None
 
     def _write_when_due(self) -> None:
-        if self._clock() - self._synced_at_s >= SYNC_EVERY_S or len(self._frames) >= MAX_HELD:
+        if self._clock() - self._synced_at_s >= SYNC_EVERY_S or len(self._pending_frames) >= MAX_PENDING_ROWS:
             self.flush()
 
     def _write(self, start: bytes = b"") -> None:
         """All that waits, in one write that is synchronised."""
         self._synced_at_s = self._clock()
-        if not self._waiting:
+        if not self._pending_records:
             return
         if self._file is None:
             raise ValueError("the journal is closed")
         data = bytearray(start)
-        for kind, content in self._waiting:
+        for kind, content in self._pending_records:
             head = struct.pack("<4sIII", kind, self._count, len(content), zlib.crc32(content))
             data += head + struct.pack("<I", zlib.crc32(head)) + content
             self._count += 1
-        self._waiting = []
+        self._pending_records = []
         try:
             rest = memoryview(data)
             while rest:
@@ -168,7 +171,8 @@ class RecordingJournal(Writing):
 class JournalReader:
     """Reads a journal from its beginning on, and later what has come since; never writes.
 
-    Raises :class:`SessionUnreadable` where the beginning is not a journal's. ``image`` is the session file without
+    Raises :class:`SessionUnreadable` where the beginning is not a journal's. ``empty_session`` is the session file
+    without
     rows that every session begins with, None where the recording ended before that was stored.
     """
 
@@ -178,13 +182,13 @@ class JournalReader:
         except OSError as cause:
             raise SessionUnreadable(path, cause.strerror or "") from cause
         self._count, self._position = 0, len(MAGIC)
-        self._passed_over = self._has_gap = False
+        self._has_skipped = self._has_gap = False
         start = self._file.read(len(MAGIC))
         if not MAGIC.startswith(start.rstrip(b"\0")):
             self._file.close()
             raise SessionUnreadable(path, phrase("not a recording journal"))
         kind, content = next(self.read(), (b"", b""))
-        self.image = content if kind == b"SESS" else None
+        self.empty_session = content if kind == b"SESS" else None
 
     def read(self) -> Iterator[tuple[bytes, bytes]]:
         """Kind and content of each further record that is whole. One whose content is damaged is passed over; at a
@@ -203,10 +207,10 @@ class JournalReader:
             self._position += _RECORD.size + length
             self._count += 1
             if zlib.crc32(content) == content_sum:
-                self._has_gap |= self._passed_over
+                self._has_gap |= self._has_skipped
                 yield kind, content
             else:
-                self._passed_over = True
+                self._has_skipped = True
 
     def is_damaged(self) -> bool:
         """Whether a record follows one that was not read: bytes went bad, where a kill or a power cut costs the end."""
@@ -220,9 +224,9 @@ class JournalReader:
     @property
     def session_id(self) -> str:
         """Of the session; empty where the recording ended before that was stored."""
-        if self.image is None:
+        if self.empty_session is None:
             return ""
-        with h5py.File(io.BytesIO(self.image), "r") as file:
+        with h5py.File(io.BytesIO(self.empty_session), "r") as file:
             return str(file.attrs["session_id"])
 
     def close(self) -> None:
@@ -254,11 +258,11 @@ def unpack_arrays(content: bytes) -> Blocks:
     return blocks
 
 
-def claim(path: Path) -> BinaryIO | None:
+def lock_journal(path: Path) -> BinaryIO | None:
     """The open file of a journal that nobody is adding to, which it is until closed; else None."""
     file = path.open("r+b")
     try:
-        hold(file)
+        lock_file(file)
     except OSError:
         file.close()
         return None

@@ -21,15 +21,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
-from carpus.core.calibration.name_checks import crossing
+from carpus.core.calibration.name_checks import find_crossings
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 
-SAME_SPOT_PX = 6.0
+SAME_BLOB_PX = 6.0
 """A place this near to a blob means the blob."""
-FEWEST_FOR_PALM = 3
-MISFIT_M = 0.004
+MIN_PALM_MARKERS = 3
+MAX_FIT_ERROR_M = 0.004
 _NOWHERE = np.full(2, np.nan)
 
 
@@ -41,7 +41,7 @@ class Correction:
     places: Mapping[str, tuple[float, float] | None]
 
 
-def expected_px(session: Session, row: int, places: FloatArray, number: int) -> FloatArray:
+def predict_marker_px(session: Session, row: int, places: FloatArray, number: int) -> FloatArray:
     """Where (2,) in picture ``row`` the other discs of the palm at ``places`` (M, 2) expect marker ``number``.
 
     The palm as calibrated is laid on the others by their depths; of a disc on a finger, and where fewer than three
@@ -54,87 +54,88 @@ def expected_px(session: Session, row: int, places: FloatArray, number: int) -> 
     if number not in palm:
         return own
     others = [k for k in palm if k != number and np.isfinite(places[k]).all()]
-    depth_m = np.array([_depth_m(session, row, k) for k in others])
+    depth_m = np.array([_marker_depth_m(session, row, k) for k in others])
     known = np.isfinite(depth_m)
-    if np.count_nonzero(known) < FEWEST_FOR_PALM:
+    if np.count_nonzero(known) < MIN_PALM_MARKERS:
         return own
-    seen_m = camera.back_project(camera.undistort(places[others][known]), depth_m[known])
+    seen_m = camera.backproject(camera.undistort(places[others][known]), depth_m[known])
     shape_m = session.calibration.marker_position_w0_m
-    at_m = _laid_on(shape_m[np.array(others)[known]], seen_m, shape_m[number])
+    at_m = _map_by_palm(shape_m[np.array(others)[known]], seen_m, shape_m[number])
     return np.asarray(camera.distort(camera.project(at_m[None]))[0])
 
 
-def _laid_on(shape_m: FloatArray, seen_m: FloatArray, point_m: FloatArray) -> FloatArray:
+def _map_by_palm(shape_m: FloatArray, seen_m: FloatArray, point_m: FloatArray) -> FloatArray:
     """Where a point (3,) of the shape lies when its discs (K, 3) are laid on what is seen of them (K, 3). One disc that
     none of the others agrees with is left out: it has a wrong place itself."""
-    rotation, shift, misfit_m = _fit(shape_m, seen_m)
+    rotation, shift, misfit_m = _fit_rigid(shape_m, seen_m)
     count = len(shape_m)
-    if misfit_m > MISFIT_M and count > FEWEST_FOR_PALM:
-        without = [_fit(shape_m[np.arange(count) != k], seen_m[np.arange(count) != k]) for k in range(count)]
+    if misfit_m > MAX_FIT_ERROR_M and count > MIN_PALM_MARKERS:
+        without = [_fit_rigid(shape_m[np.arange(count) != k], seen_m[np.arange(count) != k]) for k in range(count)]
         best = min(without, key=lambda one: one[2])
         if best[2] < 0.5 * misfit_m:
             rotation, shift, _ = best
     return np.asarray(rotation @ point_m + shift)
 
 
-def _fit(shape_m: FloatArray, seen_m: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+def _fit_rigid(shape_m: FloatArray, seen_m: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """Rotation and shift that lay a shape on what is seen, and the root mean square of what is left, metres."""
-    rotation, shift = so3.rigid(shape_m, seen_m)
+    rotation, shift = so3.fit_rigid_transform(shape_m, seen_m)
     left_m = shape_m @ rotation.T + shift - seen_m
     return rotation, shift, float(np.sqrt((left_m**2).sum(axis=1).mean()))
 
 
-def _depth_m(session: Session, row: int, number: int) -> float:
+def _marker_depth_m(session: Session, row: int, number: int) -> float:
     measured = float(session.markers.measured_depth_m[row, number])
     return measured if np.isfinite(measured) else float(session.markers.position_cam_m[row, number, 2])
 
 
 IndexArray = NDArray[np.int64]
 
-WRONG_MISFIT_M = 0.005
+MAX_PALM_MISFIT_M = 0.005
 """Root mean square beyond which the palm's names are asked about; discs on moving skin stay below it."""
-FAR_M = 0.012
+MAX_PALM_OFFSET_M = 0.012
 """Further than this from where the other discs of the palm expect it no disc of the palm lies."""
-LONGER, MORE_M = 1.4, 0.010
+MAX_STRETCH, STRETCH_MARGIN_M = 1.4, 0.010
 """A finger that bends stretches the way from disc to disc over its back by no more than this."""
 
-CROSSING, CLEARLY = 0.15, 0.12
+CROSSING_WEIGHT, MIN_SWAP_GAIN = 0.15, 0.12
 """What a crossing counts as against length, and what an exchange of two names must gain to be spoken of."""
 
 _THUMB = 1
 
-STRETCHED = 0.8
+EXTENDED_SHARE = 0.8
 """Share of its length from which on a finger counts as seen at length."""
 
 
 @dataclass(frozen=True, slots=True)
-class NameDoubt:
-    """``exchanged`` names that stand in for each other, or ``alone`` one that is ``off_m`` from where it can be."""
+class LabelDoubt:
+    """``swapped`` names that stand in for each other, or ``misplaced`` one that is ``offset_m`` from where it can
+    be."""
 
-    exchanged: tuple[str, str] | None = None
-    alone: str = ""
-    off_m: float = math.nan
+    swapped: tuple[str, str] | None = None
+    misplaced: str = ""
+    offset_m: float = math.nan
 
 
-def name_doubt(session: Session, row: int, places: FloatArray, changed: Collection[str]) -> NameDoubt | None:
+def find_label_doubt(session: Session, row: int, places: FloatArray, changed: Collection[str]) -> LabelDoubt | None:
     """What is plainly wrong with the names at ``places`` (M, 2) of picture ``row``, of which a person ``changed`` some;
     None when nothing is. Only what has to do with a changed one is told."""
     markers = list(session.header.protocol.markers)
     numbers = {markers.index(name) for name in changed}
     if not numbers:
         return None
-    depth_m = _depths_m(session, row, places)
-    pair, alone = _palm_doubt(session, row, places, depth_m, numbers)
+    depth_m = _place_depths_m(session, row, places)
+    pair, alone = _find_palm_doubt(session, row, places, depth_m, numbers)
     if pair is None and session.header.protocol.has_fingers:
-        pair = _tangled(session, places, numbers, palm_too=alone is not None)
+        pair = _find_swapped_fingers(session, places, numbers, palm_too=alone is not None)
         if pair is None and alone is None:
-            alone = _too_far(session, places, depth_m, numbers)
+            alone = _find_misplaced_finger(session, places, depth_m, numbers)
     if pair is not None:
-        return NameDoubt((markers[pair[0]], markers[pair[1]]))
-    return None if alone is None else NameDoubt(None, markers[alone[0]], alone[1])
+        return LabelDoubt((markers[pair[0]], markers[pair[1]]))
+    return None if alone is None else LabelDoubt(None, markers[alone[0]], alone[1])
 
 
-def _depths_m(session: Session, row: int, places: FloatArray) -> FloatArray:
+def _place_depths_m(session: Session, row: int, places: FloatArray) -> FloatArray:
     """Depth (M,) at the places: what was measured of the disc that was there, else what is known of the marker."""
     before = session.markers.measured_px[row]
     measured = session.markers.measured_depth_m[row]
@@ -144,42 +145,44 @@ def _depths_m(session: Session, row: int, places: FloatArray) -> FloatArray:
     out = np.where(np.isfinite(own), own, float(np.median(known)) if len(known) else math.nan)
     for number, place in enumerate(places):
         away = np.linalg.norm(before - place, axis=1)
-        if np.isfinite(away).any() and np.nanmin(away) <= SAME_SPOT_PX:
+        if np.isfinite(away).any() and np.nanmin(away) <= SAME_BLOB_PX:
             there = int(np.nanargmin(away))
             out[number] = measured[there] if np.isfinite(measured[there]) else out[number]
     return np.asarray(out)
 
 
-def _palm_doubt(
+def _find_palm_doubt(
     session: Session, row: int, places: FloatArray, depth_m: FloatArray, changed: set[int]
 ) -> tuple[tuple[int, int] | None, tuple[int, float] | None]:
     """Two of the palm's names that were exchanged, or one that is somewhere else and how far, metres."""
     palm = [k for k in session.header.protocol.palm if np.isfinite(places[k]).all() and np.isfinite(depth_m[k])]
-    if len(palm) <= FEWEST_FOR_PALM or not changed & set(palm):
+    if len(palm) <= MIN_PALM_MARKERS or not changed & set(palm):
         return None, None
     camera, shape_m = session.camera, session.calibration.marker_position_w0_m
-    seen_m = camera.back_project(camera.undistort(places[palm]), depth_m[palm])
-    now_m = _fit(shape_m[palm], seen_m)[2]
-    if now_m <= WRONG_MISFIT_M:
+    seen_m = camera.backproject(camera.undistort(places[palm]), depth_m[palm])
+    now_m = _fit_rigid(shape_m[palm], seen_m)[2]
+    if now_m <= MAX_PALM_MISFIT_M:
         return None, None
     best_m, pair = now_m, (0, 0)
     for one, other in combinations(range(len(palm)), 2):
         order = np.arange(len(palm))
         order[[one, other]] = order[[other, one]]
-        trial_m = _fit(shape_m[palm], seen_m[order])[2]
+        trial_m = _fit_rigid(shape_m[palm], seen_m[order])[2]
         if trial_m < best_m:
             best_m, pair = trial_m, (palm[one], palm[other])
-    if best_m < 0.5 * now_m and best_m <= WRONG_MISFIT_M and changed & set(pair):
+    if best_m < 0.5 * now_m and best_m <= MAX_PALM_MISFIT_M and changed & set(pair):
         return pair, None
     off = []
     for number in sorted(changed & set(palm)):
-        away_px = float(np.linalg.norm(places[number] - expected_px(session, row, places, number)))
+        away_px = float(np.linalg.norm(places[number] - predict_marker_px(session, row, places, number)))
         off.append((away_px * float(depth_m[number]) / camera.fx_px, number))
     far_m, worst = max(off)
-    return None, ((worst, far_m) if far_m > FAR_M else None)
+    return None, ((worst, far_m) if far_m > MAX_PALM_OFFSET_M else None)
 
 
-def _tangled(session: Session, places: FloatArray, changed: set[int], *, palm_too: bool) -> tuple[int, int] | None:
+def _find_swapped_fingers(
+    session: Session, places: FloatArray, changed: set[int], *, palm_too: bool
+) -> tuple[int, int] | None:
     """Two discs of different fingers that were exchanged: without that the lines of the fingers are clearly shorter."""
     protocol = session.header.protocol
     size_px = float(np.linalg.norm(places[protocol.markers.index("MCP3")] - places[0]))
@@ -191,17 +194,17 @@ def _tangled(session: Session, places: FloatArray, changed: set[int], *, palm_to
         for other in seen:
             trial = places.copy()
             trial[[number, other]] = places[[other, number]]
-            if finger[other] == finger[number] and not _stretched(session, trial, size_px, finger[number]):
+            if finger[other] == finger[number] and not _is_extended(session, trial, size_px, finger[number]):
                 continue  # along a bent finger discs lie in any order
             # A thumb may lie across the palm.
-            gain = _tangle(protocol, places, size_px) - _tangle(protocol, trial, size_px)
+            gain = _compute_tangle(protocol, places, size_px) - _compute_tangle(protocol, trial, size_px)
             gain *= 0.5 if _THUMB in (finger[number], finger[other]) else 1.0
             trials.append((gain, (min(number, other), max(number, other))))
     best, pair = max(trials, default=(0.0, (0, 0)))
-    return pair if best > CLEARLY else None
+    return pair if best > MIN_SWAP_GAIN else None
 
 
-def _stretched(session: Session, places: FloatArray, size_px: float, finger: int) -> bool:
+def _is_extended(session: Session, places: FloatArray, size_px: float, finger: int) -> bool:
     """Whether a finger is seen at nearly its whole length."""
     protocol, shape_m = session.header.protocol, session.calibration.marker_position_w0_m
     chain = list(protocol.chains[finger][1:])
@@ -210,32 +213,34 @@ def _stretched(session: Session, places: FloatArray, size_px: float, finger: int
     palm_m = float(np.linalg.norm(shape_m[protocol.markers.index("MCP3")] - shape_m[0]))
     seen = float(np.linalg.norm(np.diff(places[chain], axis=0), axis=1).sum()) / size_px
     whole = float(np.linalg.norm(np.diff(shape_m[chain], axis=0), axis=1).sum()) / palm_m
-    return seen >= STRETCHED * whole
+    return seen >= EXTENDED_SHARE * whole
 
 
-def _too_far(session: Session, places: FloatArray, depth_m: FloatArray, changed: set[int]) -> tuple[int, float] | None:
+def _find_misplaced_finger(
+    session: Session, places: FloatArray, depth_m: FloatArray, changed: set[int]
+) -> tuple[int, float] | None:
     """A finger's disc that is further from its neighbour than the finger is long, and by how much, metres."""
     shape_m, camera = session.calibration.marker_position_w0_m, session.camera
-    flat_m = camera.back_project(camera.undistort(places), depth_m)[:, :2]
+    flat_m = camera.backproject(camera.undistort(places), depth_m)[:, :2]
     for chain in session.header.protocol.chains.values():
         for one, other in pairwise(chain[1:]):
             apart_m = float(np.linalg.norm(flat_m[one] - flat_m[other]))
-            more_m = apart_m - LONGER * float(np.linalg.norm(shape_m[one] - shape_m[other])) - MORE_M
+            more_m = apart_m - MAX_STRETCH * float(np.linalg.norm(shape_m[one] - shape_m[other])) - STRETCH_MARGIN_M
             if more_m > 0.0 and {one, other} & changed:
                 return (other if other in changed else one), more_m
     return None
 
 
-def _tangle(protocol: MarkerProtocol, places: FloatArray, size_px: float) -> float:
+def _compute_tangle(protocol: MarkerProtocol, places: FloatArray, size_px: float) -> float:
     """How long the fingers' lines are, in lengths from the wrist to the middle knuckle, and how often they cross."""
-    pieces, pairs = _pieces_of(protocol)
+    pieces, pairs = _finger_segments(protocol)
     start, end = places[pieces[:, 0]], places[pieces[:, 1]]
     length_px = float(np.nansum(np.linalg.norm(start - end, axis=1)))
-    return length_px / size_px + CROSSING * float(np.count_nonzero(crossing(start, end, pairs)))
+    return length_px / size_px + CROSSING_WEIGHT * float(np.count_nonzero(find_crossings(start, end, pairs)))
 
 
 @lru_cache(maxsize=4)
-def _pieces_of(protocol: MarkerProtocol) -> tuple[IndexArray, IndexArray]:
+def _finger_segments(protocol: MarkerProtocol) -> tuple[IndexArray, IndexArray]:
     """Pieces (P, 2) of the fingers' lines as rows of markers, and pairs (K, 2) of pieces of different fingers that
     share no disc."""
     ends = [(a, b, digit) for digit, chain in protocol.chains.items() for a, b in pairwise(chain)]
@@ -252,26 +257,27 @@ CORRECTED = "corrected"
 
 
 @dataclass(frozen=True, slots=True)
-class CorrectedFrom:
-    """``when`` the session was tracked again, ``from_s`` seconds after its first frame the first picture that was put
-    right, ``markers`` their names, ``by`` the initials of who did, empty for unknown."""
+class CorrectionSummary:
+    """``corrected_at`` the session was tracked again, ``first_corrected_s`` seconds after its first frame the first
+    picture that was put
+    right, ``markers`` their names, ``initials`` the initials of who did, empty for unknown."""
 
-    when: datetime
-    from_s: float
+    corrected_at: datetime
+    first_corrected_s: float
     markers: tuple[str, ...]
-    by: str = ""
+    initials: str = ""
 
 
-def said_of(correction: Correction, by: str) -> str:
+def correction_to_json(correction: Correction, initials: str) -> str:
     """The text of the event."""
     places = {
         name: None if place is None else [round(place[0], 1), round(place[1], 1)]
         for name, place in correction.places.items()
     }
-    return json.dumps({"markers": places} | ({"by": by} if by else {}), sort_keys=True)
+    return json.dumps({"markers": places} | ({"by": initials} if initials else {}), sort_keys=True)
 
 
-def corrections_in(session: Session) -> tuple[tuple[Correction, str], ...]:
+def read_corrections(session: Session) -> tuple[tuple[Correction, str], ...]:
     """All that was put right in a session, each with the initials of who did; a text that cannot be read says only
     when."""
     out = []
@@ -292,15 +298,15 @@ def corrections_in(session: Session) -> tuple[tuple[Correction, str], ...]:
     return tuple(sorted(out, key=lambda one: one[0].row))
 
 
-def corrected_from(session: Session) -> CorrectedFrom | None:
+def summarize_corrections(session: Session) -> CorrectionSummary | None:
     """Since when a session stands corrected; None for one as measured."""
-    said = corrections_in(session)
+    said = read_corrections(session)
     if not said:
         return None
     names = dict.fromkeys(name for correction, _ in said for name in correction.places)
     people = dict.fromkeys(by for _, by in said if by)
     start_s = float(session.timestamp_s[0])
-    return CorrectedFrom(
+    return CorrectionSummary(
         datetime.fromisoformat(session.header.created),
         float(session.timestamp_s[said[0][0].row]) - start_s,
         tuple(names),

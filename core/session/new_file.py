@@ -27,7 +27,7 @@ _GZIP_LEVEL = 1
 """Higher ones made the same recordings a hundredth smaller, and took as much longer as they promise."""
 
 
-def empty_session(
+def build_empty_session(
     header: SessionHeader, camera: Camera, calibration: Calibration, raw_depth_unit_m: float | None = None
 ) -> bytes:
     """A session file without rows, as its bytes; with a depth unit its frames bring their pictures."""
@@ -35,7 +35,7 @@ def empty_session(
         layout = TableLayout(header.protocol, header.joint_names)
         write_header(file, header, camera)
         write_calibration(file, layout, calibration)
-        create_growing(file, layout, raw_depth_unit_m)
+        create_growing_datasets(file, layout, raw_depth_unit_m)
         file.flush()
         return bytes(file.id.get_file_image())
 
@@ -44,19 +44,19 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
     """The attributes of ``/`` and ``/camera``."""
     values = {
         "format": schema.FORMAT,
-        "format_version": version_for(camera),
+        "format_version": choose_format_version(camera),
         "protocol": header.protocol.name,
         "complete": True,  # it gets its name only then
     }
     for name in schema.ROOT_ATTRIBUTES:
         file.attrs[name] = values[name] if name in values else getattr(header, name)
     group = file.create_group("/camera")
-    told = asdict(camera) | {"sensor": json.dumps(camera.sensor.as_mapping(), sort_keys=True)}
+    told = asdict(camera) | {"sensor": json.dumps(camera.sensor.to_dict(), sort_keys=True)}
     for name, value in zip(schema.CAMERA_ATTRIBUTES, told.values(), strict=True):
         group.attrs[name] = value
 
 
-def version_for(camera: Camera) -> int:
+def choose_format_version(camera: Camera) -> int:
     """Of the format: what an older Carpus would misread has a version that it refuses."""
     is_inverse = camera.distortion_model == "inverse_brown_conrady" and camera.is_distorted
     return schema.LENS_VERSION if is_inverse else schema.FORMAT_VERSION
@@ -69,19 +69,21 @@ def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibra
     elsewhere = {
         "clicks_px": calibration.clicks.pixel,
         "residual_m": verdict.residual_mm * 1e-3,
-        "surface": np.full((TABLE_ROWS, 5), np.nan) if surface is None else surface.as_table(),
+        "surface": np.full((TABLE_ROWS, 5), np.nan) if surface is None else surface.to_table(),
     }
     for field in schema.CALIBRATION_FIELDS:
         value = elsewhere[field.attribute] if field.attribute in elsewhere else getattr(calibration, field.attribute)
-        describe(create_checked(file, field.path, check_shape(field, value, layout.row_shape(field))), field, layout)
-    findings = json.dumps([_known(asdict(finding)) for finding in verdict.findings])
+        write_attributes(
+            create_checked_dataset(file, field.path, check_shape(field, value, layout.row_shape(field))), field, layout
+        )
+    findings = json.dumps([_drop_nan(asdict(finding)) for finding in verdict.findings])
     straight = np.array(calibration.clicks.straight_fingers, dtype=np.uint8)
     said = (verdict.hand_length_mm * 1e-3, np.radians(verdict.tilt_deg), verdict.distance_m, verdict.frames_used)
     for name, value in zip(schema.VERDICT_ATTRIBUTES, (*said, findings, straight), strict=True):
         file["/calibration"].attrs[name] = value
 
 
-def create_growing(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float | None) -> None:
+def create_growing_datasets(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float | None) -> None:
     """Every dataset that rows are added to, still without; ``/raw`` only with a depth unit."""
     raw = (*schema.RAW_STREAMS, *schema.RAW_ENDS) if raw_depth_unit_m is not None else ()
     detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
@@ -94,7 +96,7 @@ def create_growing(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float
         file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = raw_depth_unit_m
 
 
-def create_smoothed(file: h5py.File, layout: TableLayout) -> None:
+def create_smoother_datasets(file: h5py.File, layout: TableLayout) -> None:
     """The datasets of the smoother's result, still without rows."""
     for field in filter(layout.has, schema.SMOOTHED_FIELDS):
         create_dataset(file, field, layout)
@@ -117,7 +119,7 @@ def create_dataset(file: h5py.File, field: Field, layout: TableLayout) -> h5py.D
         fillvalue=None if field.dtype == "text" else field.fill,
         **({} if field in schema.RAW_STREAMS else packing),
     )
-    describe(dataset, field, layout)
+    write_attributes(dataset, field, layout)
     return dataset
 
 
@@ -125,14 +127,14 @@ def create_repetitions(file: h5py.File, layout: TableLayout, repetitions: Repeti
     """The table of what was counted, a column for each of its figures."""
     rows = [tuple(getattr(row, column.attribute) for column in schema.REPETITION_COLUMNS) for row in repetitions.rows]
     rows = [(*row[:-1], row[-1].encode()[: schema.REPETITION_DTYPE["reason"].itemsize]) for row in rows]
-    table = create_checked(file, schema.REPETITIONS.path, np.array(rows, dtype=schema.REPETITION_DTYPE))
-    describe(table, schema.REPETITIONS, layout)
+    table = create_checked_dataset(file, schema.REPETITIONS.path, np.array(rows, dtype=schema.REPETITION_DTYPE))
+    write_attributes(table, schema.REPETITIONS, layout)
     for name in ("unit", "description"):
         table.attrs[f"column_{name}s"] = [getattr(column, name) for column in schema.REPETITION_COLUMNS]
     table.attrs[schema.REPETITION_ANGLE] = repetitions.angle
 
 
-def create_checked(file: h5py.File, path: str, data: Any) -> h5py.Dataset:
+def create_checked_dataset(file: h5py.File, path: str, data: Any) -> h5py.Dataset:
     """A dataset that is written once, in chunks with check sums."""
     if not data.size:
         return file.create_dataset(path, data=data)
@@ -140,14 +142,14 @@ def create_checked(file: h5py.File, path: str, data: Any) -> h5py.Dataset:
     return file.create_dataset(path, data=data, chunks=chunks, fletcher32=True)
 
 
-def describe(dataset: h5py.Dataset, field: Field, layout: TableLayout) -> None:
+def write_attributes(dataset: h5py.Dataset, field: Field, layout: TableLayout) -> None:
     """Unit, description and names of a dataset."""
     dataset.attrs["unit"] = field.unit
     dataset.attrs["description"] = field.description
-    if field.named_axis:
-        dataset.attrs["names"] = layout.names(field.named_axis)
+    if field.label_axis:
+        dataset.attrs["names"] = layout.names(field.label_axis)
 
 
-def _known(facts: dict[str, Any]) -> dict[str, Any]:
+def _drop_nan(facts: dict[str, Any]) -> dict[str, Any]:
     """Without NaN, which JSON does not have."""
     return {name: value for name, value in facts.items() if value == value}

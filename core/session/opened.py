@@ -1,4 +1,4 @@
-"""Reads session files by the schema; in the reading process (:mod:`core.session.reader`)."""
+"""Reads session files by the schema; in the reading process (:mod:`core.read_session.reader`)."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
-from carpus.core.camera import COEFFICIENTS, Camera
-from carpus.core.dates import iso, time_of_day
-from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, sensor_of
+from carpus.core.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
+from carpus.core.dates import moment_from_timestamp, to_iso
+from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, parse_sensor
 from carpus.core.errors import (
     CarpusFault,
     ProtocolUnknown,
@@ -26,27 +26,27 @@ from carpus.core.errors import (
     SessionUnfinished,
     SessionUnreadable,
 )
-from carpus.core.hand.back_surface import BackSurface
-from carpus.core.hand.protocols import protocol_named
+from carpus.core.hand.back_surface import DorsalSurface
+from carpus.core.hand.protocols import get_protocol
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
-from carpus.core.session.plausible import LONGEST_S, check_blobs, check_header, check_values
-from carpus.core.session.rows import Rows, check_plain
+from carpus.core.session.plausible import MAX_DURATION_S, check_detections, check_header, check_values
+from carpus.core.session.rows import RowCounts, check_structure
 from carpus.core.session.schema import Field, TableLayout
-from carpus.core.session.seal import ATTRIBUTE, seal_of
+from carpus.core.session.seal import CHECKSUM_ATTRIBUTE, compute_checksum
 from carpus.core.session.values import (
     DetectionTable,
+    EncodedImages,
     Event,
     MarkerSeries,
     Motion,
     QualitySeries,
-    RawPictures,
     RepetitionRow,
     Repetitions,
     Session,
     SessionHeader,
     SessionOutline,
-    Verified,
+    VerificationResult,
 )
 from carpus.core.types import Detections
 
@@ -59,48 +59,48 @@ def read_session(path: Path) -> Session:
     Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
     """
     with open_session(path) as file:
-        return _Source(path, file).session()
+        return _SessionFile(path, file).read_session()
 
 
-def session_in(path: Path, file: h5py.File) -> Session:
+def session_from_file(path: Path, file: h5py.File) -> Session:
     """As :func:`read_session`, of a file that is open."""
-    return _Source(path, file).session()
+    return _SessionFile(path, file).read_session()
 
 
-def layout_of(path: Path, file: h5py.File) -> TableLayout:
+def layout_from_file(path: Path, file: h5py.File) -> TableLayout:
     """What the axis letters mean in a file that is open."""
-    return _Source(path, file).layout
+    return _SessionFile(path, file).layout
 
 
 def read_outline(path: Path) -> SessionOutline:
     """Header, length and state of a session, without its data: quick enough for a whole folder."""
     with open_session(path) as file:
-        return _Source(path, file).outline()
+        return _SessionFile(path, file).read_outline()
 
 
 def read_detections(path: Path) -> DetectionTable:
     """Every blob of every frame of a session."""
     with open_session(path) as file:
-        source = _Source(path, file)
-        pixel, depth, depth_sd, area, similarity = (source.array(field) for field in schema.DETECTION_FIELDS)
+        source = _SessionFile(path, file)
+        pixel, depth, depth_sd, area, similarity = (source.read_array(field) for field in schema.DETECTION_FIELDS)
         blobs = Detections(pixel, depth, depth_sd, area, similarity)
-        check_blobs(path, blobs)
+        check_detections(path, blobs)
         readings = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
-        kept = [source.array(field) if field.path in file else np.empty((0, 0)) for field in readings]
-        return DetectionTable(source.array(schema.DETECTION_FRAME), blobs, (kept[0], kept[1]), (kept[2], kept[3]))
+        kept = [source.read_array(field) if field.path in file else np.empty((0, 0)) for field in readings]
+        return DetectionTable(source.read_array(schema.DETECTION_FRAME), blobs, (kept[0], kept[1]), (kept[2], kept[3]))
 
 
-def verify(path: Path) -> Verified:
+def verify(path: Path) -> VerificationResult:
     """Read all of a session against its check sums and its seal. Raises :class:`SessionUnreadable` for a damaged one,
     :class:`SessionChanged` for one that is not as it was finished."""
     session = read_session(path)
     with open_session(path) as file:
-        seal = str(file.attrs.get(ATTRIBUTE, ""))
-        if seal and seal != seal_of(file):
+        seal = str(file.attrs.get(CHECKSUM_ATTRIBUTE, ""))
+        if seal and seal != compute_checksum(file):
             raise SessionChanged(path)
     if not seal:
         read_detections(path)
-    return Verified(len(session), bool(seal))
+    return VerificationResult(len(session), bool(seal))
 
 
 def has_raw(path: Path) -> bool:
@@ -115,28 +115,28 @@ def raw_depth_unit_m(path: Path) -> float:
         return float(file["/raw"].attrs[schema.RAW_DEPTH_UNIT])
 
 
-def read_raw_some(path: Path, begin: int, most_bytes: int) -> Sequence[RawPictures]:
-    """The pictures kept from row ``begin`` on, as many as ``most_bytes`` hold and at least one; none at the end."""
+def read_raw_chunk(path: Path, first_row: int, max_bytes: int) -> Sequence[EncodedImages]:
+    """The pictures kept from row ``first_row`` on, as many as ``max_bytes`` hold and at least one; none at the end."""
     with open_session(path) as file:
-        source = _Source(path, file)
-        ends = [source.raw_ends(number) for number in range(len(schema.RAW_ENDS))]
+        source = _SessionFile(path, file)
+        ends = [source.read_raw_ends(number) for number in range(len(schema.RAW_ENDS))]
         color, depth = (file[field.path] for field in schema.RAW_STREAMS)
-        some: list[RawPictures] = []
+        some: list[EncodedImages] = []
         taken = 0
-        for row in range(begin, len(ends[0])):
+        for row in range(first_row, len(ends[0])):
             color_at, depth_at = (int(each[row - 1]) if row else 0 for each in ends)
             color_to, depth_to = (int(each[row]) for each in ends)
             taken += color_to - color_at + depth_to - depth_at
-            if some and taken > most_bytes:
+            if some and taken > max_bytes:
                 break
-            some.append(RawPictures(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes()))
+            some.append(EncodedImages(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes()))
         return some
 
 
 def read_raw_color(path: Path, row: int) -> bytes:
     """The colour picture kept of one row; no bytes where there is none."""
     with open_session(path) as file:
-        color_end, color = _Source(path, file).raw_ends(0), file[schema.RAW_STREAMS[0].path]
+        color_end, color = _SessionFile(path, file).read_raw_ends(0), file[schema.RAW_STREAMS[0].path]
         if not 0 <= row < len(color_end):
             return b""
         start = int(color_end[row - 1]) if row else 0
@@ -152,7 +152,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
         raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("not a file"))
     try:
         with h5py.File(path, "r") as file:
-            check_plain(path, file)
+            check_structure(path, file)
             _check_format(path, file)
             yield file
     except BlockingIOError as cause:
@@ -172,7 +172,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
 def _check_format(path: Path, file: h5py.File) -> None:
     if file.attrs.get("format") != schema.FORMAT:
         raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
-    version = _version(file)
+    version = _format_version(file)
     if not 1 <= version <= schema.NEWEST_VERSION:
         raise SessionUnreadable(
             path,
@@ -184,18 +184,18 @@ def _check_format(path: Path, file: h5py.File) -> None:
         )
 
 
-def _version(file: h5py.File) -> int:
+def _format_version(file: h5py.File) -> int:
     return int(file.attrs.get("format_version", 0))
 
 
-def _sensor(path: Path, said: str | None) -> DepthSensor:
+def _parse_sensor(path: Path, said: str | None) -> DepthSensor:
     try:
-        return ASSUMED_SENSOR if said is None else sensor_of(json.loads(said))
+        return ASSUMED_SENSOR if said is None else parse_sensor(json.loads(said))
     except ValueError as cause:
         raise SessionUnreadable(path, phrase("damaged: depth sensor, {cause}", cause=cause)) from cause
 
 
-class _Source:
+class _SessionFile:
     """One open session: its header, and its datasets checked against the schema."""
 
     def __init__(self, path: Path, file: h5py.File) -> None:
@@ -204,18 +204,20 @@ class _Source:
         self._header = self._read_header()
         self.layout = TableLayout(self._header.protocol, self._header.joint_names)
 
-    def session(self) -> Session:
+    def read_session(self) -> Session:
         frames = {
-            field.attribute: self.array(field) for field in schema.FRAME_FIELDS if field not in schema.MOTION_FIELDS
+            field.attribute: self.read_array(field)
+            for field in schema.FRAME_FIELDS
+            if field not in schema.MOTION_FIELDS
         }
         session = Session(
             path=self._path,
             header=self._header,
-            camera=self._camera(),
-            calibration=self._calibration(),
+            camera=self._read_camera(),
+            calibration=self._read_calibration(),
             timestamp_s=frames["timestamp_s"],
             status=frames["status"],
-            motion=self._motion(schema.MOTION_FIELDS),
+            motion=self._read_motion(schema.MOTION_FIELDS),
             markers=MarkerSeries(
                 frames["marker_position_cam_m"],
                 frames["marker_measured_px"],
@@ -223,19 +225,19 @@ class _Source:
                 frames["doubted"].astype(bool),
             ),
             quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
-            events=tuple(map(Event, *(self._list(field) for field in schema.EVENT_FIELDS))),
+            events=tuple(map(Event, *(self._read_list(field) for field in schema.EVENT_FIELDS))),
             smoothed=self._smoothed(),
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
-            repetitions=self._repetitions(),
+            repetitions=self._read_repetitions(),
         )
         check_values(self._path, session)
         return session
 
     def _smoothed(self) -> Motion | None:
         """None where no smoother ran."""
-        return self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None
+        return self._read_motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None
 
-    def _repetitions(self) -> Repetitions | None:
+    def _read_repetitions(self) -> Repetitions | None:
         path = schema.REPETITIONS.path
         if path not in self._file:
             return None
@@ -259,11 +261,11 @@ class _Source:
             ),
         )
 
-    def outline(self) -> SessionOutline:
+    def read_outline(self) -> SessionOutline:
         frames = self._rows.frames
         times = self._file["/frames/timestamp"]
         duration_s = float(times[frames - 1] - times[0]) if frames else 0.0
-        if not 0.0 <= duration_s <= LONGEST_S:
+        if not 0.0 <= duration_s <= MAX_DURATION_S:
             raise SessionUnreadable(self._path, phrase("damaged: the times of its frames are no session's"))
         return SessionOutline(
             header=self._header,
@@ -273,11 +275,11 @@ class _Source:
             size_bytes=self._path.stat().st_size,
         )
 
-    def array(self, field: Field) -> NDArray[Any]:
+    def read_array(self, field: Field) -> NDArray[Any]:
         """A dataset with the type and shape of the schema, read-only; an optional one that is not there is unknown."""
         expected = tuple(
-            self._rows.along(str(axis)) if axis in schema.GROWING_AXES else size
-            for axis, size in zip(field.shape, self._sizes(field), strict=True)
+            self._rows.axis_length(str(axis)) if axis in schema.GROWING_AXES else size
+            for axis, size in zip(field.shape, self._read_sizes(field), strict=True)
         )
         if field.path not in self._file:
             if not field.optional:
@@ -302,9 +304,9 @@ class _Source:
         array.setflags(write=False)
         return array
 
-    def raw_ends(self, number: int) -> NDArray[Any]:
+    def read_raw_ends(self, number: int) -> NDArray[Any]:
         """Where the pictures of each frame end in a stream; checked, since slices are made of it."""
-        ends = self.array(schema.RAW_ENDS[number])
+        ends = self.read_array(schema.RAW_ENDS[number])
         stream = schema.RAW_STREAMS[number]
         if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > self._file[stream.path].shape[0]):
             raise SessionUnreadable(
@@ -313,15 +315,15 @@ class _Source:
             )
         return ends
 
-    def _sizes(self, field: Field) -> tuple[int, ...]:
+    def _read_sizes(self, field: Field) -> tuple[int, ...]:
         row = self.layout.row_shape(field)
         return (0, *row) if field.shape[0] in schema.GROWING_AXES else row
 
-    def _list(self, field: Field) -> list[Any]:
-        values = self.array(field).tolist()
+    def _read_list(self, field: Field) -> list[Any]:
+        values = self.read_array(field).tolist()
         return [value.decode("utf-8") if isinstance(value, bytes) else value for value in values]
 
-    def _attribute(self, name: str) -> Any:
+    def _read_attribute(self, name: str) -> Any:
         try:
             return self._file.attrs[name]
         except KeyError as cause:
@@ -329,10 +331,10 @@ class _Source:
 
     def _read_header(self) -> SessionHeader:
         try:
-            protocol = protocol_named(str(self._attribute("protocol")))
+            protocol = get_protocol(str(self._read_attribute("protocol")))
         except ProtocolUnknown as cause:
             raise SessionUnreadable(self._path, phrase("marker protocol {subject}", subject=cause.subject)) from cause
-        hand = str(self._attribute("hand"))
+        hand = str(self._read_attribute("hand"))
         if hand not in ("right", "left"):
             raise SessionUnreadable(self._path, phrase("hand {hand}", hand=f"{hand!r}"))
         joints = tuple(map(str, self._file["/joints"].attrs["names"])) if protocol.has_fingers else ()
@@ -342,59 +344,61 @@ class _Source:
                 phrase("{count} joint angles with other names than {name} has", count=len(joints), name=protocol.name),
             )
         header = SessionHeader(
-            session_id=str(self._attribute("session_id")),
-            subject_id=str(self._attribute("subject_id")),
-            created=str(self._attribute("created")),
+            session_id=str(self._read_attribute("session_id")),
+            subject_id=str(self._read_attribute("subject_id")),
+            created=str(self._read_attribute("created")),
             hand="right" if hand == "right" else "left",
             protocol=protocol,
-            exercise=str(self._attribute("exercise")),
-            software_version=str(self._attribute("software_version")),
-            parameters=str(self._attribute("parameters")),
+            exercise=str(self._read_attribute("exercise")),
+            software_version=str(self._read_attribute("software_version")),
+            parameters=str(self._read_attribute("parameters")),
             origin=str(self._file.attrs.get("origin", "")),
             joint_names=joints,
-            recorded=self._recorded(),
-            recording_id=self._recording_id(),
+            recorded=self._read_recording_date(),
+            recording_id=self._read_recording_id(),
         )
         check_header(self._path, header, json.loads(header.parameters))
         return header
 
-    def _recorded(self) -> str:
+    def _read_recording_date(self) -> str:
         """Version 1 did not say: the times of the pictures do where they count from 1970, else the file's own date."""
-        if _version(self._file) > 1:
-            return str(self._attribute("recorded"))
-        created = str(self._attribute("created"))
+        if _format_version(self._file) > 1:
+            return str(self._read_attribute("recorded"))
+        created = str(self._read_attribute("created"))
         first = self._file["/frames/timestamp"][:1]
-        moment = time_of_day(float(first[0])) if len(first) else None
-        return created if moment is None else iso(moment)
+        moment = moment_from_timestamp(float(first[0])) if len(first) else None
+        return created if moment is None else to_iso(moment)
 
-    def _recording_id(self) -> str:
+    def _read_recording_id(self) -> str:
         """Version 1 did not say: a session tracked again named the one it came from, which was made before."""
-        if _version(self._file) > 1:
-            return str(self._attribute("recording_id"))
-        return str(self._file.attrs.get("origin", "") or self._attribute("session_id"))
+        if _format_version(self._file) > 1:
+            return str(self._read_attribute("recording_id"))
+        return str(self._file.attrs.get("origin", "") or self._read_attribute("session_id"))
 
     @cached_property
-    def _rows(self) -> Rows:
-        if not self._attribute("complete"):
+    def _rows(self) -> RowCounts:
+        if not self._read_attribute("complete"):
             raise SessionUnfinished(self._path)
         lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
         streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
-        return Rows(*lengths, *streams)
+        return RowCounts(*lengths, *streams)
 
-    def _motion(self, fields: tuple[Field, ...]) -> Motion:
+    def _read_motion(self, fields: tuple[Field, ...]) -> Motion:
         rows = self._rows.frames
         nothing = {2: (rows, 0), 3: (rows, 0, 3)}
         values = {
-            field.attribute: self.array(field) if self.layout.has(field) else np.empty(nothing[len(field.shape)])
+            field.attribute: self.read_array(field) if self.layout.has(field) else np.empty(nothing[len(field.shape)])
             for field in fields
         }
         return Motion(**values)
 
-    def _camera(self) -> Camera:
+    def _read_camera(self) -> Camera:
         said = self._file["/camera"].attrs
         model = str(said.get("distortion_model", "plumb_bob"))
         lens = tuple(float(value) for value in said["distortion"])
-        known = next((one for one, count in COEFFICIENTS.items() if one == model and count == len(lens)), None)
+        known = next(
+            (one for one, count in DISTORTION_COEFFICIENT_COUNTS.items() if one == model and count == len(lens)), None
+        )
         if known is None:
             raise SessionUnreadable(
                 self._path, phrase("distortion {model} with {count} coefficients", model=model, count=len(lens))
@@ -408,14 +412,14 @@ class _Source:
             height_px=int(said["height"]),
             distortion=lens,
             origin=str(said.get("origin", "file")),
-            sensor=_sensor(self._path, said.get("depth_sensor")),
+            sensor=_parse_sensor(self._path, said.get("depth_sensor")),
             distortion_model=known,
         )
 
-    def _calibration(self) -> Calibration:
-        arrays = {field.attribute: self.array(field) for field in schema.CALIBRATION_FIELDS}
+    def _read_calibration(self) -> Calibration:
+        arrays = {field.attribute: self.read_array(field) for field in schema.CALIBRATION_FIELDS}
         clicks_px, residual_m = arrays.pop("clicks_px"), arrays.pop("residual_m")
-        surface = BackSurface.from_table(arrays.pop("surface"))
+        surface = DorsalSurface.from_table(arrays.pop("surface"))
         said = self._file["/calibration"].attrs
         findings = []
         for fact in json.loads(said.get("findings", "[]")):

@@ -13,18 +13,18 @@ from carpus.core.phrase import phrase
 from carpus.core.session.values import Session, SessionHeader
 from carpus.core.types import Detections, FloatArray
 
-LONGEST_S = 86_400.0
-LATEST_S = 1e11
+MAX_DURATION_S = 86_400.0
+MAX_TIME_S = 1e11
 """Times of a recording count from anywhere, but no clock counts for 3000 years."""
-LARGEST_ANGLE_RAD = 2.0 * math.pi
-LARGEST_PLACE_M = 100.0
-LARGEST_SD_RAD = 1e3
-LARGEST_PIXEL = float(1 << 16)
-NOT_A_TURN = 1e-3
-LARGEST_SPREAD_M2, LEAST_SPREAD_M2 = 1.0, 1e-9
-LONGEST_TEXT, LONGEST_PARAMETERS = 200, 1 << 20
-DEEPEST_PARAMETERS = 40
-STATUSES = 4
+MAX_ANGLE_RAD = 2.0 * math.pi
+MAX_POSITION_M = 100.0
+MAX_SD_RAD = 1e3
+MAX_PIXEL = float(1 << 16)
+ROTATION_TOLERANCE = 1e-3
+MAX_COVARIANCE_M2, COVARIANCE_TOLERANCE_M2 = 1.0, 1e-9
+MAX_TEXT_CHARACTERS, MAX_PARAMETERS_CHARACTERS = 200, 1 << 20
+MAX_PARAMETERS_DEPTH = 40
+STATUS_COUNT = 4
 
 
 def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
@@ -40,11 +40,11 @@ def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
         "origin",
     ):
         text: str = getattr(header, name)
-        if len(text) > LONGEST_TEXT or not (text.isprintable() or name == "origin"):
+        if len(text) > MAX_TEXT_CHARACTERS or not (text.isprintable() or name == "origin"):
             raise SessionUnreadable(path, phrase("damaged: its {name} is no such thing", name=name))
     if not header.session_id.strip():
         raise SessionUnreadable(path, phrase("damaged: no session_id"))
-    if _depth(parameters) > DEEPEST_PARAMETERS or len(header.parameters) > LONGEST_PARAMETERS:
+    if _nesting_depth(parameters) > MAX_PARAMETERS_DEPTH or len(header.parameters) > MAX_PARAMETERS_CHARACTERS:
         raise SessionUnreadable(path, phrase("damaged: its parameters are no settings"))
 
 
@@ -52,36 +52,36 @@ def check_times(path: Path, timestamp_s: FloatArray) -> None:
     """Times that are known, rise, and end within a day."""
     if not len(timestamp_s):
         return
-    if not np.isfinite(timestamp_s).all() or np.abs(timestamp_s).max() > LATEST_S:
+    if not np.isfinite(timestamp_s).all() or np.abs(timestamp_s).max() > MAX_TIME_S:
         raise SessionUnreadable(path, phrase("damaged: a frame has no possible time"))
     wrong = np.flatnonzero(np.diff(timestamp_s) <= 0.0)
     if len(wrong):
         raise SessionUnreadable(
             path, phrase("damaged: the time of frame {number} is not after the one before", number=int(wrong[0]) + 1)
         )
-    if timestamp_s[-1] - timestamp_s[0] > LONGEST_S:
+    if timestamp_s[-1] - timestamp_s[0] > MAX_DURATION_S:
         raise SessionUnreadable(path, phrase("its times span more than a day: damaged, or a clock jumped"))
 
 
 def check_values(path: Path, session: Session) -> None:
     """Raise :class:`SessionUnreadable` for a number that no measurement gives; NaN stands for unknown everywhere."""
     check_times(path, session.timestamp_s)
-    if len(session.status) and int(session.status.max()) >= STATUSES:
+    if len(session.status) and int(session.status.max()) >= STATUS_COUNT:
         raise SessionUnreadable(path, phrase("damaged: a frame has a status that there is not"))
     limits: list[tuple[str, FloatArray, float]] = [
-        ("a marker's position", session.markers.position_cam_m, LARGEST_PLACE_M),
-        ("a calibrated position", session.calibration.marker_position_w0_m, LARGEST_PLACE_M),
-        ("the camera's place", session.calibration.translation_w0_cam_m, LARGEST_PLACE_M),
+        ("a marker's position", session.markers.position_cam_m, MAX_POSITION_M),
+        ("a calibrated position", session.calibration.marker_position_w0_m, MAX_POSITION_M),
+        ("the camera's place", session.calibration.translation_w0_cam_m, MAX_POSITION_M),
     ]
     for motion in (session.motion, session.smoothed):
         if motion is not None:
             limits += [
-                ("a wrist angle", motion.angles_rad, LARGEST_ANGLE_RAD),
-                ("a joint angle", motion.joint_angles_rad, LARGEST_ANGLE_RAD),
-                ("a standard deviation", motion.angles_sd_rad, LARGEST_SD_RAD),
-                ("a standard deviation", motion.joint_angles_sd_rad, LARGEST_SD_RAD),
-                ("a position", motion.position_m, LARGEST_PLACE_M),
-                ("a joint's position", motion.joint_position_m, LARGEST_PLACE_M),
+                ("a wrist angle", motion.angles_rad, MAX_ANGLE_RAD),
+                ("a joint angle", motion.joint_angles_rad, MAX_ANGLE_RAD),
+                ("a standard deviation", motion.angles_sd_rad, MAX_SD_RAD),
+                ("a standard deviation", motion.joint_angles_sd_rad, MAX_SD_RAD),
+                ("a position", motion.position_m, MAX_POSITION_M),
+                ("a joint's position", motion.joint_position_m, MAX_POSITION_M),
             ]
     for what, values, limit in limits:
         # NaN compares as neither, so unknown values pass.
@@ -106,26 +106,26 @@ def check_calibration(path: Path, calibration: Calibration) -> None:
     turn, spread = calibration.rotation_w0_cam, calibration.marker_covariance_w0_m2
     known = (turn, calibration.translation_w0_cam_m, calibration.marker_position_w0_m, calibration.start_angles_rad)
     good = all(np.isfinite(values).all() for values in known)
-    good = good and bool(np.abs(turn @ turn.T - np.eye(3)).max() < NOT_A_TURN and np.linalg.det(turn) > 0.0)
-    good = good and bool((np.abs(calibration.start_angles_rad) <= LARGEST_ANGLE_RAD).all())
+    good = good and bool(np.abs(turn @ turn.T - np.eye(3)).max() < ROTATION_TOLERANCE and np.linalg.det(turn) > 0.0)
+    good = good and bool((np.abs(calibration.start_angles_rad) <= MAX_ANGLE_RAD).all())
     if good and len(spread) and not np.isnan(spread).all():
-        good = bool(np.isfinite(spread).all() and np.abs(spread).max() <= LARGEST_SPREAD_M2)
-        good = good and float(np.linalg.eigvalsh(spread).min()) >= -LEAST_SPREAD_M2
+        good = bool(np.isfinite(spread).all() and np.abs(spread).max() <= MAX_COVARIANCE_M2)
+        good = good and float(np.linalg.eigvalsh(spread).min()) >= -COVARIANCE_TOLERANCE_M2
     if not good:
         raise SessionUnreadable(path, phrase("damaged: its calibration is not one of a hand"))
 
 
-def check_blobs(path: Path, blobs: Detections) -> None:
+def check_detections(path: Path, detections: Detections) -> None:
     """Raise :class:`SessionUnreadable` for a blob that no picture holds; a depth may be unknown."""
-    good = bool((np.abs(blobs.pixel) <= LARGEST_PIXEL).all())  # NaN is not
-    good = good and bool(np.isfinite(blobs.area_px).all() and np.isfinite(blobs.similarity).all())
-    for values, most in ((blobs.depth_m, LARGEST_PLACE_M), (blobs.depth_sd_m, LARGEST_PLACE_M)):
+    good = bool((np.abs(detections.pixel) <= MAX_PIXEL).all())  # NaN is not
+    good = good and bool(np.isfinite(detections.area_px).all() and np.isfinite(detections.similarity).all())
+    for values, most in ((detections.depth_m, MAX_POSITION_M), (detections.depth_sd_m, MAX_POSITION_M)):
         good = good and not bool(((values < 0.0) | (values > most)).any())
     if not good:
         raise SessionUnreadable(path, phrase("damaged: a blob is in no picture"))
 
 
-def _depth(value: object) -> int:
+def _nesting_depth(value: object) -> int:
     """How many tables and lists lie within each other; counted without recursion."""
     deepest, level = 0, [value]
     while level:
@@ -137,6 +137,6 @@ def _depth(value: object) -> int:
             elif isinstance(one, list):
                 inside += one
         level = inside
-        if deepest > 2 * DEEPEST_PARAMETERS:
+        if deepest > 2 * MAX_PARAMETERS_DEPTH:
             break
     return deepest

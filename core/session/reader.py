@@ -22,11 +22,11 @@ from carpus.core import errors
 from carpus.core.child_process import ChildProcess
 from carpus.core.errors import CarpusFault, SessionMissing, SessionUnreadable
 from carpus.core.phrase import phrase
-from carpus.core.session.values import DetectionTable, RawPictures, Session, SessionOutline, Verified
+from carpus.core.session.values import DetectionTable, EncodedImages, Session, SessionOutline, VerificationResult
 
-PATIENCE_S, BYTES_PER_S = 20.0, 2e6
+TIMEOUT_S, BYTES_PER_S = 20.0, 2e6
 """An answer may take so long by the clock, and a second more for so many bytes: a slow share is no damaged file."""
-RAW_BYTES_AT_ONCE = 1 << 24
+RAW_CHUNK_BYTES = 1 << 24
 _NUMPY_NAMES = ("ndarray", "dtype", "_reconstruct", "_frombuffer", "scalar")
 """An answer is made of these and of this program's own classes; a process that a file has taken over could send others.
 """
@@ -37,55 +37,55 @@ def read_session(path: Path) -> Session:
 
     Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
     """
-    return cast(Session, _ask("session", path))
+    return cast(Session, _request("session", path))
 
 
 def read_outline(path: Path) -> SessionOutline:
     """Header, length and state of a session, without its data: quick enough for a whole folder."""
-    return cast(SessionOutline, _ask("outline", path))
+    return cast(SessionOutline, _request("outline", path))
 
 
 def read_detections(path: Path) -> DetectionTable:
     """Every blob of every frame of a session."""
-    return cast(DetectionTable, _ask("detections", path))
+    return cast(DetectionTable, _request("detections", path))
 
 
 def has_raw(path: Path) -> bool:
     """Whether the session kept its pictures."""
-    return bool(_ask("has_raw", path))
+    return bool(_request("has_raw", path))
 
 
 def raw_depth_unit_m(path: Path) -> float:
     """Metres per count of the depth pictures kept."""
-    return float(_ask("raw_depth_unit_m", path))
+    return float(_request("raw_depth_unit_m", path))
 
 
-def read_raw(path: Path) -> Iterator[RawPictures]:
+def read_raw(path: Path) -> Iterator[EncodedImages]:
     """The pictures kept, frame by frame."""
     row = 0
-    while some := cast("list[RawPictures]", _ask("raw_some", path, row, RAW_BYTES_AT_ONCE)):
+    while some := cast("list[EncodedImages]", _request("raw_some", path, row, RAW_CHUNK_BYTES)):
         yield from some
         row += len(some)
 
 
 def read_raw_color(path: Path, row: int) -> bytes:
     """The colour picture kept of one row; no bytes where there is none."""
-    return cast(bytes, _ask("raw_color", path, row))
+    return cast(bytes, _request("raw_color", path, row))
 
 
-def verify(path: Path) -> Verified:
+def verify(path: Path) -> VerificationResult:
     """Whether a session is whole and unchanged; as :func:`core.session.opened.verify`."""
-    return cast(Verified, _ask("verify", path))
+    return cast(VerificationResult, _request("verify", path))
 
 
 def finish_part(part: Path, when: str) -> Path | None:
     """Finish a part file where it can be ended by force; as :func:`core.session.rewriting.finish_part`."""
-    return cast("Path | None", _ask("recover", part, when))
+    return cast("Path | None", _request("recover", part, when))
 
 
-def write_anew(path: Path, target: Path, **said: str) -> None:
-    """Write a session again with other attributes; as :func:`core.session.rewriting.write_anew`."""
-    _ask("write_anew", path, target, said)
+def rewrite_session(path: Path, target: Path, **said: str) -> None:
+    """Write a session again with other attributes; as :func:`core.session.rewriting.rewrite_session`."""
+    _request("write_anew", path, target, said)
 
 
 class ReadingProcess:
@@ -96,23 +96,23 @@ class ReadingProcess:
         self._child: ChildProcess | None = None
         self._owner = os.getpid()
 
-    def ask(self, name: str, path: Path, *arguments: object) -> Any:
+    def request(self, name: str, path: Path, *arguments: object) -> Any:
         """The answer to a question about a file. Raises the fault that came instead, or :class:`SessionUnreadable`."""
         with self._lock:
             question = (name, os.fspath(path), arguments)
-            link = self._started()
+            link = self._start_child()
             try:
                 link.send(question)
             except OSError:  # it died of something after its last answer
                 self._end()
-                link = self._started()
+                link = self._start_child()
                 link.send(question)
-            size = _size(path)
-            if not link.poll(PATIENCE_S + size / BYTES_PER_S):
+            size = _file_size(path)
+            if not link.poll(TIMEOUT_S + size / BYTES_PER_S):
                 self._end()
                 raise SessionUnreadable(path, phrase("damaged: reading it does not end"))
             try:
-                said, value = _received(link)
+                said, value = _receive_answer(link)
             except (EOFError, OSError):
                 self._end()
                 raise SessionUnreadable(path, phrase("damaged: it cannot be read to its end")) from None
@@ -131,20 +131,20 @@ class ReadingProcess:
         """Have it ready before the first question; may be called from a thread that nobody waits for. What keeps it
         from starting is told to who asks."""
         with self._lock, contextlib.suppress(OSError):
-            self._started()
+            self._start_child()
 
     def end(self) -> None:
         """May be called twice; the next question starts it again."""
         with self._lock:
             self._end()
 
-    def _started(self) -> Connection:
+    def _start_child(self) -> Connection:
         if self._owner != os.getpid():  # a copy of the process that it answers
             self._child = None
         if self._child is None or not self._child.is_alive:
             self._end()
-            work = "carpus.core.session.reading_process:run"
-            self._child, self._owner = ChildProcess(work, name="reading", is_forked=_may_fork()), os.getpid()
+            work = "carpus.core.session.reading_process:segment"
+            self._child, self._owner = ChildProcess(work, name="reading", is_forked=_can_fork()), os.getpid()
         return self._child.link
 
     def _end(self) -> None:
@@ -153,11 +153,11 @@ class ReadingProcess:
             self._child = None
 
 
-READING = ReadingProcess()
+READING_PROCESS = ReadingProcess()
 """One for the whole program: it holds nothing but a process, and ends with the program."""
 
 
-def _ask(name: str, path: Path, *arguments: object) -> Any:
+def _request(name: str, path: Path, *arguments: object) -> Any:
     try:
         is_there, is_file, is_folder = path.exists(), path.is_file(), path.is_dir()
     except (OSError, ValueError):
@@ -166,10 +166,10 @@ def _ask(name: str, path: Path, *arguments: object) -> Any:
         raise SessionMissing(path)
     if not is_file:  # neither a folder nor a pipe is handed to HDF5, which would wait for the pipe
         raise SessionUnreadable(path, phrase("a folder") if is_folder else phrase("not a file"))
-    return READING.ask(name, path, *arguments)
+    return READING_PROCESS.request(name, path, *arguments)
 
 
-def _may_fork() -> bool:
+def _can_fork() -> bool:
     """Whether a copy of this process is as good as a new one, and half a second quicker: nothing else runs in it."""
     if not sys.platform.startswith("linux") or threading.active_count() > 1 or "PySide6" in sys.modules:
         return False
@@ -179,22 +179,22 @@ def _may_fork() -> bool:
     return bool(h5py.h5f.get_obj_count(h5py.h5f.OBJ_ALL, h5py.h5f.OBJ_ALL) == 0)
 
 
-def _size(path: Path) -> int:
+def _file_size(path: Path) -> int:
     try:
         return path.stat().st_size
     except OSError:
         return 0
 
 
-def _received(link: Connection) -> tuple[str, Any]:
+def _receive_answer(link: Connection) -> tuple[str, Any]:
     count = int(link.recv_bytes())
     packed = link.recv_bytes()
     buffers = [link.recv_bytes() for _ in range(count)]
-    said, value = _Unpacked(io.BytesIO(packed), buffers=buffers).load()
+    said, value = _AnswerUnpickler(io.BytesIO(packed), buffers=buffers).load()
     return str(said), value
 
 
-class _Unpacked(pickle.Unpickler):
+class _AnswerUnpickler(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> Any:
         found = super().find_class(module, name) if module.split(".")[0] in ("carpus", "numpy", "pathlib") else None
         own = isinstance(found, type) and not module.startswith("numpy")

@@ -25,9 +25,9 @@ log = logging.getLogger(__name__)
 
 CPU_S, BYTES_PER_CPU_S = 1.2, 5e6
 """A question may take so much of a processor's time, and a second more for so many bytes of the file."""
-MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 10
-"""Room for an answer, and so much more for each byte of the file, up to :data:`MOST_MEMORY_BYTES`."""
-MOST_MEMORY_BYTES = 6_000_000_000
+BASE_MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 10
+"""Room for an answer, and so much more for each byte of the file, up to :data:`MAX_MEMORY_BYTES`."""
+MAX_MEMORY_BYTES = 6_000_000_000
 
 QUESTIONS: dict[str, Callable[..., Any]] = {
     "session": opened.read_session,
@@ -35,17 +35,17 @@ QUESTIONS: dict[str, Callable[..., Any]] = {
     "detections": opened.read_detections,
     "has_raw": opened.has_raw,
     "raw_depth_unit_m": opened.raw_depth_unit_m,
-    "raw_some": opened.read_raw_some,
+    "raw_some": opened.read_raw_chunk,
     "raw_color": opened.read_raw_color,
     "recover": rewriting.finish_part,
     "verify": opened.verify,
-    "write_anew": rewriting.write_anew,
+    "write_anew": rewriting.rewrite_session,
 }
 Answer = tuple[str, Any]
 """``done`` and the value, or the name of a fault with its subject and detail."""
 
 
-def cpu_limit_s(size_bytes: int) -> float:
+def compute_cpu_limit_s(size_bytes: int) -> float:
     """Processor time that a question about a file of this size may take."""
     return CPU_S + size_bytes / BYTES_PER_CPU_S
 
@@ -62,17 +62,17 @@ def run(link: Connection) -> None:
             name, path, arguments = link.recv()
         except (EOFError, OSError):
             return
-        size = _size(path)
-        _limit(size)
-        answer = _answered(QUESTIONS[name], Path(path), arguments)
-        _limit_no_more()
+        size = _file_size(path)
+        _set_limits(size)
+        answer = _answer(QUESTIONS[name], Path(path), arguments)
+        _clear_limits()
         try:
             _send(link, answer)
         except OSError:
             return
 
 
-def _answered(question: Callable[..., Any], path: Path, arguments: tuple[Any, ...]) -> Answer:
+def _answer(question: Callable[..., Any], path: Path, arguments: tuple[Any, ...]) -> Answer:
     try:
         return "done", question(path, *arguments)
     except CarpusFault as fault:
@@ -96,27 +96,27 @@ def _send(link: Connection, answer: Answer) -> None:
         link.send_bytes(buffer.raw())
 
 
-def _size(path: str) -> int:
+def _file_size(path: str) -> int:
     try:
         return Path(path).stat().st_size
     except OSError:
         return 0
 
 
-def _limit(size_bytes: int) -> None:
+def _set_limits(size_bytes: int) -> None:
     """From now on this process is ended by the system when it takes too long, and refused what is too much."""
     if sys.platform == "win32":
         return  # the owner's patience alone
     import resource
 
-    signal.setitimer(signal.ITIMER_PROF, cpu_limit_s(size_bytes))
-    room = min(MEMORY_BYTES + MEMORY_PER_BYTE * size_bytes, MOST_MEMORY_BYTES)
+    signal.setitimer(signal.ITIMER_PROF, compute_cpu_limit_s(size_bytes))
+    room = min(BASE_MEMORY_BYTES + MEMORY_PER_BYTE * size_bytes, MAX_MEMORY_BYTES)
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
     wanted = _address_space_bytes() + room
     resource.setrlimit(resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
 
 
-def _limit_no_more() -> None:
+def _clear_limits() -> None:
     if sys.platform != "win32":
         import resource
 

@@ -15,11 +15,11 @@ from carpus.core.durable import write_fault
 from carpus.core.errors import SessionUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
-from carpus.core.session.disk import allow_written_bytes, free_name, publish, target_of_part, temporary_path
+from carpus.core.session.disk import find_free_name, find_part_target, publish, repair_file_end, temporary_path
 from carpus.core.session.new_file import create_dataset
-from carpus.core.session.opened import layout_of, open_session, verify
-from carpus.core.session.rows import Rows, growing_fields, readable_rows, rows_of, whole_rows
-from carpus.core.session.seal import ATTRIBUTE, seal_of
+from carpus.core.session.opened import layout_from_file, open_session, verify
+from carpus.core.session.rows import RowCounts, count_readable_rows, count_whole_rows, find_growing_fields, read_rows
+from carpus.core.session.seal import CHECKSUM_ATTRIBUTE, compute_checksum
 
 
 def finish_part(part: Path, when: str) -> Path | None:
@@ -28,22 +28,22 @@ def finish_part(part: Path, when: str) -> Path | None:
 
     Returns the session's path; None, and the file stays, where it ended before the first frame was stored.
     """
-    own_name = target_of_part(part)
+    own_name = find_part_target(part)
     if own_name is None:
         raise SessionUnreadable(part, phrase("not the part file of a session"))
     if own_name.exists() and own_name.samefile(part):  # ended between the last two steps: the old name is left over
         part.unlink()
         return own_name
-    target = free_name(own_name)
+    target = find_free_name(own_name)
     copy, new = temporary_path(target), temporary_path(target)
     try:
         shutil.copyfile(part, copy)
         copy.chmod(0o600)
-        if not _holds_anything(copy):
+        if not _has_content(copy):
             return None
-        allow_written_bytes(copy)
+        repair_file_end(copy)
         with open_session(copy) as old:
-            rows = whole_rows(old)
+            rows = count_whole_rows(old)
             if rows.frames == 0:
                 return None
             with h5py.File(new, "x", libver="earliest") as file:
@@ -51,7 +51,7 @@ def finish_part(part: Path, when: str) -> Path | None:
                 _copy_whole_rows(old, file, rows)
                 file.attrs["complete"] = True
                 file.attrs.setdefault(schema.RECOVERED, when)
-                file.attrs[ATTRIBUTE] = seal_of(file)
+                file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
         with new.open("r+b") as written:
             os.fsync(written.fileno())
         verify(new)
@@ -67,25 +67,25 @@ def finish_part(part: Path, when: str) -> Path | None:
     return target
 
 
-def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: Rows) -> None:
+def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
     """All of a part file, each dataset cut to the rows that all of them hold; half of a smoother's result is left out,
     since it can be computed again, and so is a table of repetitions that cannot be read."""
     for name in old.attrs:
-        if name != ATTRIBUTE:
+        if name != CHECKSUM_ATTRIBUTE:
             file.attrs[name] = old.attrs[name]
     for name in ("camera", "calibration"):
         old.copy(name, file)
-    layout = layout_of(Path(old.filename), old)
+    layout = layout_from_file(Path(old.filename), old)
     smoothed = {field.path: field for field in schema.SMOOTHED_FIELDS if layout.has(field)}
-    fields = {field.path: field for field, _ in growing_fields(old)}
+    fields = {field.path: field for field, _ in find_growing_fields(old)}
     with suppress(OSError, RuntimeError, KeyError):
-        if all(readable_rows(old[path]) == rows.frames for path in smoothed):
+        if all(count_readable_rows(old[path]) == rows.frames for path in smoothed):
             fields |= smoothed
     for path, field in fields.items():
-        end = rows.along(str(field.shape[0]))
+        end = rows.axis_length(str(field.shape[0]))
         dataset = create_dataset(file, field, layout)
         dataset.resize(end, axis=0)
-        dataset[:] = rows_of(old[path], end)
+        dataset[:] = read_rows(old[path], end)
     for name, names in layout.group_names().items():
         for group in (name, f"/smoothed{name}"):
             if group in file:
@@ -96,7 +96,7 @@ def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: Rows) -> None:
         old.copy(schema.REPETITIONS.path, file)
 
 
-def _holds_anything(part: Path) -> bool:
+def _has_content(part: Path) -> bool:
     """Whether a byte was written; a program that ended while it began leaves room that was only reserved."""
     with part.open("rb") as file:
         while block := file.read(1 << 20):
@@ -105,7 +105,7 @@ def _holds_anything(part: Path) -> bool:
     return False
 
 
-def write_anew(path: Path, target: Path, said: Mapping[str, str]) -> None:
+def rewrite_session(path: Path, target: Path, changed: Mapping[str, str]) -> None:
     """Write a session as ``target`` with other attributes: all else stays, and not a byte of what they said before.
 
     Raises :class:`SessionUnreadable`, :class:`SessionChanged` for one that is not whole, and the faults of writing;
@@ -117,7 +117,7 @@ def write_anew(path: Path, target: Path, said: Mapping[str, str]) -> None:
         try:
             with h5py.File(part, "x", libver="earliest") as file:
                 part.chmod(0o600)
-                _copy(old, file, said)
+                _copy_with_attributes(old, file, changed)
             with part.open("rb") as written:
                 os.fsync(written.fileno())
             verify(part)
@@ -128,12 +128,12 @@ def write_anew(path: Path, target: Path, said: Mapping[str, str]) -> None:
             part.unlink(missing_ok=True)
 
 
-def _copy(old: h5py.File, file: h5py.File, said: Mapping[str, str]) -> None:
-    told = {**old.attrs, **said}
+def _copy_with_attributes(old: h5py.File, file: h5py.File, changed: Mapping[str, str]) -> None:
+    told = {**old.attrs, **changed}
     for name in sorted(told, key=[*schema.ROOT_ATTRIBUTES, *told].index):  # as it was recorded
-        if name != ATTRIBUTE:
+        if name != CHECKSUM_ATTRIBUTE:
             file.attrs[name] = told[name]
     for name in old:
         old.copy(name, file)
-    if ATTRIBUTE in old.attrs:
-        file.attrs[ATTRIBUTE] = seal_of(file)
+    if CHECKSUM_ATTRIBUTE in old.attrs:
+        file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)

@@ -24,19 +24,19 @@ from carpus.core.phrase import phrase
 from carpus.core.session import schema
 from carpus.core.session.schema import Field
 
-MOST_OBJECTS = 400
+MAX_OBJECTS = 400
 """Groups and datasets of one file; the schema has fewer than 100."""
-DEEPEST = 6
+MAX_DEPTH = 6
 _PLAIN_LAYOUTS = (h5py.h5d.COMPACT, h5py.h5d.CONTIGUOUS, h5py.h5d.CHUNKED)
 _PLAIN_FILTERS = (h5py.h5z.FILTER_FLETCHER32, h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE)
-MOST_PACKED = 1032
+MAX_COMPRESSION_RATIO = 1032
 """Bytes that one byte of a packed chunk may become, by the format of gzip."""
 _KINDS = {"f": "f", "u": "iu", "i": "iu", "t": "SO", "r": "V"}
 _FIELDS = {field.path: field for field in schema.ALL_FIELDS}
 _ENDS_OF_RAW = {field.path for field in schema.RAW_STREAMS}
 
 
-def check_plain(path: Path, file: h5py.File) -> None:
+def check_structure(path: Path, file: h5py.File) -> None:
     """Raise :class:`SessionUnreadable` for a file with anything in it that is not plainly its own."""
     size = path.stat().st_size
     whole = bool(file.attrs.get("complete", False))
@@ -45,9 +45,9 @@ def check_plain(path: Path, file: h5py.File) -> None:
     declared = 0
     while waiting:
         place, group, depth = waiting.pop()
-        if depth > DEEPEST:
+        if depth > MAX_DEPTH:
             raise SessionUnreadable(path, phrase("groups within groups without end at {place}", place=place))
-        for name in _names(path, group, place):
+        for name in _list_members(path, group, place):
             inside = f"{place}/{name.decode('utf-8', 'replace')}"
             if group.links.get_info(name).type != h5py.h5l.TYPE_HARD:
                 raise SessionUnreadable(path, phrase("{inside} points out of its place", inside=inside))
@@ -56,8 +56,8 @@ def check_plain(path: Path, file: h5py.File) -> None:
             if key in seen:
                 raise SessionUnreadable(path, phrase("{inside} has two names", inside=inside))
             seen.add(key)
-            if len(seen) > MOST_OBJECTS:
-                raise SessionUnreadable(path, phrase("more than {most_objects} parts", most_objects=MOST_OBJECTS))
+            if len(seen) > MAX_OBJECTS:
+                raise SessionUnreadable(path, phrase("more than {most_objects} parts", most_objects=MAX_OBJECTS))
             if info.type == h5py.h5o.TYPE_GROUP:
                 if inside in _FIELDS:
                     raise SessionUnreadable(path, phrase("{inside} is a group, values expected", inside=inside))
@@ -67,25 +67,25 @@ def check_plain(path: Path, file: h5py.File) -> None:
                 _check_storage(path, inside, dataset)
                 field = _FIELDS.get(inside)
                 if field is not None:
-                    declared += _checked_size(path, field, dataset, size, whole=whole)
+                    declared += _check_size(path, field, dataset, size, whole=whole)
             elif inside in _FIELDS:
                 raise SessionUnreadable(path, phrase("{inside} is a type, values expected", inside=inside))
-    if declared > MOST_PACKED * size + 65536:
+    if declared > MAX_COMPRESSION_RATIO * size + 65536:
         raise SessionUnreadable(path, phrase("it claims more values than the file can hold"))
 
 
-def chunk_rows_there(dataset: h5py.Dataset) -> int:
+def count_stored_rows(dataset: h5py.Dataset) -> int:
     """Rows for which a growing dataset has chunks; its shape may claim more."""
     step, *row = dataset.chunks
     chunk_bytes = step * math.prod(row) * dataset.dtype.itemsize + (4 if dataset.fletcher32 else 0)
     return int(dataset.id.get_storage_size()) // chunk_bytes * int(step) if chunk_bytes else int(dataset.shape[0])
 
 
-def _names(path: Path, group: h5py.h5g.GroupID, place: str) -> list[bytes]:
-    names = list(itertools.islice(group, MOST_OBJECTS + 1))
-    if len(names) > MOST_OBJECTS:
+def _list_members(path: Path, group: h5py.h5g.GroupID, place: str) -> list[bytes]:
+    names = list(itertools.islice(group, MAX_OBJECTS + 1))
+    if len(names) > MAX_OBJECTS:
         raise SessionUnreadable(
-            path, phrase("more than {most_objects} parts in {value}", most_objects=MOST_OBJECTS, value=place or "/")
+            path, phrase("more than {most_objects} parts in {value}", most_objects=MAX_OBJECTS, value=place or "/")
         )
     return names
 
@@ -98,7 +98,7 @@ def _check_storage(path: Path, place: str, dataset: h5py.Dataset) -> None:
         raise SessionUnreadable(path, phrase("{place} is packed in a way that a session is not", place=place))
 
 
-def _checked_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int, *, whole: bool) -> int:
+def _check_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int, *, whole: bool) -> int:
     """Bytes that reading a dataset takes; raises where type, axes or size are not as declared."""
     kind = dataset.dtype.kind
     if kind not in _KINDS[field.dtype[0]] or (kind == "O" and h5py.check_string_dtype(dataset.dtype) is None):
@@ -126,10 +126,10 @@ def _checked_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: i
     stored = int(dataset.id.get_storage_size())
     if dataset.chunks is not None and field.shape[0] in schema.GROWING_AXES and not whole:
         # A flush that was cut short leaves rows announced whose chunk is not there; they are not read.
-        claimed = min(claimed, chunk_rows_there(dataset) * math.prod(map(int, shape[1:])) * dataset.dtype.itemsize)
+        claimed = min(claimed, count_stored_rows(dataset) * math.prod(map(int, shape[1:])) * dataset.dtype.itemsize)
         if math.prod(dataset.chunks) * dataset.dtype.itemsize > 1 << 27:
             raise SessionUnreadable(path, phrase("{path} is stored in pieces that are too large", path=field.path))
-    packed = MOST_PACKED if dataset.compression else 1
+    packed = MAX_COMPRESSION_RATIO if dataset.compression else 1
     if stored > file_bytes or claimed > packed * max(stored, 0) + 4096:
         raise SessionUnreadable(
             path,
@@ -148,7 +148,7 @@ _GROWING = [
 
 
 @dataclass(frozen=True, slots=True)
-class Rows:
+class RowCounts:
     """Rows along each growing axis; every frame counted has its blobs and its pictures."""
 
     frames: int
@@ -157,50 +157,50 @@ class Rows:
     color_bytes: int
     depth_bytes: int
 
-    def along(self, axis: str) -> int:
+    def axis_length(self, axis: str) -> int:
         by_axis = (self.frames, self.detections, self.events, self.color_bytes, self.depth_bytes)
         return dict(zip(("N", "D", "E", "C", "B"), by_axis, strict=True))[axis]
 
 
-def growing_fields(file: h5py.File) -> list[tuple[Field, h5py.Dataset]]:
+def find_growing_fields(file: h5py.File) -> list[tuple[Field, h5py.Dataset]]:
     """The datasets of this file that grew while it was written."""
     return [(field, file[field.path]) for field in _GROWING if field.path in file]
 
 
-def whole_rows(file: h5py.File) -> Rows:
+def count_whole_rows(file: h5py.File) -> RowCounts:
     """The longest beginning of the session of which every dataset holds every row."""
     longest = dict.fromkeys(schema.GROWING_AXES, 0)
-    growing = growing_fields(file)
+    growing = find_growing_fields(file)
     for axis in longest:
-        longest[axis] = min((readable_rows(data) for field, data in growing if field.shape[0] == axis), default=0)
-    frames = _rising(rows_of(file["/frames/timestamp"], longest["N"]))
-    frames, detections = _with_blobs(file, frames, longest["D"])
+        longest[axis] = min((count_readable_rows(data) for field, data in growing if field.shape[0] == axis), default=0)
+    frames = _count_rising(read_rows(file["/frames/timestamp"], longest["N"]))
+    frames, detections = _count_with_detections(file, frames, longest["D"])
     ends = []
     for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True):
         if end.path in file:
-            reached = _rising_ends(rows_of(file[end.path], frames))
+            reached = _select_rising_ends(read_rows(file[end.path], frames))
             frames = min(frames, len(reached))
             frames = int(np.searchsorted(reached, longest[str(stream.shape[0])], side="right"))
     for end in schema.RAW_ENDS:
-        ends.append(int(rows_of(file[end.path], frames)[-1]) if end.path in file and frames > 0 else 0)
-    detections = min(detections, _with_blobs(file, frames, longest["D"])[1])
+        ends.append(int(read_rows(file[end.path], frames)[-1]) if end.path in file and frames > 0 else 0)
+    detections = min(detections, _count_with_detections(file, frames, longest["D"])[1])
     events = 0
     with suppress(OSError, RuntimeError, KeyError):  # a table of events that is broken does not condemn the frames
-        events = _leading(np.isfinite(rows_of(file["/events/time"], longest["E"])))
-    return Rows(frames, detections, events, *ends)
+        events = _count_leading(np.isfinite(read_rows(file["/events/time"], longest["E"])))
+    return RowCounts(frames, detections, events, *ends)
 
 
-def readable_rows(dataset: h5py.Dataset) -> int:
+def count_readable_rows(dataset: h5py.Dataset) -> int:
     """Rows that can be read: a kill inside a flush may leave the last chunk announced but not reachable."""
     rows = int(dataset.shape[0])
     if not dataset.chunks:
         return rows
     step = dataset.chunks[0]
-    rows = min(rows, chunk_rows_there(dataset))
+    rows = min(rows, count_stored_rows(dataset))
     while rows > 0:
         begin = (rows - 1) // step * step
         try:
-            rows_of(dataset, rows, begin)
+            read_rows(dataset, rows, begin)
         except (OSError, RuntimeError):
             rows = begin
         else:
@@ -208,51 +208,51 @@ def readable_rows(dataset: h5py.Dataset) -> int:
     return rows
 
 
-def rows_of(dataset: h5py.Dataset, end: int, begin: int = 0) -> NDArray[Any]:
+def read_rows(dataset: h5py.Dataset, end: int, first: int = 0) -> NDArray[Any]:
     """Rows of a session that was cut short. A chunk whose check sum does not fit was being added to when the program
     ended: only its end is new, so it is read all the same, and the times say which of its rows count."""
     try:
-        return np.asarray(dataset[begin:end])
+        return np.asarray(dataset[first:end])
     except (OSError, RuntimeError):
         step = dataset.chunks[0] if dataset.chunks else 0
         last = (end - 1) // step * step if step else 0
-        if not step or not dataset.fletcher32 or last < begin or dataset.dtype.kind == "O":
+        if not step or not dataset.fletcher32 or last < first or dataset.dtype.kind == "O":
             raise
-        torn = unchecked_chunk(dataset, last)[: end - last]
-        return np.concatenate((np.asarray(dataset[begin:last]), torn)) if last > begin else torn
+        torn = read_chunk(dataset, last)[: end - last]
+        return np.concatenate((np.asarray(dataset[first:last]), torn)) if last > first else torn
 
 
-def unchecked_chunk(dataset: h5py.Dataset, begin: int) -> NDArray[Any]:
+def read_chunk(dataset: h5py.Dataset, begin: int) -> NDArray[Any]:
     """The chunk that begins at a row, whatever its check sum says."""
     _, stored = dataset.id.read_direct_chunk((begin, *(0 for _ in dataset.shape[1:])))
     size = math.prod(dataset.chunks) * dataset.dtype.itemsize
     return np.frombuffer(stored, dataset.dtype, size // dataset.dtype.itemsize).reshape(dataset.chunks)
 
 
-def _rising(timestamp_s: np.ndarray) -> int:
+def _count_rising(timestamp_s: np.ndarray) -> int:
     """Length of the beginning in which times are known and rise."""
     good = np.isfinite(timestamp_s)
     good[1:] &= np.diff(timestamp_s) > 0.0
-    return _leading(good)
+    return _count_leading(good)
 
 
-def _leading(good: np.ndarray) -> int:
+def _count_leading(good: np.ndarray) -> int:
     return len(good) if good.all() else int(np.argmin(good))
 
 
-def _rising_ends(ends: NDArray[Any]) -> NDArray[Any]:
+def _select_rising_ends(ends: NDArray[Any]) -> NDArray[Any]:
     """The beginning of a column of ends in which they are known and do not fall."""
     good = ends >= 0
     good[1:] &= np.diff(ends) >= 0
-    return ends[: _leading(good)]
+    return ends[: _count_leading(good)]
 
 
-def _with_blobs(file: h5py.File, frames: int, blobs: int) -> tuple[int, int]:
+def _count_with_detections(file: h5py.File, frames: int, blobs: int) -> tuple[int, int]:
     """How many of the frames have all their blobs, and how many blobs that makes."""
     if schema.DETECTION_COUNT.path not in file:
-        return frames, int(np.searchsorted(rows_of(file[schema.DETECTION_FRAME.path], blobs), frames))
-    counts = rows_of(file[schema.DETECTION_COUNT.path], frames)
-    counts = counts[: _leading(counts >= 0)]
+        return frames, int(np.searchsorted(read_rows(file[schema.DETECTION_FRAME.path], blobs), frames))
+    counts = read_rows(file[schema.DETECTION_COUNT.path], frames)
+    counts = counts[: _count_leading(counts >= 0)]
     reached = np.cumsum(counts, dtype=np.int64)
     frames = int(np.searchsorted(reached, blobs, side="right"))
     return frames, int(reached[frames - 1]) if frames > 0 else 0

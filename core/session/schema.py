@@ -13,7 +13,7 @@ import numpy as np
 
 from carpus.core.hand.back_surface import TABLE_ROWS
 from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol, protocol_names
-from carpus.core.types import FINGER_READINGS, SURFACE_READINGS
+from carpus.core.types import MAX_FINGER_READINGS, MAX_SURFACE_READINGS
 
 FORMAT = "carpus-session"
 FORMAT_VERSION = 2
@@ -102,7 +102,7 @@ class Field:
         return h5py.string_dtype("utf-8", TEXT_BYTES) if self.dtype == "text" else np.dtype(self.dtype)
 
     @property
-    def named_axis(self) -> str:
+    def label_axis(self) -> str:
         """The letter of the axis whose entries have names, or nothing."""
         return next((str(axis) for axis in self.shape if axis in NAMED_AXES), "")
 
@@ -242,17 +242,17 @@ DETECTION_COUNT = Field("/detections/count", "count", "i4", ("N",), "1",
                         "blobs of this frame", optional=True, fill=-1)
 
 SURFACE_FIELDS = (
-    Field("/surface/pixel", "pixel", "u2", ("N", SURFACE_READINGS, 2), "px",
+    Field("/surface/pixel", "pixel", "u2", ("N", MAX_SURFACE_READINGS, 2), "px",
           "where the depth of the back of the hand was read, u right, v down; 65535 for none",
           optional=True, fill=65535),
-    Field("/surface/depth", "depth_m", "f4", ("N", SURFACE_READINGS), "m",
+    Field("/surface/depth", "depth_m", "f4", ("N", MAX_SURFACE_READINGS), "m",
           "depth read there along the camera's z; NaN for none", optional=True),
 )
 FINGER_FIELDS = (
-    Field("/surface/finger_pixel", "pixel", "u2", ("N", FINGER_READINGS, 2), "px",
+    Field("/surface/finger_pixel", "pixel", "u2", ("N", MAX_FINGER_READINGS, 2), "px",
           "where the depth about the fingers was read, u right, v down; 65535 for none",
           optional=True, fingers_only=True, fill=65535),
-    Field("/surface/finger_depth", "depth_m", "f4", ("N", FINGER_READINGS), "m",
+    Field("/surface/finger_depth", "depth_m", "f4", ("N", MAX_FINGER_READINGS), "m",
           "depth read there along the camera's z; NaN for none", optional=True, fingers_only=True),
 )
 """What tracking again needs of the depth pictures."""

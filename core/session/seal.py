@@ -13,42 +13,42 @@ from typing import Any
 import h5py
 import numpy as np
 
-ATTRIBUTE = "seal"
+CHECKSUM_ATTRIBUTE = "seal"
 PREFIX = "sha256:"
 _BLOCK_BYTES = 1 << 23
 
 
-def seal_of(file: h5py.File, known: Mapping[str, str] | None = None) -> str:
+def compute_checksum(file: h5py.File, known: Mapping[str, str] | None = None) -> str:
     """The seal that belongs to a file as it is; datasets whose digests are ``known`` need not be read again."""
     known = known or {}
     whole = hashlib.sha256()
-    for place, thing in _everything(file):
+    for place, thing in _iter_objects(file):
         whole.update(f"{place}\n".encode())
         for name in sorted(thing.attrs):
-            if (place, name) != ("/", ATTRIBUTE):
-                whole.update(f"@{name} {_said(thing.attrs[name])}\n".encode())
+            if (place, name) != ("/", CHECKSUM_ATTRIBUTE):
+                whole.update(f"@{name} {_serialize_attribute(thing.attrs[name])}\n".encode())
         if isinstance(thing, h5py.Dataset):
-            digest = known.get(place) or digest_of(thing)
-            whole.update(f"={_kind(thing.dtype)} {tuple(map(int, thing.shape))} {digest}\n".encode())
+            digest = known.get(place) or hash_dataset(thing)
+            whole.update(f"={_format_dtype(thing.dtype)} {tuple(map(int, thing.shape))} {digest}\n".encode())
     return PREFIX + whole.hexdigest()
 
 
-def digest_of(dataset: h5py.Dataset) -> str:
+def hash_dataset(dataset: h5py.Dataset) -> str:
     """The digest of all values of a dataset, read in pieces."""
     out = hashlib.sha256()
     if dataset.shape == ():
-        out.update(bytes_of(np.asarray(dataset[()])))
+        out.update(to_bytes(np.asarray(dataset[()])))
         return out.hexdigest()
     row_bytes = max(1, int(np.prod(dataset.shape[1:])) * dataset.dtype.itemsize)
     step = max(1, _BLOCK_BYTES // row_bytes)
     if dataset.chunks:
         step = max(dataset.chunks[0], step // dataset.chunks[0] * dataset.chunks[0])
     for begin in range(0, dataset.shape[0], step):
-        out.update(bytes_of(np.asarray(dataset[begin : begin + step])))
+        out.update(to_bytes(np.asarray(dataset[begin : begin + step])))
     return out.hexdigest()
 
 
-def _everything(file: h5py.File) -> Iterator[tuple[str, Any]]:
+def _iter_objects(file: h5py.File) -> Iterator[tuple[str, Any]]:
     """Every group and dataset in the order of their paths."""
     places: list[str] = []
     file.visit(places.append)
@@ -57,7 +57,7 @@ def _everything(file: h5py.File) -> Iterator[tuple[str, Any]]:
         yield "/" + place, file[place]
 
 
-def bytes_of(values: np.ndarray) -> bytes:
+def to_bytes(values: np.ndarray) -> bytes:
     """Values as they go into a digest."""
     if values.dtype.kind != "O":
         return np.ascontiguousarray(values).astype(values.dtype.newbyteorder("<"), copy=False).tobytes()
@@ -65,16 +65,16 @@ def bytes_of(values: np.ndarray) -> bytes:
     return b"".join(b"%d:%s" % (len(text), text) for text in texts)
 
 
-def _kind(dtype: np.dtype) -> str:
+def _format_dtype(dtype: np.dtype) -> str:
     return "text" if dtype.kind == "O" else dtype.newbyteorder("<").str
 
 
-def _said(value: Any) -> str:
+def _serialize_attribute(value: Any) -> str:
     """An attribute as one text, the same for every way of storing the same thing."""
     if isinstance(value, bytes):
         return repr(value.decode("utf-8", "replace"))
     if isinstance(value, np.ndarray):
-        return "[" + ", ".join(_said(one) for one in value.ravel().tolist()) + "]"
+        return "[" + ", ".join(_serialize_attribute(one) for one in value.ravel().tolist()) + "]"
     if isinstance(value, np.generic):
-        return _said(value.item())
+        return _serialize_attribute(value.item())
     return repr(value)

@@ -18,13 +18,22 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.dates import is_moment
 from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.names import name_of
-from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, Side, SurfaceSamples, TrackedFrame
+from carpus.core.names import normalize_name
+from carpus.core.types import (
+    SIMULATED,
+    BoolArray,
+    Detections,
+    FloatArray,
+    KinematicState,
+    Side,
+    SurfaceSamples,
+    TrackedFrame,
+)
 from carpus.core.version import __version__
 
 IntArray = NDArray[np.integer]
 
-MOST_TARGET_DEG = 180.0
+MAX_TARGET_DEG = 180.0
 """No joint goes further; what a file claims beyond it is no target."""
 SET_UP = "set_up"
 """The part of a session's parameters that says what was aimed at."""
@@ -63,19 +72,19 @@ class SessionHeader:
             raise ValueError(f"{self.protocol.name} with {len(self.joint_names)} joint angles")
 
     @property
-    def when(self) -> datetime:
+    def recording_time(self) -> datetime:
         """When the hand moved; where nobody knows, when the file was made."""
         return datetime.fromisoformat(self.recorded or self.created)
 
     @property
-    def simulated(self) -> bool:
+    def is_simulated(self) -> bool:
         """Whether the pictures were of a simulated hand, as their source said: nobody's movement was measured."""
-        return self._part("source").get(SIMULATED) == "yes"
+        return self._read_section("source").get(SIMULATED) == "yes"
 
     @property
     def set_up(self) -> Mapping[str, Any]:
         """What was aimed at; empty where the session does not say."""
-        return self._part(SET_UP)
+        return self._read_section(SET_UP)
 
     @property
     def targets_deg(self) -> tuple[float, float]:
@@ -84,12 +93,12 @@ class SessionHeader:
         if not isinstance(values, list) or len(values) != 2:
             return math.nan, math.nan
         positive, negative = (
-            float(value) if isinstance(value, (int, float)) and abs(value) <= MOST_TARGET_DEG else math.nan
+            float(value) if isinstance(value, (int, float)) and abs(value) <= MAX_TARGET_DEG else math.nan
             for value in values
         )
         return positive, negative
 
-    def _part(self, name: str) -> Mapping[str, Any]:
+    def _read_section(self, name: str) -> Mapping[str, Any]:
         parameters = json.loads(self.parameters)
         part = parameters.get(name) if isinstance(parameters, dict) else None
         return part if isinstance(part, dict) else {}
@@ -117,7 +126,7 @@ def new_header(
     created = (now or datetime.now().astimezone()).isoformat(timespec="seconds")
     return SessionHeader(
         session_id=str(session_id or uuid.uuid4()),
-        subject_id=name_of(subject_id),
+        subject_id=normalize_name(subject_id),
         created=created,
         hand=hand,
         protocol=protocol,
@@ -132,22 +141,23 @@ def new_header(
 
 
 @dataclass(frozen=True, slots=True)
-class Motion(Moment):
-    """Moments of N frames, of the filter or of the smoother: every array of a :class:`Moment` with N rows of it."""
+class Motion(KinematicState):
+    """Moments of N frames, of the filter or of the smoother: every array of a :class:`KinematicState` with N rows of
+    it."""
 
 
-def motion_of(frames: Sequence[TrackedFrame | Moment]) -> Motion:
+def stack_states(frames: Sequence[TrackedFrame | KinematicState]) -> Motion:
     """The frames' wrist and joints, one row each."""
-    moments = [frame.moment if isinstance(frame, TrackedFrame) else frame for frame in frames]
+    moments = [frame.kinematics if isinstance(frame, TrackedFrame) else frame for frame in frames]
     return Motion(
         **{field.name: np.array([getattr(moment, field.name) for moment in moments]) for field in fields(Motion)}
     )
 
 
-def moments_of(motion: Motion) -> Iterator[Moment]:
+def iter_states(motion: Motion) -> Iterator[KinematicState]:
     """One moment for every row."""
-    columns = [getattr(motion, field.name) for field in fields(Moment)]
-    return (Moment(*row) for row in zip(*columns, strict=True))
+    columns = [getattr(motion, field.name) for field in fields(KinematicState)]
+    return (KinematicState(*row) for row in zip(*columns, strict=True))
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,7 +228,7 @@ class Repetitions:
 
 
 @dataclass(frozen=True, slots=True)
-class RawPictures:
+class EncodedImages:
     """One frame's pictures as picture files: colour JPEG or PNG, depth 16-bit PNG; no bytes where there is none."""
 
     color: bytes
@@ -238,7 +248,7 @@ class DetectionTable:
     surface: tuple[NDArray[Any], NDArray[Any]] = (np.empty((0, 0)), np.empty((0, 0)))
     fingers: tuple[NDArray[Any], NDArray[Any]] = (np.empty((0, 0)), np.empty((0, 0)))
 
-    def of_frame(self, row: int) -> Detections:
+    def get_frame(self, row: int) -> Detections:
         begin, end = np.searchsorted(self.frame, (row, row + 1))
         some = slice(int(begin), int(end))
         b = self.blobs
@@ -248,12 +258,12 @@ class DetectionTable:
             b.depth_sd_m[some],
             b.area_px[some],
             b.similarity[some],
-            _readings(self.surface, row),
-            _readings(self.fingers, row),
+            _read_samples(self.surface, row),
+            _read_samples(self.fingers, row),
         )
 
 
-def _readings(kept: tuple[NDArray[Any], NDArray[Any]], row: int) -> SurfaceSamples | None:
+def _read_samples(kept: tuple[NDArray[Any], NDArray[Any]], row: int) -> SurfaceSamples | None:
     pixel, depth_m = kept
     if row >= len(depth_m):
         return None
@@ -275,12 +285,13 @@ class SessionOutline:
 
 
 @dataclass(frozen=True, slots=True)
-class Verified:
-    """A session that is whole: all of its ``frames`` can be read; ``sealed``: and nothing was changed since it was
+class VerificationResult:
+    """A session that is whole: all of its ``frames`` can be read; ``has_checksum``: and nothing was changed since it
+    was
     finished, which sessions from before there were seals cannot tell."""
 
     frames: int
-    sealed: bool
+    has_checksum: bool
 
 
 AngleOrder = Literal["zyx", "isb"]

@@ -14,16 +14,22 @@ import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.durable import Writing, private, write_fault
+from carpus.core.durable import FileWriter, open_private, write_fault
 from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
-from carpus.core.session.blocks import Blocks, event_blocks, frame_blocks, picture_blocks, smoothed_blocks
-from carpus.core.session.disk import publish, remove_leftovers, reserve, temporary_path
-from carpus.core.session.new_file import ROWS_AT_ONCE, create_repetitions, create_smoothed, empty_session
-from carpus.core.session.opened import layout_of, session_in
-from carpus.core.session.seal import ATTRIBUTE, bytes_of, seal_of
-from carpus.core.session.values import Event, Motion, RawPictures, Repetitions, Session, SessionHeader
+from carpus.core.session.blocks import (
+    Blocks,
+    build_event_blocks,
+    build_frame_blocks,
+    build_image_blocks,
+    build_motion_blocks,
+)
+from carpus.core.session.disk import publish, remove_leftovers, reserve_space, temporary_path
+from carpus.core.session.new_file import ROWS_AT_ONCE, build_empty_session, create_repetitions, create_smoother_datasets
+from carpus.core.session.opened import layout_from_file, session_from_file
+from carpus.core.session.seal import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
+from carpus.core.session.values import EncodedImages, Event, Motion, Repetitions, Session, SessionHeader
 from carpus.core.types import TrackedFrame
 
 _TIMES = schema.FRAME_FIELDS[0].path
@@ -31,7 +37,7 @@ _INDEX_BYTES = 512 * 1024
 """More than HDF5's index grows by in one step."""
 
 
-class SessionWriter(Writing):
+class SessionWriter(FileWriter):
     """One session file in the making; used by one thread, from its beginning to :meth:`close`.
 
     It gets its name in :meth:`close`, and no other file loses it. Whatever fails before, nothing is left behind: what
@@ -47,14 +53,14 @@ class SessionWriter(Writing):
         self.path = path
         self._temporary = temporary_path(path)
         self._rows: dict[str, int] = {}
-        self._frames: list[TrackedFrame] = []
-        self._pictures: list[RawPictures] = []
+        self._pending_frames: list[TrackedFrame] = []
+        self._pending_images: list[EncodedImages] = []
         self._written: dict[str, int] = {}
-        self._held: dict[str, list[Any]] = {}
+        self._pending: dict[str, list[Any]] = {}
         self._digests: dict[str, Any] = {}
         self._last_time_s = -np.inf
         try:
-            with open(self._temporary, "xb", opener=private) as file:
+            with open(self._temporary, "xb", opener=open_private) as file:
                 file.write(empty)
         except OSError as cause:
             with contextlib.suppress(OSError):
@@ -62,7 +68,7 @@ class SessionWriter(Writing):
             raise write_fault(path.parent, cause) from cause
         self._descriptor = os.open(self._temporary, os.O_RDWR)
         self._file = h5py.File(self._temporary, "r+", libver="earliest", rdcc_nbytes=0)
-        self._layout = layout_of(path, self._file)
+        self._layout = layout_from_file(path, self._file)
 
     @classmethod
     def create(
@@ -75,13 +81,13 @@ class SessionWriter(Writing):
         raw_depth_unit_m: float | None = None,
     ) -> Self:
         """Begin a session that is to become ``path``. With ``raw_depth_unit_m`` every frame brings its pictures."""
-        return cls(path, empty_session(header, camera, calibration, raw_depth_unit_m))
+        return cls(path, build_empty_session(header, camera, calibration, raw_depth_unit_m))
 
     def __len__(self) -> int:
         """Frames taken so far."""
-        return self._rows.get(_TIMES, 0) + len(self._frames)
+        return self._rows.get(_TIMES, 0) + len(self._pending_frames)
 
-    def append(self, tracked: TrackedFrame, raw: RawPictures | None = None) -> None:
+    def append(self, tracked: TrackedFrame, raw: EncodedImages | None = None) -> None:
         """Take one frame."""
         if tracked.timestamp_s <= self._last_time_s:
             times = {"timestamp_s": f"{tracked.timestamp_s:.6f}", "last_time_s": f"{self._last_time_s:.6f}"}
@@ -89,17 +95,17 @@ class SessionWriter(Writing):
         if (raw is not None) != (schema.RAW_ENDS[0].path in self._file):
             raise ValueError("pictures come with every frame or with none")
         self._last_time_s = tracked.timestamp_s
-        self._frames.append(tracked)
+        self._pending_frames.append(tracked)
         if raw is not None:
-            self._pictures.append(raw)
-        if len(self._frames) >= ROWS_AT_ONCE:
+            self._pending_images.append(raw)
+        if len(self._pending_frames) >= ROWS_AT_ONCE:
             self.flush()
 
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
         """Note something that happened at a time of the recording."""
-        self.add(event_blocks(Event(time_s, kind, text)))
+        self.add_blocks(build_event_blocks(Event(time_s, kind, text)))
 
-    def add(self, blocks: Blocks) -> None:
+    def add_blocks(self, blocks: Blocks) -> None:
         """Take rows as arrays, of frames with all that belongs to them, or of events."""
         blocks = dict(blocks)
         starts = {schema.DETECTION_FRAME.path: _TIMES}
@@ -108,57 +114,57 @@ class SessionWriter(Writing):
             if path in blocks:
                 blocks[path] = blocks[path] + self._rows.get(counted, 0)
         for path, data in blocks.items():
-            self._held.setdefault(path, []).append(data)
+            self._pending.setdefault(path, []).append(data)
             self._rows[path] = self._rows.get(path, 0) + len(data)
         if self._rows.get(_TIMES, 0) - self._written.get(_TIMES, 0) >= ROWS_AT_ONCE:
             self._write(whole_chunks=True)
 
-    def write_smoothed(self, motion: Motion) -> None:
+    def write_motion(self, motion: Motion) -> None:
         """Store the smoother's result, one row for every frame appended."""
         if len(motion.position_m) != len(self):
             raise ValueError(f"/smoothed got {len(motion.position_m)} rows for {len(self)} frames")
-        self.add_smoothed(smoothed_blocks(self._layout, motion))
+        self.add_motion_blocks(build_motion_blocks(self._layout, motion))
 
-    def add_smoothed(self, blocks: Blocks) -> None:
+    def add_motion_blocks(self, blocks: Blocks) -> None:
         """Take the smoother's result for the next frames as arrays, from the first frame on."""
-        if not self.smoothed_rows:
-            with self._changing(0):
-                create_smoothed(self._file, self._layout)
-        self.add(blocks)
+        if not self.smoother_row_count:
+            with self._reserve_and_flush(0):
+                create_smoother_datasets(self._file, self._layout)
+        self.add_blocks(blocks)
 
     @property
-    def smoothed_rows(self) -> int:
+    def smoother_row_count(self) -> int:
         """For how many frames there is a smoother's result."""
         return self._rows.get(schema.SMOOTHED_FIELDS[0].path, 0)
 
-    def drop_smoothed(self) -> None:
+    def drop_motion(self) -> None:
         """Leave the smoother's result out: it does not come to all frames."""
-        if self.smoothed_rows:
-            with self._changing(0):
+        if self.smoother_row_count:
+            with self._reserve_and_flush(0):
                 del self._file["/smoothed"]
             for field in schema.SMOOTHED_FIELDS:
-                for known in (self._held, self._rows, self._written, self._digests):
+                for known in (self._pending, self._rows, self._written, self._digests):
                     known.pop(field.path, None)
 
-    def read_back(self) -> Session:
+    def read_session(self) -> Session:
         """What is in the file so far, as :func:`core.session.reader.read_session` gives it."""
         self.flush()
-        return session_in(self.path, self._file)
+        return session_from_file(self.path, self._file)
 
     def write_repetitions(self, repetitions: Repetitions) -> None:
         """Store what was counted, once all frames are there."""
         self.flush()
-        with self._changing(len(repetitions.rows) * schema.REPETITION_DTYPE.itemsize):
+        with self._reserve_and_flush(len(repetitions.rows) * schema.REPETITION_DTYPE.itemsize):
             create_repetitions(self._file, self._layout, repetitions)
 
     def flush(self) -> None:
         """Write what is held in memory."""
-        if self._frames:
-            blocks = frame_blocks(self._layout, self._frames)
-            if self._pictures:
-                blocks |= picture_blocks(self._pictures)
-            self._frames, self._pictures = [], []
-            self.add(blocks)
+        if self._pending_frames:
+            blocks = build_frame_blocks(self._layout, self._pending_frames)
+            if self._pending_images:
+                blocks |= build_image_blocks(self._pending_images)
+            self._pending_frames, self._pending_images = [], []
+            self.add_blocks(blocks)
         self._write()
 
     def close(self, recovered: str = "") -> None:
@@ -170,13 +176,13 @@ class SessionWriter(Writing):
             return
         try:
             self.flush()
-            with self._changing(0):
+            with self._reserve_and_flush(0):
                 if recovered:
                     self._file.attrs[schema.RECOVERED] = recovered
-                self._file.attrs[ATTRIBUTE] = seal_of(
+                self._file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(
                     self._file, {path: one.hexdigest() for path, one in self._digests.items()}
                 )
-            self._let_go()
+            self._close_file()
             publish(self._temporary, self.path)
         except (OSError, RuntimeError) as cause:
             raise write_fault(self.path, cause) from cause
@@ -185,10 +191,10 @@ class SessionWriter(Writing):
 
     def abandon(self) -> None:
         """Stop; nothing is left behind. May be called twice, and when closed."""
-        self._let_go(keep=False)
+        self._close_file(keep=False)
         self._temporary.unlink(missing_ok=True)
 
-    def _let_go(self, keep: bool = True) -> None:
+    def _close_file(self, keep: bool = True) -> None:
         if not self._file:
             return
         try:
@@ -206,17 +212,17 @@ class SessionWriter(Writing):
     def _write(self, *, whole_chunks: bool = False) -> None:
         """Write what is held; with ``whole_chunks`` what does not fill one stays held, so that none is packed twice."""
         rows: dict[str, Any] = {}
-        for path, parts in self._held.items():
+        for path, parts in self._pending.items():
             data, dataset = np.concatenate(parts), self._file[path]
             rest = (dataset.shape[0] + len(data)) % dataset.chunks[0] if whole_chunks else 0
             end = max(len(data) - rest, 0)
-            self._held[path] = [data[end:]]
+            self._pending[path] = [data[end:]]
             if end:
                 rows[path] = np.asarray(data[:end], dtype=dataset.dtype)
-        self._held = {path: parts for path, parts in self._held.items() if len(parts[0])}
+        self._pending = {path: parts for path, parts in self._pending.items() if len(parts[0])}
         if not rows:
             return
-        with self._changing(2 * sum(data.nbytes for data in rows.values())):
+        with self._reserve_and_flush(2 * sum(data.nbytes for data in rows.values())):
             for path, data in rows.items():
                 dataset = self._file[path]
                 begin = dataset.shape[0]
@@ -224,28 +230,28 @@ class SessionWriter(Writing):
                 dataset[begin:] = data
         for path, data in rows.items():
             self._written[path] = self._written.get(path, 0) + len(data)
-            self._check(path, data)
+            self._verify_written(path, data)
         if whole_chunks:
             os.fsync(self._descriptor)  # so that the end has little left to do
 
-    def _check(self, path: str, data: Any) -> None:
+    def _verify_written(self, path: str, data: Any) -> None:
         """Read back what was written last, for the seal."""
         dataset = self._file[path]
         try:
-            there = bytes_of(np.asarray(dataset[dataset.shape[0] - len(data) :]))
+            there = to_bytes(np.asarray(dataset[dataset.shape[0] - len(data) :]))
         except (OSError, RuntimeError) as cause:
             raise write_fault(self.path, cause) from cause
-        if there != bytes_of(data):
+        if there != to_bytes(data):
             raise OutputNotWritable(self.path.parent, phrase("what was written is not what is read"))
         self._digests.setdefault(path, hashlib.sha256()).update(there)
 
     @contextlib.contextmanager
-    def _changing(self, room: int) -> Iterator[None]:
+    def _reserve_and_flush(self, room: int) -> Iterator[None]:
         """Around every change of the file: room first, so that a full disk is told before HDF5 meets it."""
         if not self._file:
             raise ValueError("the session is closed")
         try:
-            reserve(self._descriptor, self.path, self._file.id.get_filesize(), room + _INDEX_BYTES)
+            reserve_space(self._descriptor, self.path, self._file.id.get_filesize(), room + _INDEX_BYTES)
             yield
             self._file.flush()
         except CarpusFault:

@@ -36,14 +36,14 @@ LIGHTS = {"bright": (0.92, 4500.0), "normal": (0.72, 1800.0), "dim": (0.34, 800.
 READ_NOISE_ELECTRONS = 9.0
 
 
-def linear(srgb: FloatArray) -> FloatArray:
+def to_linear(srgb: FloatArray) -> FloatArray:
     """Linear light 0 to 1 of sRGB values 0 to 255."""
     c = np.asarray(srgb) / 255.0
     return np.asarray(np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4))
 
 
 @dataclass(frozen=True, slots=True)
-class Band:
+class WornBand:
     """What is worn round the forearm: linear ``color`` (3,), from and to which distance from the wrist; of cloth it
     has folds."""
 
@@ -62,9 +62,9 @@ class Appearance:
 
     skin: FloatArray
     paper: FloatArray
-    bands: tuple[Band, ...]
+    bands: tuple[WornBand, ...]
     ring: FloatArray | None
-    thing: FloatArray
+    rod: FloatArray
     light_cam: FloatArray
     lamp: FloatArray
     ambient: FloatArray
@@ -75,7 +75,7 @@ class Appearance:
     table_depth_m: FloatImage
 
 
-def light_of(spec: RecordingSpec) -> str:
+def room_light(spec: RecordingSpec) -> str:
     """How bright the room of a recording is: a key of :data:`LIGHTS`."""
     if spec.light != "drawn":
         return spec.light
@@ -83,7 +83,7 @@ def light_of(spec: RecordingSpec) -> str:
     return ("bright", "normal", "normal", "dim")[int(rng.integers(4))]
 
 
-def appearance_of(scene: Scene) -> Appearance:
+def sample_appearance(scene: Scene) -> Appearance:
     """Draw the looks of a recording; the table is painted once."""
     spec = scene.spec
     rng = np.random.default_rng([spec.seed, RandomStream.SCENE, 1])
@@ -91,7 +91,7 @@ def appearance_of(scene: Scene) -> Appearance:
     sleeve_drawn = ("none", "grey", "white")[int(rng.integers(3))]
     sleeve = sleeve_drawn if spec.sleeve == "drawn" else spec.sleeve
     sleeve_start = rng.uniform(0.045, 0.09)
-    level, electrons = LIGHTS[light_of(spec)]
+    level, electrons = LIGHTS[room_light(spec)]
     warmth = rng.uniform(-0.08, 0.10)
     white = np.array([1.0 + warmth, 1.0, 1.0 - warmth])
     side = rng.uniform(0.25, 0.75)
@@ -102,13 +102,13 @@ def appearance_of(scene: Scene) -> Appearance:
     depth = table_depth(scene.camera, scene)
     table = _table_albedo(scene, depth, rng)
     return Appearance(
-        skin=linear(SKIN_TONES_SRGB[tone] * rng.uniform(0.96, 1.04, 3)),
-        paper=linear(PAPER_BLUE_SRGB * rng.uniform(0.85, 1.15, 3)),
-        bands=_bands(spec, sleeve, sleeve_start, rng.uniform(0.85, 1.1)),
-        ring=linear(_METALS_SRGB[int(spec.random(RandomStream.WORN).integers(2))])
-        if "ring" in spec.things_worn
+        skin=to_linear(SKIN_TONES_SRGB[tone] * rng.uniform(0.96, 1.04, 3)),
+        paper=to_linear(PAPER_BLUE_SRGB * rng.uniform(0.85, 1.15, 3)),
+        bands=_sample_bands(spec, sleeve, sleeve_start, rng.uniform(0.85, 1.1)),
+        ring=to_linear(_METALS_SRGB[int(spec.generator(RandomStream.WORN).integers(2))])
+        if "ring" in spec.worn_items
         else None,
-        thing=linear(np.array([150.0, 140.0, 130.0]) * rng.uniform(0.4, 1.3)),
+        rod=to_linear(np.array([150.0, 140.0, 130.0]) * rng.uniform(0.4, 1.3)),
         light_cam=to_lamp,
         lamp=level * lamp_share * 1.25 * white,
         ambient=level * (1.0 - lamp_share) * 1.25 * white,
@@ -120,17 +120,19 @@ def appearance_of(scene: Scene) -> Appearance:
     )
 
 
-def _bands(spec: RecordingSpec, sleeve: str, sleeve_start_m: float, shade: float) -> tuple[Band, ...]:
+def _sample_bands(spec: RecordingSpec, sleeve: str, sleeve_start_m: float, shade: float) -> tuple[WornBand, ...]:
     """Bandage, watch and sleeve in the order in which they are put on."""
     rng = np.random.default_rng([spec.seed, RandomStream.WORN, 1])
     bandage_m, watch_m, strap = rng.uniform(0.010, 0.025), rng.uniform(0.020, 0.040), int(rng.integers(3))
     out = []
-    if "bandage" in spec.things_worn:
-        out.append(Band(linear(np.array(_BANDAGE_SRGB)), bandage_m, bandage_m + 0.09, is_cloth=True))
-    if "watch" in spec.things_worn:
-        out.append(Band(linear(_STRAPS_SRGB[strap]), watch_m, watch_m + 0.020, is_cloth=False))
+    if "bandage" in spec.worn_items:
+        out.append(WornBand(to_linear(np.array(_BANDAGE_SRGB)), bandage_m, bandage_m + 0.09, is_cloth=True))
+    if "watch" in spec.worn_items:
+        out.append(WornBand(to_linear(_STRAPS_SRGB[strap]), watch_m, watch_m + 0.020, is_cloth=False))
     if sleeve != "none":
-        out.append(Band(linear(np.array(_SLEEVES_SRGB[sleeve]) * shade), sleeve_start_m, math.inf, is_cloth=True))
+        out.append(
+            WornBand(to_linear(np.array(_SLEEVES_SRGB[sleeve]) * shade), sleeve_start_m, math.inf, is_cloth=True)
+        )
     return tuple(out)
 
 
@@ -149,13 +151,13 @@ def _table_albedo(scene: Scene, depth_m: FloatImage, rng: np.random.Generator) -
     camera = scene.camera
     kind = int(rng.integers(3))
     u, v = np.meshgrid(np.arange(camera.width_px, dtype=np.float64), np.arange(camera.height_px, dtype=np.float64))
-    points = camera.back_project(np.stack((u, v), axis=-1), depth_m.astype(np.float64))
+    points = camera.backproject(np.stack((u, v), axis=-1), depth_m.astype(np.float64))
     room = (points - scene.translation_w0_cam_m) @ scene.rotation_w0_cam
     along, across = room[..., 0], room[..., 1]
     turn = rng.uniform(0.0, math.pi)
     along, across = math.cos(turn) * along - math.sin(turn) * across, math.sin(turn) * along + math.cos(turn) * across
     if kind < 2:
-        base = linear(_WOODS_SRGB[int(rng.integers(3))])
+        base = to_linear(_WOODS_SRGB[int(rng.integers(3))])
         bend = 0.01 * np.sin(along * 11.0 + rng.uniform(0, 6)) + 0.004 * np.sin(along * 37.0 + rng.uniform(0, 6))
         grain = sum(
             rng.uniform(0.3, 1.0) * np.sin((across + bend) * rate + rng.uniform(0.0, 6.0))
@@ -163,7 +165,7 @@ def _table_albedo(scene: Scene, depth_m: FloatImage, rng: np.random.Generator) -
         )
         pattern = 1.0 + 0.055 * np.asarray(grain)
     else:
-        base = linear(_PLAIN_SRGB[int(rng.integers(3))])
+        base = to_linear(_PLAIN_SRGB[int(rng.integers(3))])
         pattern = np.ones_like(along)
     fine = cv2.GaussianBlur(rng.normal(size=along.shape).astype(np.float32), (0, 0), 1.2)
     broad = cv2.GaussianBlur(rng.normal(size=along.shape).astype(np.float32), (0, 0), 25.0)

@@ -38,7 +38,7 @@ class StrokePath:
     time_s: FloatArray
     value: FloatArray
 
-    def at(self, time_s: FloatArray) -> FloatArray:
+    def evaluate(self, time_s: FloatArray) -> FloatArray:
         """Posture (N, C) at times (N,)."""
         if len(self.time_s) == 1:
             return np.repeat(self.value, len(time_s), axis=0)
@@ -47,7 +47,7 @@ class StrokePath:
         return np.asarray(self.value[k] + minimum_jerk(share)[:, None] * (self.value[k + 1] - self.value[k]))
 
 
-class StrokeWriter:
+class StrokePathBuilder:
     """Builds a :class:`StrokePath` stroke by stroke from a starting posture (C,)."""
 
     def __init__(self, start: FloatArray, still_s: float) -> None:
@@ -62,15 +62,15 @@ class StrokeWriter:
     def posture(self) -> FloatArray:
         return self._value[-1]
 
-    def move(self, target: FloatArray, duration_s: float) -> None:
+    def add_stroke(self, target: FloatArray, duration_s: float) -> None:
         self._time_s.append(self.time_s + max(duration_s, 1e-3))
         self._value.append(np.asarray(target, dtype=np.float64))
 
-    def hold(self, duration_s: float) -> None:
+    def add_hold(self, duration_s: float) -> None:
         if duration_s > 0.0:
-            self.move(self.posture, duration_s)
+            self.add_stroke(self.posture, duration_s)
 
-    def path(self) -> StrokePath:
+    def build(self) -> StrokePath:
         return StrokePath(np.array(self._time_s), np.array(self._value))
 
 
@@ -92,13 +92,13 @@ _RESTLESS_JOINT_RAD = math.radians(2.0)
 class HandMotion:
     """Posture as a function of time; angles and metres are continuous in position, velocity and acceleration.
 
-    ``wrist`` (3) clinical angles, ``joints`` (J), ``carry`` (3) displacement of the whole arm in W0, metres.
+    ``wrist`` (3) clinical angles, ``joints`` (J), ``arm`` (3) displacement of the whole arm in W0, metres.
     """
 
     joint_names: tuple[str, ...]
     wrist: StrokePath
     joints: StrokePath
-    carry: StrokePath
+    arm: StrokePath
     sway: Sway
     tremor_rad: float
     tremor_hz: float
@@ -107,29 +107,31 @@ class HandMotion:
 
     def wrist_angles_rad(self, time_s: FloatArray) -> FloatArray:
         """Deviation, flexion, pro/supination, (N, 3)."""
-        ramp = _ramp(time_s)
+        ramp = _exercise_ramp(time_s)
         tremor = self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s - STILL_S)) * ramp
         sway = self.sway.wrist_rad(time_s) * ramp[:, None]
-        own = self.wrist.at(time_s) + sway + tremor[:, None] * self.tremor_axis
-        return np.asarray(own + self.habits.at(time_s, ramp)[:, :3])
+        own = self.wrist.evaluate(time_s) + sway + tremor[:, None] * self.tremor_axis
+        return np.asarray(own + self.habits.evaluate(time_s, ramp)[:, :3])
 
     def joint_angles_rad(self, time_s: FloatArray) -> FloatArray:
         """Finger joint angles, (N, J)."""
-        ramp = _ramp(time_s)[:, None]
+        ramp = _exercise_ramp(time_s)[:, None]
         tremor = 0.5 * self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s[:, None] - STILL_S) + 1.0)
         flexing = np.array([name.startswith(("MCP", "IP1")) and name.endswith("flexion") for name in self.joint_names])
-        own = self.joints.at(time_s) + ramp * (self.sway.joint_rad(time_s) + tremor * flexing)
-        unrest = self.habits.at(time_s, ramp[:, 0])[:, 6:]
+        own = self.joints.evaluate(time_s) + ramp * (self.sway.joint_rad(time_s) + tremor * flexing)
+        unrest = self.habits.evaluate(time_s, ramp[:, 0])[:, 6:]
         if self.habits.tenodesis == 0.0:
             return np.asarray(own + unrest)
         extension = -self.wrist_angles_rad(time_s)[:, 1]
-        return np.asarray(own + unrest + self.habits.closing_rad(extension)[:, None] * _closing(self.joint_names))
+        return np.asarray(
+            own + unrest + self.habits.closing_rad(extension)[:, None] * _closing_shares(self.joint_names)
+        )
 
-    def carry_m(self, time_s: FloatArray) -> FloatArray:
+    def arm_displacement_m(self, time_s: FloatArray) -> FloatArray:
         """Displacement of the arm in W0, (N, 3)."""
-        ramp = _ramp(time_s)
-        own = self.carry.at(time_s) + self.sway.carry_m(time_s) * ramp[:, None]
-        return np.asarray(own + self.habits.at(time_s, ramp)[:, 3:6])
+        ramp = _exercise_ramp(time_s)
+        own = self.arm.evaluate(time_s) + self.sway.arm_displacement_m(time_s) * ramp[:, None]
+        return np.asarray(own + self.habits.evaluate(time_s, ramp)[:, 3:6])
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,34 +142,37 @@ class Sway:
     phase_rad: FloatArray
     amount: FloatArray
 
-    def at(self, time_s: FloatArray) -> FloatArray:
+    def evaluate(self, time_s: FloatArray) -> FloatArray:
         """All channels, (N, C): three of the wrist, three of the arm's place, the joints."""
         waves = np.sin(self.rate_rad_s * time_s[:, None, None] + self.phase_rad)
         return np.asarray((self.amount * waves).sum(axis=-1))
 
     def wrist_rad(self, time_s: FloatArray) -> FloatArray:
-        return self.at(time_s)[:, :3]
+        return self.evaluate(time_s)[:, :3]
 
-    def carry_m(self, time_s: FloatArray) -> FloatArray:
-        return self.at(time_s)[:, 3:6]
+    def arm_displacement_m(self, time_s: FloatArray) -> FloatArray:
+        return self.evaluate(time_s)[:, 3:6]
 
     def joint_rad(self, time_s: FloatArray) -> FloatArray:
-        return self.at(time_s)[:, 6:]
+        return self.evaluate(time_s)[:, 6:]
 
 
 @dataclass(frozen=True, slots=True)
 class Habits:
-    """What the hand does besides the exercise: fingers close by ``tenodesis`` of the wrist's extension; ``moving`` is
-    further unrest once the exercise runs, ``always`` from the first frame on, counted from there."""
+    """What the hand does besides the exercise: fingers close by ``tenodesis`` of the wrist's extension;
+    ``exercise_sway`` is
+    further unrest once the exercise runs, ``constant_sway`` from the first frame on, counted from there."""
 
     tenodesis: float
-    moving: Sway
-    always: Sway
+    exercise_sway: Sway
+    constant_sway: Sway
 
-    def at(self, time_s: FloatArray, ramp: FloatArray) -> FloatArray:
+    def evaluate(self, time_s: FloatArray, ramp: FloatArray) -> FloatArray:
         """Channels (N, C) as of :class:`Sway`, for the ramp (N,) of the exercise."""
-        begun = self.always.at(np.zeros(1))
-        return np.asarray(self.moving.at(time_s) * ramp[:, None] + self.always.at(time_s) - begun)
+        begun = self.constant_sway.evaluate(np.zeros(1))
+        return np.asarray(
+            self.exercise_sway.evaluate(time_s) * ramp[:, None] + self.constant_sway.evaluate(time_s) - begun
+        )
 
     def closing_rad(self, extension_rad: FloatArray) -> FloatArray:
         """Flexion (N,) of knuckles and middle joints: they close with extension, and open a third as far with
@@ -176,29 +181,29 @@ class Habits:
         return np.asarray(self.tenodesis * (2.0 * extension_rad + bend) / 3.0)
 
 
-def _closing(names: tuple[str, ...]) -> FloatArray:
+def _closing_shares(names: tuple[str, ...]) -> FloatArray:
     """Share (J,) of each joint in the fingers' closing by themselves."""
     return np.array(
         [_CLOSING.get(name, _CLOSING.get(name[:3], 0.0) if name.endswith("flexion") else 0.0) for name in names]
     )
 
 
-def _ramp(time_s: FloatArray) -> FloatArray:
+def _exercise_ramp(time_s: FloatArray) -> FloatArray:
     """0 during the still start, 1 from half a second after it."""
     return minimum_jerk((time_s - STILL_S) / 0.5)
 
 
-def drawn_sway(rng: np.random.Generator, joint_count: int) -> Sway:
+def sample_sway(rng: np.random.Generator, joint_count: int) -> Sway:
     """A person's unrest: about a degree in each angle, under a millimetre in place."""
     amount = np.concatenate((_SWAY_WRIST_RAD, np.full(3, _SWAY_CARRY_M), np.full(joint_count, _SWAY_JOINT_RAD)))
-    return _drawn(rng, amount, (0.08, 0.4))
+    return _sample_waves(rng, amount, (0.08, 0.4))
 
 
-def drawn_habits(rng: np.random.Generator, habits: tuple[str, ...], joint_count: int) -> Habits:
+def sample_habits(rng: np.random.Generator, habits: tuple[str, ...], joint_count: int) -> Habits:
     """How far one person's habits go; those that are not named are drawn, too, and left out."""
     tenodesis = float(rng.uniform(*_TENODESIS))
-    rolling = _drawn(rng, np.concatenate((_ROLLING, np.zeros(joint_count))), (0.15, 0.5))
-    restless = _drawn(rng, np.concatenate((_RESTLESS, np.full(joint_count, _RESTLESS_JOINT_RAD))), (0.2, 0.7))
+    rolling = _sample_waves(rng, np.concatenate((_ROLLING, np.zeros(joint_count))), (0.15, 0.5))
+    restless = _sample_waves(rng, np.concatenate((_RESTLESS, np.full(joint_count, _RESTLESS_JOINT_RAD))), (0.2, 0.7))
     return Habits(
         tenodesis if "tenodesis" in habits else 0.0,
         rolling if "rolling_forearm" in habits else replace(rolling, amount=0.0 * rolling.amount),
@@ -206,7 +211,7 @@ def drawn_habits(rng: np.random.Generator, habits: tuple[str, ...], joint_count:
     )
 
 
-def _drawn(rng: np.random.Generator, amount: FloatArray, rate_hz: tuple[float, float]) -> Sway:
+def _sample_waves(rng: np.random.Generator, amount: FloatArray, rate_hz: tuple[float, float]) -> Sway:
     shape = (len(amount), 3)
     return Sway(
         rate_rad_s=2.0 * math.pi * rng.uniform(*rate_hz, shape),
@@ -215,7 +220,7 @@ def _drawn(rng: np.random.Generator, amount: FloatArray, rate_hz: tuple[float, f
     )
 
 
-MOST_GLIDE_MM = 8.0
+MAX_GLIDE_MM = 8.0
 """Largest glide drawn at the knuckles, for 90 degrees of flexion."""
 FULL_CUP_RAD = np.radians([12.0, 20.0])
 """Flexion of the ring and little metacarpal in the power grip of a supple hand."""
@@ -245,7 +250,7 @@ class TissueState:
     def rigid(count: int) -> TissueState:
         return TissueState(np.zeros((count, 21)), np.zeros((count, 2)), np.zeros((count, 4)))
 
-    def only(self, i: int) -> TissueState:
+    def select(self, i: int) -> TissueState:
         """The i-th time alone, without the leading axis."""
         return TissueState(self.glide_m[i], self.cup_rad[i], self.rise[i])
 
@@ -267,10 +272,10 @@ class SimulatedTissue:
         return not (self.glide_m_rad.any() or self.cup_rad.any())
 
 
-def tissue_of(spec: RecordingSpec) -> SimulatedTissue:
+def sample_tissue(spec: RecordingSpec) -> SimulatedTissue:
     """Draw a person's tissue; what the spec gives is taken instead."""
-    rng = spec.random(RandomStream.TISSUE)
-    drawn_mm, drawn_cup = rng.uniform(0.0, MOST_GLIDE_MM), rng.uniform(0.3, 1.0)
+    rng = spec.generator(RandomStream.TISSUE)
+    drawn_mm, drawn_cup = rng.uniform(0.0, MAX_GLIDE_MM), rng.uniform(0.3, 1.0)
     glide_mm = drawn_mm if spec.skin_glide_mm is None else spec.skin_glide_mm
     cupping = drawn_cup if spec.cupping is None else spec.cupping
     share = np.array([_GAIN_OF_JOINT.get(name, _GAIN_OF_JOINT.get(name[:3], 0.0)) for name in SITES])
@@ -297,24 +302,26 @@ class TissueMovement:
         joints = motion.joint_angles_rad(self._time_s)
         beneath = _angles_beneath_rad(motion.wrist_angles_rad(self._time_s), motion.joint_names, joints)
         beneath = beneath - beneath[0]
-        skin = lagged(with_play(beneath, tissue.play_rad), tissue.lag_s / _STEP_S)
+        skin = apply_lag(apply_play(beneath, tissue.play_rad), tissue.lag_s / _STEP_S)
         self._glide_m = skin * tissue.glide_m_rad
-        grip = _grip(motion.joint_names, joints)
+        grip = _grip_share(motion.joint_names, joints)
         self._cup_rad = (grip - grip[0])[:, None] * tissue.cup_rad
         knuckles = beneath[:, [SITES.index(f"MCP{k}") for k in (2, 3, 4, 5)]]
         self._rise = np.clip(knuckles / _FULL_RISE_RAD, 0.0, 1.0)
 
-    def at(self, time_s: FloatArray) -> TissueState:
+    def evaluate(self, time_s: FloatArray) -> TissueState:
         """State at times (N,); before the first frame it is that of the first frame."""
         if self._tissue.is_rigid:
             return TissueState.rigid(len(time_s))
-        return TissueState(*(self._between(values, time_s) for values in (self._glide_m, self._cup_rad, self._rise)))
+        return TissueState(
+            *(self._interpolate(values, time_s) for values in (self._glide_m, self._cup_rad, self._rise))
+        )
 
-    def _between(self, values: FloatArray, time_s: FloatArray) -> FloatArray:
+    def _interpolate(self, values: FloatArray, time_s: FloatArray) -> FloatArray:
         return np.stack([np.interp(time_s, self._time_s, column) for column in values.T], axis=-1)
 
 
-def with_play(driver: FloatArray, play: float) -> FloatArray:
+def apply_play(driver: FloatArray, play: float) -> FloatArray:
     """What follows a driver (N, C) with play: it moves only while pushed by one end of a gap of that width."""
     half, out = 0.5 * play, np.empty_like(driver)
     now = out[0] = driver[0]
@@ -323,7 +330,7 @@ def with_play(driver: FloatArray, play: float) -> FloatArray:
     return out
 
 
-def lagged(driver: FloatArray, steps: float) -> FloatArray:
+def apply_lag(driver: FloatArray, steps: float) -> FloatArray:
     """First-order lag of a driver (N, C) by so many steps, starting at rest."""
     share, out = 1.0 / (1.0 + steps), np.empty_like(driver)
     now = out[0] = driver[0]
@@ -342,7 +349,7 @@ def _angles_beneath_rad(wrist_rad: FloatArray, names: tuple[str, ...], joints_ra
     return out
 
 
-def _grip(names: tuple[str, ...], joints_rad: FloatArray) -> FloatArray:
+def _grip_share(names: tuple[str, ...], joints_rad: FloatArray) -> FloatArray:
     """How far (N,) ring and little finger close: 0 straight to 1 in a power grip, where the palm is fully cupped."""
 
     def mean(joint: str) -> FloatArray:

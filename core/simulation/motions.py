@@ -14,7 +14,7 @@ import numpy as np
 
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.protocols import joint_angle_names
-from carpus.core.simulation.hand_motion import STILL_S, HandMotion, StrokeWriter, drawn_habits, drawn_sway
+from carpus.core.simulation.hand_motion import STILL_S, HandMotion, StrokePathBuilder, sample_habits, sample_sway
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 
@@ -25,7 +25,7 @@ _HOLD_SHARE = 0.25
 """Share of a stroke's time that is spent holding, where the exercise has holds."""
 
 
-class _Patient:
+class _MotionBuilder:
     """Hands out strokes with the small irregularities of a person; used by one exercise while it is written."""
 
     def __init__(self, spec: RecordingSpec, rng: np.random.Generator, default_hz: float) -> None:
@@ -37,12 +37,12 @@ class _Patient:
         self.pain_limited = spec.pain_limited
         self.dip_free = spec.dip == "free"
         self.joint_names = joint_angle_names(self.dip_free)
-        self.neutral = self._neutral(spec.marker_protocol.has_fingers)
-        self.wrist = StrokeWriter(np.zeros(3), STILL_S)
-        self.joints = StrokeWriter(self.neutral, STILL_S)
-        self.carry = StrokeWriter(np.zeros(3), STILL_S)
+        self.neutral = self._sample_neutral_joints(spec.marker_protocol.has_fingers)
+        self.wrist = StrokePathBuilder(np.zeros(3), STILL_S)
+        self.joints = StrokePathBuilder(self.neutral, STILL_S)
+        self.arm = StrokePathBuilder(np.zeros(3), STILL_S)
 
-    def _neutral(self, is_flat: bool) -> FloatArray:
+    def _sample_neutral_joints(self, is_flat: bool) -> FloatArray:
         """Joint angles of the still start: nearly flat for the finger protocol, relaxed otherwise."""
         rng, posture = self.rng, dict.fromkeys(self.joint_names, 0.0)
         bend = (2.0, 8.0) if is_flat else (8.0, 18.0)
@@ -58,7 +58,7 @@ class _Patient:
         posture["IP1_flexion"] = math.radians(rng.uniform(2.0, 10.0))
         return np.array([posture[name] for name in self.joint_names])
 
-    def fingers(self, **degrees: float) -> FloatArray:
+    def finger_posture(self, **degrees: float) -> FloatArray:
         """The neutral joints with some replaced; ``MCP_flexion=70`` sets all four fingers, ``MCP2_flexion`` one."""
         out = self.neutral.copy()
         for name, value in degrees.items():
@@ -74,7 +74,7 @@ class _Patient:
                 out[dip] = out[pip] * 2.0 / 3.0
         return out
 
-    def stroke(self, writer: StrokeWriter, target: FloatArray, duration_s: float, hold_share: float) -> None:
+    def add_stroke(self, writer: StrokePathBuilder, target: FloatArray, duration_s: float, hold_share: float) -> None:
         """To a target and hold; a patient in pain stops short of it, in two to four sub-movements."""
         duration_s *= self.rng.uniform(0.93, 1.07)
         start = writer.posture
@@ -85,29 +85,29 @@ class _Patient:
             pieces = int(self.rng.integers(2, 5))
             shares = np.sort(self.rng.uniform(0.15, 0.95, pieces - 1)).tolist() + [1.0]
             for share in shares:
-                writer.move(start + share * (end - start), 1.3 * move_s / pieces)
+                writer.add_stroke(start + share * (end - start), 1.3 * move_s / pieces)
         else:
-            writer.move(end, move_s)
-        writer.hold(duration_s * hold_share)
+            writer.add_stroke(end, move_s)
+        writer.add_hold(duration_s * hold_share)
 
-    def repeat(
-        self, writer: StrokeWriter, targets: list[FloatArray], neutral: FloatArray, hold_share: float = _HOLD_SHARE
+    def add_repetitions(
+        self, writer: StrokePathBuilder, targets: list[FloatArray], neutral: FloatArray, hold_share: float = _HOLD_SHARE
     ) -> None:
         """Visit the targets in turn, over and over, then come back to neutral."""
         done = 0
         share_s = self.cycle_s / len(targets)
         while done < self.repetitions and writer.time_s + 0.5 * share_s < self.end_s:
             for target in targets:
-                self.stroke(writer, target, share_s, hold_share)
+                self.add_stroke(writer, target, share_s, hold_share)
             done += 1
-        writer.move(neutral, 0.5 * share_s)
+        writer.add_stroke(neutral, 0.5 * share_s)
 
-    def go_through(self, *steps: tuple[FloatArray, FloatArray, FloatArray, float]) -> None:
+    def add_postures(self, *steps: tuple[FloatArray, FloatArray, FloatArray, float]) -> None:
         """Arm, wrist and joints together to one posture after the other, each in its seconds."""
         for place, posture, joints, duration_s in steps:
-            self.carry.move(place, duration_s)
-            self.wrist.move(posture, duration_s)
-            self.joints.move(joints, duration_s)
+            self.arm.add_stroke(place, duration_s)
+            self.wrist.add_stroke(posture, duration_s)
+            self.joints.add_stroke(joints, duration_s)
 
     def wrist_target(self, deviation: float = 0.0, flexion: float = 0.0, supination: float = 0.0) -> FloatArray:
         """Shares of the full range of each angle, as angles."""
@@ -116,106 +116,113 @@ class _Patient:
         )
 
 
-def _rest(patient: _Patient) -> None:
+def _build_rest(builder: _MotionBuilder) -> None:
     pass
 
 
-def _to_and_fro(hold_share: float = _HOLD_SHARE, back: float = 1.0, **shares: float) -> Callable[[_Patient], None]:
-    """The wrist from one end of the range of an angle to the other, ``back`` as far beyond neutral as there."""
+def _make_wrist_exercise(
+    hold_share: float = _HOLD_SHARE, return_share: float = 1.0, **shares: float
+) -> Callable[[_MotionBuilder], None]:
+    """The wrist from one end of the range of an angle to the other, ``return_share`` as far beyond neutral as there."""
 
-    def write(patient: _Patient) -> None:
+    def build(builder: _MotionBuilder) -> None:
         ends = [
-            patient.wrist_target(**shares),
-            patient.wrist_target(**{name: -back * share for name, share in shares.items()}),
+            builder.wrist_target(**shares),
+            builder.wrist_target(**{name: -return_share * share for name, share in shares.items()}),
         ]
-        patient.repeat(patient.wrist, ends, np.zeros(3), hold_share)
+        builder.add_repetitions(builder.wrist, ends, np.zeros(3), hold_share)
 
-    return write
+    return build
 
 
-def _mixed(patient: _Patient) -> None:
+def _build_mixed(builder: _MotionBuilder) -> None:
     """All three axes at once, random targets inside the box of their ranges."""
-    while patient.wrist.time_s < patient.end_s:
-        target = patient.wrist_target(*patient.rng.uniform(-1.0, 1.0, 3))
-        patient.stroke(patient.wrist, target, 0.5 * patient.cycle_s, _HOLD_SHARE)
+    while builder.wrist.time_s < builder.end_s:
+        target = builder.wrist_target(*builder.rng.uniform(-1.0, 1.0, 3))
+        builder.add_stroke(builder.wrist, target, 0.5 * builder.cycle_s, _HOLD_SHARE)
 
 
-def _reach_way(patient: _Patient) -> FloatArray:
+def _sample_reach_m(builder: _MotionBuilder) -> FloatArray:
     """Forward and to the radial side of the right hand: keeps hand and forearm in the picture."""
-    angle = math.radians(patient.rng.uniform(35.0, 60.0))
-    return patient.range_share * REACH_M * np.array([math.cos(angle), math.sin(angle), 0.0])
+    angle = math.radians(builder.rng.uniform(35.0, 60.0))
+    return builder.range_share * REACH_M * np.array([math.cos(angle), math.sin(angle), 0.0])
 
 
-def _reach(patient: _Patient) -> None:
-    way = _reach_way(patient)
-    stroke_s = REACH_S if patient.cycle_s == _DEFAULT_REACH_S else 0.35 * patient.cycle_s
-    wait_s = 0.5 * patient.cycle_s - stroke_s
-    turned = patient.wrist_target(deviation=0.3, flexion=-0.35, supination=0.3)
+def _build_reach(builder: _MotionBuilder) -> None:
+    way = _sample_reach_m(builder)
+    stroke_s = REACH_S if builder.cycle_s == _DEFAULT_REACH_S else 0.35 * builder.cycle_s
+    wait_s = 0.5 * builder.cycle_s - stroke_s
+    turned = builder.wrist_target(deviation=0.3, flexion=-0.35, supination=0.3)
     done = 0
-    while done < patient.repetitions and patient.carry.time_s < patient.end_s:
+    while done < builder.repetitions and builder.arm.time_s < builder.end_s:
         for target, posture in ((way, turned), (np.zeros(3), np.zeros(3))):
-            patient.stroke(patient.carry, target, stroke_s, 0.0)
-            patient.stroke(patient.wrist, posture, patient.carry.time_s - patient.wrist.time_s, 0.0)
-            patient.carry.hold(wait_s * patient.rng.uniform(0.8, 1.2))
-            patient.wrist.hold(patient.carry.time_s - patient.wrist.time_s)
+            builder.add_stroke(builder.arm, target, stroke_s, 0.0)
+            builder.add_stroke(builder.wrist, posture, builder.arm.time_s - builder.wrist.time_s, 0.0)
+            builder.arm.add_hold(wait_s * builder.rng.uniform(0.8, 1.2))
+            builder.wrist.add_hold(builder.arm.time_s - builder.wrist.time_s)
         done += 1
 
 
-def _reach_grasp(patient: _Patient) -> None:
-    way, lift = _reach_way(patient), np.array([0.0, 0.0, 0.05])
-    opened = patient.fingers(MCP_flexion=15, PIP_flexion=25, CMC1_extension=25, CMC1_abduction=40)
-    closed = patient.fingers(MCP_flexion=40, PIP_flexion=45, CMC1_extension=12, CMC1_abduction=40, IP1_flexion=25)
-    turned = patient.wrist_target(flexion=-0.4, supination=0.4)
-    pace = patient.cycle_s / _DEFAULT_REACH_S
+def _build_reach_grasp(builder: _MotionBuilder) -> None:
+    way, lift = _sample_reach_m(builder), np.array([0.0, 0.0, 0.05])
+    opened = builder.finger_posture(MCP_flexion=15, PIP_flexion=25, CMC1_extension=25, CMC1_abduction=40)
+    closed = builder.finger_posture(
+        MCP_flexion=40, PIP_flexion=45, CMC1_extension=12, CMC1_abduction=40, IP1_flexion=25
+    )
+    turned = builder.wrist_target(flexion=-0.4, supination=0.4)
+    pace = builder.cycle_s / _DEFAULT_REACH_S
     done = 0
-    while done < patient.repetitions and patient.carry.time_s < patient.end_s:
-        patient.go_through(
+    while done < builder.repetitions and builder.arm.time_s < builder.end_s:
+        builder.add_postures(
             (way, turned, opened, REACH_S * pace),
             (way, turned, closed, 0.4 * pace),
             (way + lift, turned, closed, 0.5 * pace),
             (way, turned, closed, 0.5 * pace),
             (way, turned, opened, 0.4 * pace),
-            (np.zeros(3), np.zeros(3), patient.neutral, REACH_S * pace),
+            (np.zeros(3), np.zeros(3), builder.neutral, REACH_S * pace),
         )
         done += 1
 
 
-def _fist(patient: _Patient) -> None:
+def _build_fist(builder: _MotionBuilder) -> None:
     thumb = {"CMC1_extension": -5.0, "CMC1_abduction": 25.0, "MCP1_flexion": 35.0, "IP1_flexion": 40.0}
-    closed = patient.fingers(MCP_flexion=70, PIP_flexion=80, MCP_abduction=0, **thumb)
-    patient.repeat(patient.joints, [closed, patient.neutral], patient.neutral)
+    closed = builder.finger_posture(MCP_flexion=70, PIP_flexion=80, MCP_abduction=0, **thumb)
+    builder.add_repetitions(builder.joints, [closed, builder.neutral], builder.neutral)
 
 
-def _hook(patient: _Patient) -> None:
-    bent = {"DIP_flexion": 45.0} if patient.dip_free else {}
-    closed = patient.fingers(MCP_flexion=8, PIP_flexion=85, **bent)
-    patient.repeat(patient.joints, [closed, patient.neutral], patient.neutral)
+def _build_hook(builder: _MotionBuilder) -> None:
+    bent = {"DIP_flexion": 45.0} if builder.dip_free else {}
+    closed = builder.finger_posture(MCP_flexion=8, PIP_flexion=85, **bent)
+    builder.add_repetitions(builder.joints, [closed, builder.neutral], builder.neutral)
 
 
-def _fingers(patient: _Patient) -> None:
+def _build_single_fingers(builder: _MotionBuilder) -> None:
     """One finger after the other; the neighbours follow a little (enslaving, reference 5)."""
     targets = []
     for k in (2, 3, 4, 5):
         near = {f"MCP{n}_flexion": 12.0 for n in (k - 1, k + 1) if 2 <= n <= 5}
-        targets += [patient.fingers(**near, **{f"MCP{k}_flexion": 55.0, f"PIP{k}_flexion": 60.0}), patient.neutral]
-    patient.cycle_s *= 4.0
-    patient.repeat(patient.joints, targets, patient.neutral)
+        targets += [
+            builder.finger_posture(**near, **{f"MCP{k}_flexion": 55.0, f"PIP{k}_flexion": 60.0}),
+            builder.neutral,
+        ]
+    builder.cycle_s *= 4.0
+    builder.add_repetitions(builder.joints, targets, builder.neutral)
 
 
-def _abduction(patient: _Patient) -> None:
-    wide = patient.fingers(MCP2_abduction=16, MCP3_abduction=2, MCP4_abduction=-12, MCP5_abduction=-20,
+def _build_abduction(builder: _MotionBuilder) -> None:
+    wide = builder.finger_posture(MCP2_abduction=16, MCP3_abduction=2, MCP4_abduction=-12, MCP5_abduction=-20,
                            CMC1_extension=38)  # fmt: skip
-    patient.repeat(patient.joints, [wide, patient.neutral], patient.neutral)
+    builder.add_repetitions(builder.joints, [wide, builder.neutral], builder.neutral)
 
 
-def _thumb(patient: _Patient) -> None:
+def _build_thumb(builder: _MotionBuilder) -> None:
     """The thumb out to the side, then across towards the little finger."""
-    wide = patient.fingers(CMC1_extension=35, CMC1_abduction=15)
-    across = patient.fingers(CMC1_extension=-8, CMC1_abduction=40, MCP1_flexion=35, IP1_flexion=35)
-    patient.repeat(patient.joints, [wide, across], patient.neutral)
+    wide = builder.finger_posture(CMC1_extension=35, CMC1_abduction=15)
+    across = builder.finger_posture(CMC1_extension=-8, CMC1_abduction=40, MCP1_flexion=35, IP1_flexion=35)
+    builder.add_repetitions(builder.joints, [wide, across], builder.neutral)
 
 
-_TOUCHES = {
+_TOUCH_ANGLES_DEG = {
     2: {"CMC1_extension": -9, "CMC1_abduction": 35, "MCP1_flexion": 19, "IP1_flexion": 21, "MCP2_flexion": 64,
         "PIP2_flexion": 45},
     3: {"CMC1_extension": -20, "CMC1_abduction": 37, "MCP1_flexion": 25, "IP1_flexion": 22, "MCP3_flexion": 65,
@@ -228,61 +235,63 @@ _TOUCHES = {
 """Angles in degrees at which the tip of the thumb meets that of a finger, within 12 mm on hands of any size."""
 
 
-def _opposition(patient: _Patient) -> None:
+def _build_opposition(builder: _MotionBuilder) -> None:
     """The thumb's tip to that of each finger in turn, opened wide in between; each touch is a repetition."""
-    wide = patient.fingers(CMC1_extension=28, CMC1_abduction=25)
-    way_s = 0.5 * patient.cycle_s
+    wide = builder.finger_posture(CMC1_extension=28, CMC1_abduction=25)
+    way_s = 0.5 * builder.cycle_s
     done = 0
-    while done < patient.repetitions and patient.joints.time_s + way_s < patient.end_s:
-        touch = patient.fingers(**{name: float(angle) for name, angle in _TOUCHES[2 + done % 4].items()})
-        if not patient.pain_limited:  # the tips stop each other: no touch falls short
-            patient.joints.move(touch, way_s * (1.0 - _HOLD_SHARE) * patient.rng.uniform(0.93, 1.07))
-            patient.joints.hold(way_s * _HOLD_SHARE)
+    while done < builder.repetitions and builder.joints.time_s + way_s < builder.end_s:
+        touch = builder.finger_posture(
+            **{name: float(angle) for name, angle in _TOUCH_ANGLES_DEG[2 + done % 4].items()}
+        )
+        if not builder.pain_limited:  # the tips stop each other: no touch falls short
+            builder.joints.add_stroke(touch, way_s * (1.0 - _HOLD_SHARE) * builder.rng.uniform(0.93, 1.07))
+            builder.joints.add_hold(way_s * _HOLD_SHARE)
         else:
-            patient.stroke(patient.joints, touch, way_s, _HOLD_SHARE)
-        patient.stroke(patient.joints, wide, way_s, 0.0)
+            builder.add_stroke(builder.joints, touch, way_s, _HOLD_SHARE)
+        builder.add_stroke(builder.joints, wide, way_s, 0.0)
         done += 1
-    patient.joints.move(patient.neutral, way_s)
+    builder.joints.add_stroke(builder.neutral, way_s)
 
 
-def _bend45(patient: _Patient) -> None:
+def _build_bend45(builder: _MotionBuilder) -> None:
     """All fingers to 45 degrees and back: what the palm's skin does then is no movement of the wrist."""
-    closed = patient.fingers(MCP_flexion=45, PIP_flexion=45)
-    patient.repeat(patient.joints, [closed, patient.neutral], patient.neutral)
+    closed = builder.finger_posture(MCP_flexion=45, PIP_flexion=45)
+    builder.add_repetitions(builder.joints, [closed, builder.neutral], builder.neutral)
 
 
-def _power_grip(patient: _Patient) -> None:
+def _build_power_grip(builder: _MotionBuilder) -> None:
     """A full grip; the wrist extends a little with it, as it does by itself."""
-    closed = patient.fingers(MCP_flexion=75, PIP_flexion=85, MCP_abduction=0, **_GRIPPING_THUMB)
-    extended = patient.wrist_target(flexion=-patient.rng.uniform(0.15, 0.4))
+    closed = builder.finger_posture(MCP_flexion=75, PIP_flexion=85, MCP_abduction=0, **_GRIPPING_THUMB)
+    extended = builder.wrist_target(flexion=-builder.rng.uniform(0.15, 0.4))
     grip = np.concatenate((extended, closed))
-    both = StrokeWriter(np.concatenate((np.zeros(3), patient.neutral)), STILL_S)
-    patient.repeat(both, [grip, both.posture], both.posture, hold_share=0.4)
-    _split(patient, both)
+    both = StrokePathBuilder(np.concatenate((np.zeros(3), builder.neutral)), STILL_S)
+    builder.add_repetitions(both, [grip, both.posture], both.posture, hold_share=0.4)
+    _split_strokes(builder, both)
 
 
-def _grasp_mug(patient: _Patient) -> None:
+def _build_grasp_mug(builder: _MotionBuilder) -> None:
     """Reach for a mug, close finger after finger around it, lift, put it back, let go."""
-    rng = patient.rng
-    way, lift = 0.5 * _reach_way(patient), np.array([0.0, 0.0, 0.05])
-    opened = patient.fingers(MCP_flexion=12, PIP_flexion=25, CMC1_extension=28, CMC1_abduction=42)
+    rng = builder.rng
+    way, lift = 0.5 * _sample_reach_m(builder), np.array([0.0, 0.0, 0.05])
+    opened = builder.finger_posture(MCP_flexion=12, PIP_flexion=25, CMC1_extension=28, CMC1_abduction=42)
     bend = {
         f"MCP{k}_flexion": angle + rng.normal(0.0, 6.0) for k, angle in ((2, 42.0), (3, 50.0), (4, 56.0), (5, 60.0))
     }
     bend |= {
         f"PIP{k}_flexion": angle + rng.normal(0.0, 6.0) for k, angle in ((2, 42.0), (3, 48.0), (4, 50.0), (5, 46.0))
     }
-    closed = patient.fingers(**bend, CMC1_extension=12, CMC1_abduction=48, MCP1_flexion=15, IP1_flexion=30)
+    closed = builder.finger_posture(**bend, CMC1_extension=12, CMC1_abduction=48, MCP1_flexion=15, IP1_flexion=30)
     early = closed.copy()
     late = [
-        i for i, name in enumerate(patient.joint_names) if name[:4] in ("MCP2", "PIP2", "DIP2", "MCP3", "PIP3", "DIP3")
+        i for i, name in enumerate(builder.joint_names) if name[:4] in ("MCP2", "PIP2", "DIP2", "MCP3", "PIP3", "DIP3")
     ]
     early[late] = 0.5 * (opened[late] + closed[late])
-    turned = patient.wrist_target(flexion=-rng.uniform(0.3, 0.6), supination=rng.uniform(0.2, 0.5), deviation=-0.2)
-    pace = patient.cycle_s / _DEFAULT_REACH_S
+    turned = builder.wrist_target(flexion=-rng.uniform(0.3, 0.6), supination=rng.uniform(0.2, 0.5), deviation=-0.2)
+    pace = builder.cycle_s / _DEFAULT_REACH_S
     done = 0
-    while done < patient.repetitions and patient.carry.time_s < patient.end_s:
-        patient.go_through(
+    while done < builder.repetitions and builder.arm.time_s < builder.end_s:
+        builder.add_postures(
             (way, turned, opened, 0.9 * pace),
             (way, turned, early, 0.25 * pace),
             (way, turned, closed, 0.25 * pace),
@@ -290,122 +299,122 @@ def _grasp_mug(patient: _Patient) -> None:
             (way + lift, turned, closed, 0.4 * pace),
             (way, turned, closed, 0.5 * pace),
             (way, turned, opened, 0.4 * pace),
-            (np.zeros(3), np.zeros(3), patient.neutral, 0.9 * pace),
+            (np.zeros(3), np.zeros(3), builder.neutral, 0.9 * pace),
         )
         done += 1
 
 
-def _split(patient: _Patient, both: StrokeWriter) -> None:
+def _split_strokes(builder: _MotionBuilder, both: StrokePathBuilder) -> None:
     """Strokes of wrist (3) and joints at once, into the two."""
-    path = both.path()
+    path = both.build()
     for time_s, value in zip(path.time_s[2:], path.value[2:], strict=True):
-        patient.wrist.move(value[:3], time_s - patient.wrist.time_s)
-        patient.joints.move(value[3:], time_s - patient.joints.time_s)
+        builder.wrist.add_stroke(value[:3], time_s - builder.wrist.time_s)
+        builder.joints.add_stroke(value[3:], time_s - builder.joints.time_s)
 
 
 _GRIPPING_THUMB = {"CMC1_extension": -5.0, "CMC1_abduction": 35.0, "MCP1_flexion": 30.0, "IP1_flexion": 35.0}
 
 
-def _hold_grip(patient: _Patient) -> None:
+def _build_held_grip(builder: _MotionBuilder) -> None:
     """A grip that is held while the wrist does its exercise, let go once, never quite steady."""
-    rng = patient.rng
-    patient.joints.move(patient.neutral, 0.1)
-    lets_go_s = float(rng.uniform(0.45, 0.7)) * patient.end_s
+    rng = builder.rng
+    builder.joints.add_stroke(builder.neutral, 0.1)
+    lets_go_s = float(rng.uniform(0.45, 0.7)) * builder.end_s
     mcp, pip = rng.uniform(50.0, 65.0), rng.uniform(55.0, 75.0)
-    while patient.joints.time_s < patient.end_s:
-        if patient.joints.time_s > lets_go_s:
-            patient.joints.move(patient.neutral, 0.6)
-            patient.joints.hold(0.5)
+    while builder.joints.time_s < builder.end_s:
+        if builder.joints.time_s > lets_go_s:
+            builder.joints.add_stroke(builder.neutral, 0.6)
+            builder.joints.add_hold(0.5)
             lets_go_s = math.inf
         squeeze = rng.uniform(0.9, 1.1)
-        held = patient.fingers(MCP_flexion=mcp * squeeze, PIP_flexion=pip * squeeze, **_GRIPPING_THUMB)
-        patient.joints.move(held, 0.7)
-        patient.joints.hold(0.6)
+        held = builder.finger_posture(MCP_flexion=mcp * squeeze, PIP_flexion=pip * squeeze, **_GRIPPING_THUMB)
+        builder.joints.add_stroke(held, 0.7)
+        builder.joints.add_hold(0.6)
 
 
-def _open_and_close(patient: _Patient) -> None:
+def _build_open_close(builder: _MotionBuilder) -> None:
     """Fingers that open and close, as they do while somebody waits."""
-    rng = patient.rng
-    while patient.joints.time_s < patient.end_s:
-        closed = patient.fingers(MCP_flexion=rng.uniform(30, 65), PIP_flexion=rng.uniform(30, 75))
-        patient.joints.move(closed, rng.uniform(0.5, 0.9))
-        patient.joints.move(patient.neutral, rng.uniform(0.5, 0.9))
-        patient.joints.hold(rng.uniform(0.0, 0.6))
+    rng = builder.rng
+    while builder.joints.time_s < builder.end_s:
+        closed = builder.finger_posture(MCP_flexion=rng.uniform(30, 65), PIP_flexion=rng.uniform(30, 75))
+        builder.joints.add_stroke(closed, rng.uniform(0.5, 0.9))
+        builder.joints.add_stroke(builder.neutral, rng.uniform(0.5, 0.9))
+        builder.joints.add_hold(rng.uniform(0.0, 0.6))
 
 
 _DEFAULT_REACH_S = 4.0
 
-MOTIONS: dict[str, tuple[Callable[[_Patient], None], float]] = {
-    "rest": (_rest, 0.3),
-    "flexion": (_to_and_fro(flexion=1.0), 0.3),
-    "deviation": (_to_and_fro(deviation=1.0), 0.4),
-    "pronosupination": (_to_and_fro(supination=1.0), 0.35),
-    "palm_up": (_to_and_fro(back=0.1, supination=1.5), 0.35),
-    "mixed": (_mixed, 0.4),
-    "fast_deviation": (_to_and_fro(0.0, deviation=1.0), 1.7),
-    "reach": (_reach, 1.0 / _DEFAULT_REACH_S),
-    "reach_grasp": (_reach_grasp, 1.0 / _DEFAULT_REACH_S),
-    "fist": (_fist, 0.3),
-    "hook": (_hook, 0.3),
-    "fingers": (_fingers, 0.4),
-    "abduction": (_abduction, 0.4),
-    "thumb": (_thumb, 0.35),
-    "opposition": (_opposition, 0.35),
-    "tremor": (_rest, 0.3),
-    "bend45": (_bend45, 0.35),
-    "power_grip": (_power_grip, 0.3),
-    "grasp_mug": (_grasp_mug, 1.0 / _DEFAULT_REACH_S),
+MOTIONS: dict[str, tuple[Callable[[_MotionBuilder], None], float]] = {
+    "rest": (_build_rest, 0.3),
+    "flexion": (_make_wrist_exercise(flexion=1.0), 0.3),
+    "deviation": (_make_wrist_exercise(deviation=1.0), 0.4),
+    "pronosupination": (_make_wrist_exercise(supination=1.0), 0.35),
+    "palm_up": (_make_wrist_exercise(return_share=0.1, supination=1.5), 0.35),
+    "mixed": (_build_mixed, 0.4),
+    "fast_deviation": (_make_wrist_exercise(0.0, deviation=1.0), 1.7),
+    "reach": (_build_reach, 1.0 / _DEFAULT_REACH_S),
+    "reach_grasp": (_build_reach_grasp, 1.0 / _DEFAULT_REACH_S),
+    "fist": (_build_fist, 0.3),
+    "hook": (_build_hook, 0.3),
+    "fingers": (_build_single_fingers, 0.4),
+    "abduction": (_build_abduction, 0.4),
+    "thumb": (_build_thumb, 0.35),
+    "opposition": (_build_opposition, 0.35),
+    "tremor": (_build_rest, 0.3),
+    "bend45": (_build_bend45, 0.35),
+    "power_grip": (_build_power_grip, 0.3),
+    "grasp_mug": (_build_grasp_mug, 1.0 / _DEFAULT_REACH_S),
 }
 """Exercise and its repetitions per second where the spec gives none."""
 
 _TREMOR_DEG = 2.0
 
 
-def motion_of(spec: RecordingSpec) -> HandMotion:
+def create_motion(spec: RecordingSpec) -> HandMotion:
     """The motion a spec asks for; raises :class:`SettingsInvalid` for an unknown name."""
     if spec.motion not in MOTIONS:
         raise SettingsInvalid("motion", f"{spec.motion} ({', '.join(MOTIONS)})")
     write, default_hz = MOTIONS[spec.motion]
-    rng = spec.random(RandomStream.MOTION)
-    patient = _Patient(spec, rng, default_hz)
+    rng = spec.generator(RandomStream.MOTION)
+    patient = _MotionBuilder(spec, rng, default_hz)
     write(patient)
-    habit = spec.random(RandomStream.HABIT)
-    _with_fingers(patient, spec, habit)
+    habit = spec.generator(RandomStream.HABIT)
+    _add_finger_habits(patient, spec, habit)
     if spec.leaves_picture:
-        _leave(patient)
+        _withdraw_arm(patient)
     tremor_deg = spec.tremor_deg or (_TREMOR_DEG if spec.motion == "tremor" else 0.0)
     axis = rng.normal(size=3)
     return HandMotion(
         joint_names=patient.joint_names,
-        wrist=patient.wrist.path(),
-        joints=patient.joints.path(),
-        carry=patient.carry.path(),
-        sway=drawn_sway(rng, len(patient.joint_names)),
+        wrist=patient.wrist.build(),
+        joints=patient.joints.build(),
+        arm=patient.arm.build(),
+        sway=sample_sway(rng, len(patient.joint_names)),
         tremor_rad=math.radians(tremor_deg),
         tremor_hz=spec.tremor_hz,
         tremor_axis=axis / np.linalg.norm(axis),
-        habits=drawn_habits(habit, spec.habits, len(patient.joint_names)),
+        habits=sample_habits(habit, spec.habits, len(patient.joint_names)),
     )
 
 
-def _with_fingers(patient: _Patient, spec: RecordingSpec, rng: np.random.Generator) -> None:
+def _add_finger_habits(builder: _MotionBuilder, spec: RecordingSpec, rng: np.random.Generator) -> None:
     """Habits of the fingers, where the exercise leaves these alone."""
-    if patient.joints.time_s > STILL_S:
+    if builder.joints.time_s > STILL_S:
         return
-    exercise, patient.rng = patient.rng, rng
+    exercise, builder.rng = builder.rng, rng
     if "grip" in spec.habits:
-        _hold_grip(patient)
+        _build_held_grip(builder)
     elif "open_close" in spec.habits:
-        _open_and_close(patient)
-    patient.rng = exercise
+        _build_open_close(builder)
+    builder.rng = exercise
 
 
-def _leave(patient: _Patient) -> None:
+def _withdraw_arm(builder: _MotionBuilder) -> None:
     """Draw the whole arm back out of the picture in the middle of the recording, wait, and return."""
-    away_s, out_s = 0.6, patient.rng.uniform(0.8, 1.5)
-    start_s = 0.45 * patient.end_s
-    path = StrokeWriter(np.zeros(3), max(start_s, STILL_S))
-    path.move(np.array([-0.55, 0.0, 0.0]), away_s)
-    path.hold(out_s)
-    path.move(np.zeros(3), away_s)
-    patient.carry = path
+    away_s, out_s = 0.6, builder.rng.uniform(0.8, 1.5)
+    start_s = 0.45 * builder.end_s
+    path = StrokePathBuilder(np.zeros(3), max(start_s, STILL_S))
+    path.add_stroke(np.array([-0.55, 0.0, 0.0]), away_s)
+    path.add_hold(out_s)
+    path.add_stroke(np.zeros(3), away_s)
+    builder.arm = path

@@ -19,9 +19,9 @@ from carpus.core.types import FloatArray
 WRIST_JOINT_DEPTH_M = 0.015
 """Depth of the wrist's centre of rotation under the WRIST disc of a hand 180 mm long (reference 2)."""
 
-DISC_RADIUS_M, SMALL_DISC_RADIUS_M = 0.006, 0.004
+MARKER_RADIUS_M, SMALL_MARKER_RADIUS_M = 0.006, 0.004
 """The paper discs are 12 mm wide, 8 mm at the ends of small fingers and on children (reference 2)."""
-_LEAST_SPACING_M = 0.0145
+_MIN_SPACING_M = 0.0145
 """Two discs of 12 mm nearer than this would nearly touch: the therapist takes small ones."""
 
 _THUMB_ROLL_DEG = (54.0, 4.0)
@@ -30,26 +30,26 @@ _LENGTH_RANGE_M = {False: (0.130, 0.200), True: (0.150, 0.200)}
 """Hands drawn, without and with discs on fingers. On smaller ones those at the end of the little
 finger touch: only when asked for."""
 _SEGMENT_SD, _FLESH_SD, _OFFSET_SD = 0.05, 0.08, 0.03
-_DISC_PLACE_SD_M = np.array([0.0007, 0.0007, 0.0007])
+_MARKER_POSITION_SD_M = np.array([0.0007, 0.0007, 0.0007])
 
 
 @dataclass(frozen=True, slots=True)
-class Patient:
+class SimulatedPatient:
     """``anatomy`` in W with its side; ``wrist_joint_m`` (3,) centre of the wrist's rotation in W;
-    ``disc_radius_m`` (21,); ``size`` hand length over 180 mm; ``digit_width`` of the digits over the usual;
-    ``stuck_off_m`` (21, 2) of each disc from its place in the anatomy, distally and to the radial side."""
+    ``marker_radius_m`` (21,); ``size`` hand length over 180 mm; ``digit_width`` of the digits over the usual;
+    ``placement_error_m`` (21, 2) of each disc from its place in the anatomy, distally and to the radial side."""
 
     anatomy: HandAnatomy
     wrist_joint_m: FloatArray
-    disc_radius_m: FloatArray
+    marker_radius_m: FloatArray
     size: float
     digit_width: float = 1.0
-    stuck_off_m: FloatArray = field(default_factory=lambda: np.zeros((21, 2)))
+    placement_error_m: FloatArray = field(default_factory=lambda: np.zeros((21, 2)))
 
 
-def patient_of(spec: RecordingSpec) -> Patient:
+def sample_patient(spec: RecordingSpec) -> SimulatedPatient:
     """Draw a patient: segments vary by 5 %, flesh by 8 %, disc places by 0.7 mm around the reference's table."""
-    rng = spec.random(RandomStream.PATIENT)
+    rng = spec.generator(RandomStream.PATIENT)
     drawn_m = rng.uniform(*_LENGTH_RANGE_M[spec.marker_protocol.has_fingers])
     length_m = drawn_m if spec.hand_length_mm is None else spec.hand_length_mm / 1000.0
     size = length_m / 0.180
@@ -62,9 +62,9 @@ def patient_of(spec: RecordingSpec) -> Patient:
         skin_offsets=spec.skin_offsets,
         nail_discs=True,
     )
-    discs = average.palm_disc_m + size * _DISC_PLACE_SD_M * rng.normal(size=(6, 3))
+    discs = average.palm_disc_m + size * _MARKER_POSITION_SD_M * rng.normal(size=(6, 3))
     discs = discs - discs[0]
-    discs = discs @ wrist_axes(discs, towards=np.array([0.0, 0.0, 1.0]))
+    discs = discs @ wrist_axes(discs, dorsal_direction=np.array([0.0, 0.0, 1.0]))
     flesh = rng.normal(1.0, _FLESH_SD)
     depth = (average.palm_disc_m - average.palm_joint_m)[:, 2] * rng.normal(flesh, _OFFSET_SD, 6)
     anatomy = dataclasses.replace(
@@ -78,52 +78,52 @@ def patient_of(spec: RecordingSpec) -> Patient:
         thumb_offset_m=average.thumb_offset_m * rng.normal(flesh, _OFFSET_SD, 3),
         finger_offset_m=average.finger_offset_m * rng.normal(flesh, _OFFSET_SD, (4, 3)),
     )
-    return Patient(
+    return SimulatedPatient(
         anatomy,
         np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * size]),
-        disc_radii(disc_centres(anatomy, np.zeros(17)), spec.marker_protocol),
+        marker_radii(disc_centres(anatomy, np.zeros(17)), spec.marker_protocol),
         size,
     )
 
 
-def disc_radii(flat_m: FloatArray, protocol: MarkerProtocol, usual_m: float = DISC_RADIUS_M) -> FloatArray:
-    """Radius of each disc of ``hand21``, at places (21, 3) of the straight hand, usually ``usual_m``: all small on a
+def marker_radii(flat_m: FloatArray, protocol: MarkerProtocol, nominal_m: float = MARKER_RADIUS_M) -> FloatArray:
+    """Radius of each disc of ``hand21``, at places (21, 3) of the straight hand, usually ``nominal_m``: all small on a
     hand whose palm is too narrow for large ones, and at the ends of the fingers where two discs of the protocol would
     nearly touch."""
     used = list(protocol.sites)
     gap = np.linalg.norm(flat_m[used][:, None] - flat_m[used][None], axis=-1) + np.eye(len(used))
     is_tight = np.zeros(len(SITES), dtype=bool)
-    is_tight[used] = gap.min(axis=1) < _LEAST_SPACING_M + 2.0 * (usual_m - DISC_RADIUS_M)
+    is_tight[used] = gap.min(axis=1) < _MIN_SPACING_M + 2.0 * (nominal_m - MARKER_RADIUS_M)
     ends = [row for row, name in enumerate(SITES) if name[:3] in ("DIP", "TIP") and name != "TIP1"]
-    radius = np.full(len(SITES), usual_m)
+    radius = np.full(len(SITES), nominal_m)
     if is_tight[list(PALM_SITES)].any():
-        radius[:] = SMALL_DISC_RADIUS_M
+        radius[:] = SMALL_MARKER_RADIUS_M
     elif is_tight.any():
-        radius[ends] = SMALL_DISC_RADIUS_M
+        radius[ends] = SMALL_MARKER_RADIUS_M
     return radius
 
 
-MOST_OFF_M = 0.005
+MAX_PLACEMENT_ERROR_M = 0.005
 """A disc of the palm is stuck at most this far off its place; half on a finger, where the creases show it."""
-_OFF_SHARE = {"TIP": 0.3, "PIP": 0.5, "DIP": 0.4, "MCP1": 0.5, "IP1": 0.5}
-_LEAST_GAP_M, _TRIES = 0.002, 40
-_SLIM = 0.4
+_PLACEMENT_SHARE = {"TIP": 0.3, "PIP": 0.5, "DIP": 0.4, "MCP1": 0.5, "IP1": 0.5}
+_MIN_GAP_M, _MAX_TRIES = 0.002, 40
+_SIDEWAYS_SHARE = 0.4
 """Sideways a finger allows this much less than along it."""
 _WIDE_FLESH_SD, _HEIGHT_SD, _HEIGHT_RANGE = 0.12, 0.12, (0.7, 1.5)
 _BREADTH, _ARCH = (0.90, 1.12), (0.5, 1.5)
 _JOINT_SD_M = np.array([0.0025, 0.0015, 0.0])
 _FAN_SD_RAD = np.radians(2.0)
 _DIGIT_WIDTH = (0.8, 1.25)
-_DISC_RADIUS_M = (0.005, 0.007)
+_MARKER_RADIUS_RANGE_M = (0.005, 0.007)
 _WRIST_JOINT_M = ((-0.004, 0.006), (0.012, 0.020))
 """Along X from the WRIST disc's place, and below it, of a hand 180 mm long."""
 _SWOLLEN_CHANCE = 0.3
 _SWELLING_M, _SWOLLEN_DIGIT = (0.002, 0.005), (1.1, 1.25)
 
 
-def widened(patient: Patient, spec: RecordingSpec) -> Patient:
+def sample_wide_anatomy(patient: SimulatedPatient, spec: RecordingSpec) -> SimulatedPatient:
     """The patient with an anatomy drawn more widely around it."""
-    rng = spec.random(RandomStream.ANATOMY)
+    rng = spec.generator(RandomStream.ANATOMY)
     size, usual = patient.size, patient.anatomy
     swollen = rng.random() < _SWOLLEN_CHANCE
     swelling_m, digit_swelling = (
@@ -139,7 +139,7 @@ def widened(patient: Patient, spec: RecordingSpec) -> Patient:
     discs = usual.palm_disc_m * [1.0, rng.uniform(*_BREADTH), rng.uniform(*_ARCH)]
     discs = discs + size * _JOINT_SD_M * rng.normal(size=(6, 3))
     discs = discs - discs[0]
-    discs = discs @ wrist_axes(discs, towards=np.array([0.0, 0.0, 1.0]))
+    discs = discs @ wrist_axes(discs, dorsal_direction=np.array([0.0, 0.0, 1.0]))
     anatomy = dataclasses.replace(
         usual,
         palm_disc_m=discs,
@@ -150,32 +150,37 @@ def widened(patient: Patient, spec: RecordingSpec) -> Patient:
     )
     along_m, below_m = (rng.uniform(*limits) * size for limits in _WRIST_JOINT_M)
     flat = disc_centres(anatomy, np.zeros(17))
-    radius_m = disc_radii(flat, spec.marker_protocol, rng.uniform(*_DISC_RADIUS_M))
+    radius_m = marker_radii(flat, spec.marker_protocol, rng.uniform(*_MARKER_RADIUS_RANGE_M))
     return dataclasses.replace(
         patient,
         anatomy=anatomy,
         wrist_joint_m=np.array([along_m, 0.0, -below_m]),
-        disc_radius_m=radius_m,
+        marker_radius_m=radius_m,
         digit_width=rng.uniform(*_DIGIT_WIDTH) * digit_swelling,
-        stuck_off_m=_stuck_off_m(flat, radius_m, anatomy.hand_length_m / 0.180, rng),
+        placement_error_m=_sample_placement_error_m(flat, radius_m, anatomy.hand_length_m / 0.180, rng),
     )
 
 
-def _stuck_off_m(flat_m: FloatArray, radius_m: FloatArray, size: float, rng: np.random.Generator) -> FloatArray:
+def _sample_placement_error_m(
+    flat_m: FloatArray, radius_m: FloatArray, size: float, rng: np.random.Generator
+) -> FloatArray:
     """Displacement (21, 2) of each disc from its place (21, 3), distally and to the radial side; nobody sticks a disc
     onto its neighbour."""
     off_m = np.zeros((len(SITES), 2))
     mirror = -1.0 if flat_m[2, 1] < 0.0 else 1.0
     for row, name in enumerate(SITES):
-        share = _OFF_SHARE.get(name, _OFF_SHARE.get(name[:3], 1.0))
+        share = _PLACEMENT_SHARE.get(name, _PLACEMENT_SHARE.get(name[:3], 1.0))
         others = np.delete(np.arange(len(off_m)), row)
-        for _ in range(_TRIES):
-            reach_m, way = MOST_OFF_M * share * np.sqrt(rng.uniform()) * min(size, 1.0), rng.uniform(0.0, 2.0 * np.pi)
-            tried = reach_m * np.array([np.cos(way), np.sin(way) * (_SLIM if share < 1.0 else 1.0)])
+        for _ in range(_MAX_TRIES):
+            reach_m, way = (
+                MAX_PLACEMENT_ERROR_M * share * np.sqrt(rng.uniform()) * min(size, 1.0),
+                rng.uniform(0.0, 2.0 * np.pi),
+            )
+            tried = reach_m * np.array([np.cos(way), np.sin(way) * (_SIDEWAYS_SHARE if share < 1.0 else 1.0)])
             places = flat_m[:, :2] + off_m * [1.0, mirror]
             gap = np.linalg.norm(places[others] - (flat_m[row, :2] + tried * [1.0, mirror]), axis=1)
             usual = np.linalg.norm(flat_m[others] - flat_m[row], axis=1)
-            if (gap >= np.minimum(radius_m[others] + radius_m[row] + _LEAST_GAP_M, usual)).all():
+            if (gap >= np.minimum(radius_m[others] + radius_m[row] + _MIN_GAP_M, usual)).all():
                 off_m[row] = tried
                 break
     return off_m

@@ -24,75 +24,75 @@ from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, 
 from carpus.core.capture.source import SourceInfo
 from carpus.core.durable import write_fault
 from carpus.core.errors import OutputExists, OutputNotWritable
-from carpus.core.simulation.render import CleanPicture, Renderer
+from carpus.core.simulation.render import CleanImage, Renderer
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import ColorSensor, depth_pictures
+from carpus.core.simulation.sensor import ColorSensor, create_depth_sensor
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
-from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of, write_truth
+from carpus.core.simulation.trouble import FrameTimes, sample_covered_markers, sample_frame_times
+from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, compute_truth, write_truth
 from carpus.core.types import SIMULATED, ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
-_MADE = ("rgb", "depth", COLOR_LIST, DEPTH_LIST, CAMERA_FILE, CLICKS_FILE, TRUTH_FILE)
+_RECORDING_FILES = ("rgb", "depth", COLOR_LIST, DEPTH_LIST, CAMERA_FILE, CLICKS_FILE, TRUTH_FILE)
 
 _LARGEST_CLICK_ERROR_PX = 3.5
 _BLUR_STEP_PX = 1.3
-_MOST_SUBFRAMES = 5
+_MAX_SUBFRAMES = 5
 _PNG_LEVEL = [cv2.IMWRITE_PNG_COMPRESSION, 1]
 
 Progress = Callable[[int, int], None]
 """Called with frames done and frames in all."""
 
 
-class SimulatedPictures:
+class SimulatedRecording:
     """All pictures of one spec: any frame by its number, each the same whenever it is asked for."""
 
     def __init__(self, spec: RecordingSpec) -> None:
         self.spec = spec
         self.scene = Scene(spec)
-        self.times: FrameTimes = frame_times(spec)
-        self.truth: Truth = truth_of(self.scene, self.times)
+        self.times: FrameTimes = sample_frame_times(spec)
+        self.truth: Truth = compute_truth(self.scene, self.times)
         self._renderer = Renderer(self.scene)
-        self._color_sensor = ColorSensor(spec, self._renderer.looks)
-        self._depth_sensor = depth_pictures(spec, self.scene.camera)
-        self._covered = covered_discs(spec, self.times.color_s)
+        self._color_sensor = ColorSensor(spec, self._renderer.appearance)
+        self._depth_sensor = create_depth_sensor(spec, self.scene.camera)
+        self._is_covered = sample_covered_markers(spec, self.times.color_s)
 
     def __len__(self) -> int:
         return len(self.times.color_s)
 
-    def clean(self, i: int) -> CleanPicture:
+    def render_clean(self, i: int) -> CleanImage:
         """Frame i without the sensor's noise; depth at its own, later time."""
         t = float(self.times.color_s[i])
-        picture = self._renderer.picture(t, self._covered[i])
+        picture = self._renderer.render(t, self._is_covered[i])
         for offset_s in self._blur_offsets(i):
-            other = self._renderer.picture(t + offset_s, self._covered[i])
+            other = self._renderer.render(t + offset_s, self._is_covered[i])
             picture = dataclasses.replace(picture, color=picture.color + other.color)
         count = 1 + len(self._blur_offsets(i))
         if count > 1:
             picture = dataclasses.replace(picture, color=picture.color / np.float32(count))
         depth_time = float(self.times.depth_s[i])
-        if self._shift_m(t, depth_time) > 1e-4:
-            picture = dataclasses.replace(picture, depth_m=self._renderer.depth(depth_time, self._covered[i]))
+        if self._max_marker_motion_m(t, depth_time) > 1e-4:
+            picture = dataclasses.replace(picture, depth_m=self._renderer.render_depth(depth_time, self._is_covered[i]))
         return picture
 
     def visible_share(self, i: int) -> FloatArray:
         """Share (M,) of each disc's paper that the camera sees in frame i."""
-        return self._renderer.picture(float(self.times.color_s[i]), self._covered[i]).visible_share
+        return self._renderer.render(float(self.times.color_s[i]), self._is_covered[i]).visible_share
 
-    def sensed(self, i: int, clean: CleanPicture) -> tuple[ByteImage, DepthImage]:
+    def apply_sensor(self, i: int, clean: CleanImage) -> tuple[ByteImage, DepthImage]:
         """What the camera makes of a clean picture."""
         return self._color_sensor.expose(clean.color, i), self._depth_sensor.measure(clean.depth_m, i, clean.color)
 
     def frames(self) -> Iterator[Frame]:
         for i in range(len(self)):
-            color, depth = self.sensed(i, self.clean(i))
+            color, depth = self.apply_sensor(i, self.render_clean(i))
             yield Frame(
                 i, float(self.truth.timestamp_s[i]), color, depth, DEPTH_UNIT_M, int(self.times.dropped_before[i])
             )
 
-    def _shift_m(self, from_s: float, to_s: float) -> float:
+    def _max_marker_motion_m(self, from_s: float, to_s: float) -> float:
         """How far the fastest disc moves between two times."""
-        discs = self.scene.discs_w0_m(self.scene.pose(np.array([from_s, to_s])))
+        discs = self.scene.markers_w0_m(self.scene.pose(np.array([from_s, to_s])))
         return float(np.linalg.norm(discs[1] - discs[0], axis=-1).max())
 
     def _blur_offsets(self, i: int) -> list[float]:
@@ -101,20 +101,20 @@ class SimulatedPictures:
         if exposure_s <= 0.0:
             return []
         t = float(self.times.color_s[i])
-        blur_px = self._shift_m(t - 0.5 * exposure_s, t + 0.5 * exposure_s) * self.scene.camera.fx_px
+        blur_px = self._max_marker_motion_m(t - 0.5 * exposure_s, t + 0.5 * exposure_s) * self.scene.camera.fx_px
         blur_px /= float(self.scene.translation_w0_cam_m[2])
-        pairs = min(int(blur_px / (2.0 * _BLUR_STEP_PX) + 0.5), _MOST_SUBFRAMES // 2)
+        pairs = min(int(blur_px / (2.0 * _BLUR_STEP_PX) + 0.5), _MAX_SUBFRAMES // 2)
         steps = [exposure_s * k / (2 * pairs + 1) for k in range(1, pairs + 1)]
         return [sign * step for step in steps for sign in (-1.0, 1.0)]
 
 
-def clicks_of(truth: Truth) -> Clicks:
+def sample_clicks(truth: Truth) -> Clicks:
     """A person's clicks on the first frame: the true places, off by ``spec.click_error_px``."""
     spec = truth.spec
-    rng = spec.random(RandomStream.CLICKS)
-    error = rng.normal(0.0, 1.0, truth.disc_pixel[0].shape) * spec.click_error_px
+    rng = spec.generator(RandomStream.CLICKS)
+    error = rng.normal(0.0, 1.0, truth.marker_px[0].shape) * spec.click_error_px
     limit = max(_LARGEST_CLICK_ERROR_PX, spec.click_error_px)
-    return Clicks(spec.hand, spec.marker_protocol, np.round(truth.disc_pixel[0] + np.clip(error, -limit, limit), 1))
+    return Clicks(spec.hand, spec.marker_protocol, np.round(truth.marker_px[0] + np.clip(error, -limit, limit), 1))
 
 
 def clicks_json(clicks: Clicks) -> str:
@@ -129,7 +129,7 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     More than one of the ``workers`` render in processes of their own; the pictures are the same. Raises
     :class:`OutputExists` or :class:`OutputNotWritable`.
     """
-    pictures = SimulatedPictures(spec)
+    pictures = SimulatedRecording(spec)
     is_new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -140,10 +140,10 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     except OSError as cause:
         raise write_fault(folder, cause) from cause
     try:
-        return _filled(pictures, folder, progress, workers)
+        return _write_recording(pictures, folder, progress, workers)
     except BaseException:
         # Half a recording is none; the next try finds its place free.
-        for path in [folder] if is_new else [folder / name for name in _MADE]:
+        for path in [folder] if is_new else [folder / name for name in _RECORDING_FILES]:
             if path.is_dir():
                 shutil.rmtree(path, ignore_errors=True)
             else:
@@ -151,21 +151,21 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
         raise
 
 
-def _filled(pictures: SimulatedPictures, folder: Path, progress: Progress | None, workers: int) -> Truth:
+def _write_recording(recording: SimulatedRecording, folder: Path, progress: Progress | None, workers: int) -> Truth:
     """Write everything into the empty ``rgb`` and ``depth`` of a folder, the lists that make it a recording last."""
-    truth = pictures.truth
-    count = len(pictures)
+    truth = recording.truth
+    count = len(recording)
     visible = np.empty_like(truth.visible_share)
-    with _rendering(pictures, folder, workers) as rendered:
+    with _render_frames(recording, folder, workers) as rendered:
         for i, share in enumerate(rendered):
             visible[i] = share
             if progress is not None:
                 progress(i + 1, count)
-    files = [_files(pictures, i) for i in range(count)]
+    files = [_image_names(recording, i) for i in range(count)]
     lists = {kind: [f"{Path(names[kind]).stem} {names[kind]}" for names in files] for kind in ("rgb", "depth")}
     truth = dataclasses.replace(truth, visible_share=visible)
     write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False)
-    clicks = clicks_of(truth)
+    clicks = sample_clicks(truth)
     try:
         (folder / CLICKS_FILE).write_text(clicks_json(clicks), encoding="utf-8")
         write_truth(folder / TRUTH_FILE, truth, clicks)
@@ -175,20 +175,20 @@ def _filled(pictures: SimulatedPictures, folder: Path, progress: Progress | None
     return truth
 
 
-def _cache() -> Path:
+def _cache_folder() -> Path:
     return Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "simulated"
 
 
 def is_cached(spec: RecordingSpec, cache: Path | None = None) -> bool:
     """Whether the recording of a spec was rendered before."""
-    return ((_cache() if cache is None else cache) / spec.cache_key / TRUTH_FILE).exists()
+    return ((_cache_folder() if cache is None else cache) / spec.cache_key / TRUTH_FILE).exists()
 
 
-def cached_recording(
+def render_cached(
     spec: RecordingSpec, progress: Progress | None = None, cache: Path | None = None, workers: int = 1
 ) -> Path:
     """Folder with the recording of a spec, rendered only when the user's cache does not hold it yet."""
-    root = _cache() if cache is None else cache
+    root = _cache_folder() if cache is None else cache
     folder = root / spec.cache_key
     if is_cached(spec, root):
         return folder
@@ -208,35 +208,35 @@ def cached_recording(
 
 
 @contextlib.contextmanager
-def _rendering(pictures: SimulatedPictures, folder: Path, workers: int) -> Iterator[Iterator[FloatArray]]:
+def _render_frames(recording: SimulatedRecording, folder: Path, workers: int) -> Iterator[Iterator[FloatArray]]:
     """Renders and writes every frame; gives what was visible of each disc, frame by frame in order."""
-    helpers = _rendering_processes(pictures.spec, folder, workers) if workers > 1 else None
+    helpers = _create_worker_pool(recording.spec, folder, workers) if workers > 1 else None
     if helpers is not None:
         with helpers as processes:
             try:
-                yield processes.map(_render_in_worker, range(len(pictures)), chunksize=4)
+                yield processes.map(_render_in_worker, range(len(recording)), chunksize=4)
             finally:
                 processes.shutdown(cancel_futures=True)
     else:
         with ThreadPoolExecutor(2) as pool:
-            yield _rendered_ahead(pictures, folder, pool)
+            yield _render_ahead(recording, folder, pool)
 
 
-def _rendering_processes(spec: RecordingSpec, folder: Path, workers: int) -> ProcessPoolExecutor | None:
+def _create_worker_pool(spec: RecordingSpec, folder: Path, workers: int) -> ProcessPoolExecutor | None:
     """None where processes can share nothing (a container without /dev/shm); it then takes longer."""
     context = multiprocessing.get_context("spawn")
     try:
-        return ProcessPoolExecutor(workers, context, initializer=_begin_worker, initargs=(spec, folder))
+        return ProcessPoolExecutor(workers, context, initializer=_init_worker, initargs=(spec, folder))
     except (OSError, NotImplementedError):
         return None
 
 
-def _rendered_ahead(pictures: SimulatedPictures, folder: Path, pool: ThreadPoolExecutor) -> Iterator[FloatArray]:
+def _render_ahead(recording: SimulatedRecording, folder: Path, pool: ThreadPoolExecutor) -> Iterator[FloatArray]:
     """The next frame is rendered while the sensor's noise is put on those before it."""
     waiting: list[Future[None]] = []
-    for i in range(len(pictures)):
-        clean = pictures.clean(i)
-        waiting.append(pool.submit(_write_pictures, pictures, i, clean, folder))
+    for i in range(len(recording)):
+        clean = recording.render_clean(i)
+        waiting.append(pool.submit(_write_images, recording, i, clean, folder))
         if len(waiting) > 4:
             waiting.pop(0).result()
         yield clean.visible_share
@@ -244,31 +244,31 @@ def _rendered_ahead(pictures: SimulatedPictures, folder: Path, pool: ThreadPoolE
         future.result()
 
 
-_worker: list[tuple[SimulatedPictures, Path]] = []
+_WORKER_STATE: list[tuple[SimulatedRecording, Path]] = []
 """What a rendering process works on; empty everywhere else."""
 
 
-def _begin_worker(spec: RecordingSpec, folder: Path) -> None:
+def _init_worker(spec: RecordingSpec, folder: Path) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C reaches all: who asked for pictures says when to stop
-    _worker.append((SimulatedPictures(spec), folder))
+    _WORKER_STATE.append((SimulatedRecording(spec), folder))
 
 
 def _render_in_worker(i: int) -> FloatArray:
-    pictures, folder = _worker[0]
-    clean = pictures.clean(i)
-    _write_pictures(pictures, i, clean, folder)
+    pictures, folder = _WORKER_STATE[0]
+    clean = pictures.render_clean(i)
+    _write_images(pictures, i, clean, folder)
     return clean.visible_share
 
 
-def _files(pictures: SimulatedPictures, i: int) -> dict[str, str]:
+def _image_names(recording: SimulatedRecording, i: int) -> dict[str, str]:
     """Names of the pictures of a frame inside the folder."""
-    depth_s = RECORDING_EPOCH_S + pictures.times.depth_s[i]
-    return {"rgb": f"rgb/{pictures.truth.timestamp_s[i]:.6f}.png", "depth": f"depth/{depth_s:.6f}.png"}
+    depth_s = RECORDING_EPOCH_S + recording.times.depth_s[i]
+    return {"rgb": f"rgb/{recording.truth.timestamp_s[i]:.6f}.png", "depth": f"depth/{depth_s:.6f}.png"}
 
 
-def _write_pictures(pictures: SimulatedPictures, i: int, clean: CleanPicture, folder: Path) -> None:
-    color, depth = pictures.sensed(i, clean)
-    files = _files(pictures, i)
+def _write_images(recording: SimulatedRecording, i: int, clean: CleanImage, folder: Path) -> None:
+    color, depth = recording.apply_sensor(i, clean)
+    files = _image_names(recording, i)
     for path, picture in (
         (folder / files["rgb"], cv2.cvtColor(color, cv2.COLOR_RGB2BGR)),
         (folder / files["depth"], depth),
@@ -289,17 +289,17 @@ def _write_lists(folder: Path, lists: dict[str, list[str]]) -> None:
         (folder / name).write_text(text, encoding="utf-8")
 
 
-class FirstPictures:
+class SimulatedSource:
     """The pictures of the first ``seconds`` as a source: the same ones that the whole recording begins with."""
 
     def __init__(self, spec: RecordingSpec, seconds: float) -> None:
-        self._pictures = SimulatedPictures(spec)
-        self._count = int((self._pictures.times.color_s < seconds).sum())
-        camera = self._pictures.truth.camera
+        self._recording = SimulatedRecording(spec)
+        self._count = int((self._recording.times.color_s < seconds).sum())
+        camera = self._recording.truth.camera
         self.info = SourceInfo(spec.cache_key, camera, True, self._count, spec.fps, {SIMULATED: "yes"})
 
     def frames(self) -> Iterator[Frame]:
-        return islice(self._pictures.frames(), self._count)
+        return islice(self._recording.frames(), self._count)
 
     def close(self) -> None:
         """Nothing is held."""

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from carpus.core.camera import Camera
 from carpus.core.hand.kinematics import SEGMENTS
 from carpus.core.hand.protocols import PALM_SITES
-from carpus.core.simulation.appearance import Appearance, appearance_of
+from carpus.core.simulation.appearance import Appearance, sample_appearance
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.skin import Cones, Part
-from carpus.core.simulation.trace import Box, FloatImage, TracedSurface, box_around, trace
-from carpus.core.simulation.trouble import false_blobs, passing_thing
+from carpus.core.simulation.trace import Box, FloatImage, TracedSurface, bounding_box, trace_cones
+from carpus.core.simulation.trouble import sample_false_blobs, sample_passing_rod
 from carpus.core.simulation.truth import protocol_rows
 from carpus.core.types import FloatArray
 
@@ -25,7 +25,7 @@ _LARGEST_SAG_M, _HIDING_GAP_M = 0.004, 0.004
 
 
 @dataclass(frozen=True, slots=True)
-class Patch:
+class PaperPatch:
     """A round piece of blue paper in camera axes; ``normal`` towards the camera, ``bend`` 0 flat to 1 like the skin."""
 
     center_m: FloatArray
@@ -45,12 +45,12 @@ _KNUCKLE_TINT = np.array([0.05, 0.13, 0.12], dtype=np.float32)
 _NAIL_TINT = np.array([1.10, 1.12, 1.16], dtype=np.float32)
 
 
-def spot_on(
+def find_spot_pixels(
     camera: Camera, box: Box, points: FloatImage, center_m: FloatArray, radius_m: float
 ) -> tuple[tuple[slice, slice], FloatImage] | None:
     """Where in ``points`` (over ``box``, camera axes) the surface lies within a radius of a point, and how much of
     each of those pixels; None when that is outside the box."""
-    around = box_around(camera, center_m[None], np.array([radius_m]), margin_px=2.0)
+    around = bounding_box(camera, center_m[None], np.array([radius_m]), margin_px=2.0)
     around = Box(
         max(around.top, box.top),
         min(around.bottom, box.bottom),
@@ -59,7 +59,7 @@ def spot_on(
     )
     if around.bottom - around.top < 3 or around.right - around.left < 3:
         return None
-    place = around.within(box)
+    place = around.relative_slices(box)
     away = np.linalg.norm(points[place] - center_m.astype(np.float32), axis=-1)
     along_v, along_u = np.gradient(away)
     # Within half a pixel of the edge the spot fills part of a pixel.
@@ -67,15 +67,15 @@ def spot_on(
     return place, share.astype(np.float32)
 
 
-def patch_on(
-    camera: Camera, rays: tuple[FloatImage, FloatImage], depth_m: FloatImage, patch: Patch
+def project_patch(
+    camera: Camera, rays: tuple[FloatImage, FloatImage], depth_m: FloatImage, patch: PaperPatch
 ) -> tuple[tuple[slice, slice], FloatImage, FloatImage] | None:
     """Where a paper patch shows in the whole picture: rows and columns, share of each pixel, depth of the paper.
 
     ``rays`` are the rays' x and y where z is 1. Paper is stiffer than skin: between its tangent plane and the skin
     under it, it goes ``patch.bend`` of the way; it lies on skin that rises. Whatever stands clearly before it hides it.
     """
-    box = box_around(camera, patch.center_m[None], np.array([patch.radius_m]), margin_px=2.0)
+    box = bounding_box(camera, patch.center_m[None], np.array([patch.radius_m]), margin_px=2.0)
     if box.bottom - box.top < 3 or box.right - box.left < 3:
         return None
     rows, columns = box.slices
@@ -95,55 +95,57 @@ def patch_on(
     return (rows, columns), share.astype(np.float32), z.astype(np.float32)
 
 
-def lay(image: FloatImage, place: tuple[slice, slice], share: FloatImage, color: FloatArray) -> None:
+def blend_color(image: FloatImage, place: tuple[slice, slice], share: FloatImage, color: FloatArray) -> None:
     """Cover a place of ``image`` with a colour, by share."""
     inner = image[place]
     inner += share[..., None] * (color.astype(np.float32) - inner)
 
 
-def painted_skin(looks: Appearance, points: FloatImage, discs_cam_m: FloatArray, hand_axes: FloatArray) -> FloatImage:
-    """Albedo (H, W, 3) of bare skin; ``discs_cam_m`` (21, 3) tell where knuckles and nails are, ``hand_axes``
+def skin_albedo(
+    appearance: Appearance, points: FloatImage, markers_cam_m: FloatArray, hand_axes: FloatArray
+) -> FloatImage:
+    """Albedo (H, W, 3) of bare skin; ``markers_cam_m`` (21, 3) tell where knuckles and nails are, ``hand_axes``
     (3, 3) fix the mottling to the hand."""
     coarse = points[::2, ::2]
     size = (points.shape[1], points.shape[0])
-    local = (coarse - discs_cam_m[0].astype(np.float32)) @ hand_axes.astype(np.float32)
+    local = (coarse - markers_cam_m[0].astype(np.float32)) @ hand_axes.astype(np.float32)
     waves = np.zeros(coarse.shape[:2], dtype=np.float32)
-    for direction in looks.mottling:
+    for direction in appearance.mottling:
         waves += np.sin(local @ direction.astype(np.float32))
     mottled = np.float32(1.0) + np.float32(0.016) * waves
     red = np.zeros_like(waves)
     for row in _KNUCKLES:
-        red += _ball(coarse, discs_cam_m[row], _KNUCKLE_RADIUS_M)
+        red += _gaussian_ball(coarse, markers_cam_m[row], _KNUCKLE_RADIUS_M)
     full = cv2.resize(np.dstack((mottled, np.minimum(red, 1.0))), size, interpolation=cv2.INTER_LINEAR)
     tint = np.float32(1.0) - full[..., 1:] * _KNUCKLE_TINT
-    return np.asarray(looks.skin.astype(np.float32) * full[..., :1] * tint, dtype=np.float32)
+    return np.asarray(appearance.skin.astype(np.float32) * full[..., :1] * tint, dtype=np.float32)
 
 
-def _ball(points: FloatImage, center_m: FloatArray, radius_m: float) -> FloatImage:
+def _gaussian_ball(points: FloatImage, center_m: FloatArray, radius_m: float) -> FloatImage:
     offset = points - center_m.astype(np.float32)
     return np.asarray(np.exp(np.einsum("hwi,hwi->hw", offset, offset) * np.float32(-0.5 / radius_m**2)))
 
 
 def paint_nails(
-    albedo: FloatImage, camera: Camera, box: Box, points: FloatImage, discs_cam_m: FloatArray, size: float
+    albedo: FloatImage, camera: Camera, box: Box, points: FloatImage, markers_cam_m: FloatArray, size: float
 ) -> None:
     """Nails are a little lighter than the skin around them."""
     for row in _NAILS:
-        spot = spot_on(camera, box, points, discs_cam_m[row], _NAIL_RADIUS_M * size)
+        spot = find_spot_pixels(camera, box, points, markers_cam_m[row], _NAIL_RADIUS_M * size)
         if spot is not None:
             place, share = spot
             albedo[place] *= 1.0 + share[..., None] * (_NAIL_TINT - 1.0)
 
 
-def dress(
-    albedo: FloatImage, looks: Appearance, points: FloatImage, is_forearm: np.ndarray, wrist_m: FloatArray,
+def paint_bands(
+    albedo: FloatImage, appearance: Appearance, points: FloatImage, is_forearm: np.ndarray, wrist_m: FloatArray,
     forearm_axis: FloatArray,
 ) -> None:  # fmt: skip
     """Sleeve and what else is worn round the forearm; ``forearm_axis`` points to the hand."""
-    if not looks.bands:
+    if not appearance.bands:
         return
     to_wrist = (points - wrist_m.astype(np.float32)) @ forearm_axis.astype(np.float32)
-    for band in looks.bands:
+    for band in appearance.bands:
         along = to_wrist + np.float32(band.from_m)
         share = np.clip(0.5 - along / _BAND_EDGE_M, 0.0, 1.0) * is_forearm
         if np.isfinite(band.to_m):
@@ -173,23 +175,23 @@ _CORNER_DEPTH_M = 0.02
 _COARSE = 3
 
 
-def shaded_skin(albedo: FloatImage, normal: FloatImage, corners: FloatImage, looks: Appearance) -> FloatImage:
+def shade_skin(albedo: FloatImage, normal: FloatImage, ambient_share: FloatImage, appearance: Appearance) -> FloatImage:
     """Linear colour (H, W, 3) of skin under lamp and ambient light, with a faint gloss."""
-    facing_lamp = np.clip(normal @ looks.light_cam.astype(np.float32), 0.0, 1.0)
+    facing_lamp = np.clip(normal @ appearance.light_cam.astype(np.float32), 0.0, 1.0)
     # Light scattered inside the skin softens the terminator.
     lambert = np.float32(0.85) * facing_lamp + np.float32(0.15) * np.sqrt(facing_lamp)
-    half = looks.light_cam + np.array([0.0, 0.0, -1.0])
+    half = appearance.light_cam + np.array([0.0, 0.0, -1.0])
     half = (half / np.linalg.norm(half)).astype(np.float32)
     gloss = np.float32(_GLOSS) * np.clip(normal @ half, 0.0, 1.0) ** _GLOSS_POWER
-    facing = (np.float32(0.65) + np.float32(0.35) * np.clip(-normal[..., 2], 0.0, 1.0)) * corners
+    facing = (np.float32(0.65) + np.float32(0.35) * np.clip(-normal[..., 2], 0.0, 1.0)) * ambient_share
     out = np.empty_like(albedo)
     for channel in range(3):
-        lamp, ambient = np.float32(looks.lamp[channel]), np.float32(looks.ambient[channel])
+        lamp, ambient = np.float32(appearance.lamp[channel]), np.float32(appearance.ambient[channel])
         out[..., channel] = albedo[..., channel] * (lambert * lamp + facing * ambient) + gloss * lamp
     return out
 
 
-def corner_light(skin: TracedSurface, background_m: FloatImage) -> FloatImage:
+def ambient_occlusion(skin: TracedSurface, background_m: FloatImage) -> FloatImage:
     """Share of the ambient light that reaches each pixel: less where its neighbourhood is nearer to the camera."""
     around = np.where(skin.coverage > 0.5, skin.depth_m, background_m)
     small = around
@@ -201,7 +203,7 @@ def corner_light(skin: TracedSurface, background_m: FloatImage) -> FloatImage:
     return np.asarray(1.0 - 0.5 * cv2.resize(deeper, size, interpolation=cv2.INTER_LINEAR), dtype=np.float32)
 
 
-def shadow_on_table(
+def table_shadow(
     camera: Camera, skin: TracedSurface, to_lamp: FloatArray, table_normal: FloatArray, table_point_m: FloatArray
 ) -> FloatImage:
     """Share of the lamp's light (H, W) that the table gets; softer the higher the hand is above it."""
@@ -212,7 +214,7 @@ def shadow_on_table(
     softness_px = 2.0
     if z.size:
         pixel = np.stack((u * _COARSE + skin.box.left, v * _COARSE + skin.box.top), axis=-1).astype(np.float64)
-        points = camera.back_project(pixel, z)
+        points = camera.backproject(pixel, z)
         height = (points - table_point_m) @ table_normal
         ground = points - to_lamp * (height / (to_lamp @ table_normal))[:, None]
         spot = np.round(camera.project(ground) / _COARSE).astype(np.int64)
@@ -231,7 +233,7 @@ _PALM_BEND, _DIGIT_BEND = 0.3, 0.6
 
 
 @dataclass(frozen=True, slots=True)
-class CleanPicture:
+class CleanImage:
     """``color`` (H, W, 3) linear light, ``depth_m`` (H, W), ``visible_share`` (M,) of each disc's area."""
 
     color: FloatImage
@@ -240,12 +242,12 @@ class CleanPicture:
 
 
 @dataclass(frozen=True, slots=True)
-class _Bodies:
+class _SceneSurfaces:
     """What stands where at one time: depth of everything but floating blobs, skin and passing thing apart."""
 
     depth_m: FloatImage
     skin: TracedSurface | None
-    thing: TracedSurface | None
+    rod: TracedSurface | None
     pose: HandPose
 
 
@@ -254,10 +256,10 @@ class Renderer:
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
-        self.looks: Appearance = appearance_of(scene)
+        self.appearance: Appearance = sample_appearance(scene)
         self._rows = protocol_rows(scene.spec)
-        self._blobs = false_blobs(scene)
-        self._thing = passing_thing(scene)
+        self._blobs = sample_false_blobs(scene)
+        self._rod = sample_passing_rod(scene)
         camera = scene.camera
         self._rays = (
             ((np.arange(camera.width_px) - camera.cx_px) / camera.fx_px).astype(np.float32),
@@ -266,98 +268,98 @@ class Renderer:
         self._up = scene.rotation_w0_cam[:, 2]
         self._table_point_m = scene.to_camera(np.array([0.0, 0.0, scene.table_height_m]))
 
-    def depth(self, time_s: float, covered: NDArray[np.bool_]) -> FloatImage:
+    def render_depth(self, time_s: float, is_covered: NDArray[np.bool_]) -> FloatImage:
         """Depth alone, (H, W) metres along z."""
-        bodies = self._bodies(time_s)
-        self._lay_false_blobs(None, bodies.depth_m, time_s, bodies.pose, ("skin", "air"))
-        self._draw_discs(None, bodies.depth_m, bodies, covered)
+        bodies = self._trace_surfaces(time_s)
+        self._draw_false_blobs(None, bodies.depth_m, time_s, bodies.pose, ("skin", "air"))
+        self._draw_markers(None, bodies.depth_m, bodies, is_covered)
         return bodies.depth_m
 
-    def picture(self, time_s: float, covered: NDArray[np.bool_]) -> CleanPicture:
-        """Colour and depth at one time; ``covered`` (21,) discs that are hidden under skin-coloured cover."""
-        bodies = self._bodies(time_s)
-        color, depth = self._table(bodies), bodies.depth_m
+    def render(self, time_s: float, is_covered: NDArray[np.bool_]) -> CleanImage:
+        """Colour and depth at one time; ``is_covered`` (21,) discs that are hidden under skin-coloured cover."""
+        bodies = self._trace_surfaces(time_s)
+        color, depth = self._shade_table(bodies), bodies.depth_m
         if bodies.skin is not None:
             self._draw_skin(color, bodies, bodies.skin)
-        self._lay_false_blobs(color, depth, time_s, bodies.pose, ("table", "skin"))
-        visible = self._draw_discs(color, depth, bodies, covered)
-        if bodies.thing is not None:
-            self._draw_thing(color, depth, bodies.thing)
-        self._lay_false_blobs(color, depth, time_s, bodies.pose, ("air",))
-        return CleanPicture(color, depth, visible)
+        self._draw_false_blobs(color, depth, time_s, bodies.pose, ("table", "skin"))
+        visible = self._draw_markers(color, depth, bodies, is_covered)
+        if bodies.rod is not None:
+            self._draw_rod(color, depth, bodies.rod)
+        self._draw_false_blobs(color, depth, time_s, bodies.pose, ("air",))
+        return CleanImage(color, depth, visible)
 
-    def _bodies(self, time_s: float) -> _Bodies:
+    def _trace_surfaces(self, time_s: float) -> _SceneSurfaces:
         pose = self.scene.pose(np.array([time_s]))
-        skin = trace(self.scene.camera, self.scene.cones_cam(pose, 0))
-        thing = self._thing_surface(time_s)
-        depth = self.looks.table_depth_m.copy()
+        skin = trace_cones(self.scene.camera, self.scene.cones_cam(pose, 0))
+        thing = self._trace_rod(time_s)
+        depth = self.appearance.table_depth_m.copy()
         for surface in (skin, thing):
             if surface is not None:
-                _put_nearer(depth, surface)
-        return _Bodies(depth, skin, thing, pose)
+                _merge_nearer(depth, surface)
+        return _SceneSurfaces(depth, skin, thing, pose)
 
-    def _thing_surface(self, time_s: float) -> TracedSurface | None:
-        ends = None if self._thing is None else self._thing.ends_w0_m(time_s)
-        if ends is None or self._thing is None:
+    def _trace_rod(self, time_s: float) -> TracedSurface | None:
+        ends = None if self._rod is None else self._rod.end_points_w0_m(time_s)
+        if ends is None or self._rod is None:
             return None
         a, b = self.scene.to_camera(ends)
-        radius, none = np.array([self._thing.radius_m]), np.zeros(1)
+        radius, none = np.array([self._rod.radius_m]), np.zeros(1)
         across = np.cross(b - a, [0.0, 0.0, 1.0])
         across = (across / np.linalg.norm(across))[None]
-        return trace(self.scene.camera, Cones(a[None], b[None], across, radius, radius, none, none, none))
+        return trace_cones(self.scene.camera, Cones(a[None], b[None], across, radius, radius, none, none, none))
 
-    def _lit(self, color: FloatArray, normal: FloatArray) -> FloatArray:
+    def _shade_flat(self, color: FloatArray, normal: FloatArray) -> FloatArray:
         """Linear light (3,) that a flat thing of a colour and a normal sends to the camera."""
-        lambert = max(float(normal @ self.looks.light_cam), 0.0)
-        return np.asarray(color * (lambert * self.looks.lamp + self.looks.ambient))
+        lambert = max(float(normal @ self.appearance.light_cam), 0.0)
+        return np.asarray(color * (lambert * self.appearance.lamp + self.appearance.ambient))
 
-    def _table(self, bodies: _Bodies) -> FloatImage:
+    def _shade_table(self, surfaces: _SceneSurfaces) -> FloatImage:
         """The lit table with the hand's shadow, (H, W, 3)."""
-        looks = self.looks
+        looks = self.appearance
         facing = np.float32(max(float(self._up @ looks.light_cam), 0.0))
-        if bodies.skin is None:
+        if surfaces.skin is None:
             return np.asarray(looks.table * (facing * looks.lamp + looks.ambient).astype(np.float32))
-        lit = shadow_on_table(self.scene.camera, bodies.skin, looks.light_cam, self._up, self._table_point_m)
+        lit = table_shadow(self.scene.camera, surfaces.skin, looks.light_cam, self._up, self._table_point_m)
         out, lamp, ambient = np.empty_like(looks.table), looks.lamp.astype(np.float32), looks.ambient.astype(np.float32)
         for channel in range(3):  # one at a time: NumPy is slow over rows of three
             out[..., channel] = looks.table[..., channel] * (facing * lit * lamp[channel] + ambient[channel])
         return out
 
-    def _draw_skin(self, color: FloatImage, bodies: _Bodies, skin: TracedSurface) -> None:
-        scene, looks, pose = self.scene, self.looks, bodies.pose
+    def _draw_skin(self, color: FloatImage, surfaces: _SceneSurfaces, skin: TracedSurface) -> None:
+        scene, looks, pose = self.scene, self.appearance, surfaces.pose
         rows, columns = skin.box.slices
         x, y = self._rays[0][None, columns], self._rays[1][rows, None]
         points = np.stack((x * skin.depth_m, y * skin.depth_m, skin.depth_m), axis=-1)
-        discs = scene.to_camera(scene.discs_w0_m(pose)[0])
-        albedo = painted_skin(looks, points, discs, scene.rotation_w0_cam @ pose.rotation_w2_w0[0])
+        discs = scene.to_camera(scene.markers_w0_m(pose)[0])
+        albedo = skin_albedo(looks, points, discs, scene.rotation_w0_cam @ pose.rotation_w2_w0[0])
         paint_nails(albedo, scene.camera, skin.box, points, discs, scene.patient.size)
-        wrist = scene.to_camera(pose.carry_m[0])
-        dress(albedo, looks, points, skin.part == Part.FOREARM, wrist, scene.rotation_w0_cam[:, 0])
+        wrist = scene.to_camera(pose.arm_displacement_m[0])
+        paint_bands(albedo, looks, points, skin.part == Part.FOREARM, wrist, scene.rotation_w0_cam[:, 0])
         if looks.ring is not None:
             bones = scene.bones_w(pose)
             ends = np.stack((bones.start_m[0, _RING_BONE], bones.end_m[0, _RING_BONE]))
             ends = ends @ pose.rotation_w2_w0[0].T + pose.position_m[0]
             paint_ring(albedo, points, looks.ring, scene.to_camera(ends), scene.patient.size)
-        corners = corner_light(skin, looks.table_depth_m[rows, columns])
+        corners = ambient_occlusion(skin, looks.table_depth_m[rows, columns])
         inner = color[rows, columns]
-        inner += skin.coverage[..., None] * (shaded_skin(albedo, skin.normal, corners, looks) - inner)
+        inner += skin.coverage[..., None] * (shade_skin(albedo, skin.normal, corners, looks) - inner)
 
-    def _draw_discs(
-        self, color: FloatImage | None, depth_m: FloatImage, bodies: _Bodies, covered: NDArray[np.bool_]
+    def _draw_markers(
+        self, color: FloatImage | None, depth_m: FloatImage, surfaces: _SceneSurfaces, is_covered: NDArray[np.bool_]
     ) -> FloatArray:
         """Lay the paper discs; returns the visible share of each, (M,)."""
-        scene, pose = self.scene, bodies.pose
-        centers = scene.to_camera(scene.discs_w0_m(pose)[0])
-        normals = scene.disc_normals_w0(pose)[0] @ scene.rotation_w0_cam.T
-        front = self._thing_depth(bodies)
+        scene, pose = self.scene, surfaces.pose
+        centers = scene.to_camera(scene.markers_w0_m(pose)[0])
+        normals = scene.marker_normals_w0(pose)[0] @ scene.rotation_w0_cam.T
+        front = self._rod_depth(surfaces)
         visible = np.zeros(len(self._rows))
         for m, row in enumerate(self._rows):
-            if covered[row]:
+            if is_covered[row]:
                 continue
             bend = _PALM_BEND if row in PALM_SITES else _DIGIT_BEND
-            radius_m = float(scene.patient.disc_radius_m[row])
-            disc = Patch(centers[row], normals[row], radius_m, self.looks.paper, bend)
-            laid = self._lay_patch(color, depth_m, disc)
+            radius_m = float(scene.patient.marker_radius_m[row])
+            disc = PaperPatch(centers[row], normals[row], radius_m, self.appearance.paper, bend)
+            laid = self._draw_patch(color, depth_m, disc)
             if laid is None:
                 continue
             place, share, z = laid
@@ -369,19 +371,19 @@ class Renderer:
             visible[m] = min(seen_area / (math.pi * radius_m**2), 1.0)
         return visible
 
-    def _lay_patch(
-        self, color: FloatImage | None, depth_m: FloatImage, patch: Patch
+    def _draw_patch(
+        self, color: FloatImage | None, depth_m: FloatImage, patch: PaperPatch
     ) -> tuple[tuple[slice, slice], FloatImage, FloatImage] | None:
         """Draw one patch into depth and, where given, colour; None where the camera cannot see it."""
-        laid = patch_on(self.scene.camera, self._rays, depth_m, patch)
+        laid = project_patch(self.scene.camera, self._rays, depth_m, patch)
         if laid is not None:
             place, share, z = laid
             if color is not None:
-                lay(color, place, share, self._lit(patch.color, patch.normal))
+                blend_color(color, place, share, self._shade_flat(patch.color, patch.normal))
             np.copyto(depth_m[place], z, where=share > 0.5)
         return laid
 
-    def _lay_false_blobs(
+    def _draw_false_blobs(
         self, color: FloatImage | None, depth_m: FloatImage, time_s: float, pose: HandPose, places: tuple[str, ...]
     ) -> None:
         for blob in self._blobs:
@@ -390,27 +392,27 @@ class Renderer:
                 if blob.place == "skin":
                     center = pose.rotation_w2_w0[0] @ center + pose.position_m[0]
                     normal = pose.rotation_w2_w0[0] @ normal
-                paper = self.looks.paper * blob.hue_shift
+                paper = self.appearance.paper * blob.hue_shift
                 turned = self.scene.rotation_w0_cam @ normal
-                patch = Patch(self.scene.to_camera(center), turned, blob.radius_m, paper, _PALM_BEND)
-                self._lay_patch(color, depth_m, patch)
+                patch = PaperPatch(self.scene.to_camera(center), turned, blob.radius_m, paper, _PALM_BEND)
+                self._draw_patch(color, depth_m, patch)
 
-    def _thing_depth(self, bodies: _Bodies) -> FloatImage:
-        front = np.full(bodies.depth_m.shape, _NOTHING_M, dtype=np.float32)
-        if bodies.thing is not None:
-            _put_nearer(front, bodies.thing)
+    def _rod_depth(self, surfaces: _SceneSurfaces) -> FloatImage:
+        front = np.full(surfaces.depth_m.shape, _NOTHING_M, dtype=np.float32)
+        if surfaces.rod is not None:
+            _merge_nearer(front, surfaces.rod)
         return front
 
-    def _draw_thing(self, color: FloatImage, depth_m: FloatImage, thing: TracedSurface) -> None:
-        looks = self.looks
-        rows, columns = thing.box.slices
-        lambert = np.clip(thing.normal @ looks.light_cam.astype(np.float32), 0.0, 1.0)[..., None]
-        shaded = looks.thing.astype(np.float32) * (lambert * looks.lamp.astype(np.float32) + looks.ambient)
-        alpha = (thing.coverage * (thing.depth_m <= depth_m[rows, columns] + 1e-3))[..., None]
+    def _draw_rod(self, color: FloatImage, depth_m: FloatImage, rod: TracedSurface) -> None:
+        looks = self.appearance
+        rows, columns = rod.box.slices
+        lambert = np.clip(rod.normal @ looks.light_cam.astype(np.float32), 0.0, 1.0)[..., None]
+        shaded = looks.rod.astype(np.float32) * (lambert * looks.lamp.astype(np.float32) + looks.ambient)
+        alpha = (rod.coverage * (rod.depth_m <= depth_m[rows, columns] + 1e-3))[..., None]
         inner = color[rows, columns]
         inner += (alpha * (shaded - inner)).astype(np.float32)
 
 
-def _put_nearer(depth_m: FloatImage, surface: TracedSurface) -> None:
+def _merge_nearer(depth_m: FloatImage, surface: TracedSurface) -> None:
     inner = depth_m[surface.box.slices]
     np.copyto(inner, surface.depth_m, where=(surface.coverage > 0.5) & (surface.depth_m < inner))

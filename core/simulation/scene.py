@@ -13,10 +13,10 @@ from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.clinical_angles import rotation_from_angles, side_sign, wrist_axes
 from carpus.core.hand.kinematics import SegmentFrames, disc_centres, joint_centres, segment_frames
 from carpus.core.hand.protocols import PALM_SITES
-from carpus.core.simulation.hand_motion import HandMotion, TissueMovement, TissueState, tissue_of
-from carpus.core.simulation.motions import motion_of
-from carpus.core.simulation.patient import Patient, patient_of, widened
-from carpus.core.simulation.skin import Cones, HandSkin, joined, on_surface
+from carpus.core.simulation.hand_motion import HandMotion, TissueMovement, TissueState, sample_tissue
+from carpus.core.simulation.motions import create_motion
+from carpus.core.simulation.patient import SimulatedPatient, sample_patient, sample_wide_anatomy
+from carpus.core.simulation.skin import Cones, HandSkin, join_cones, project_to_surface
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 
@@ -34,14 +34,15 @@ _SKIN_MOVEMENT_SHARE = np.array([1.0, 0.6, 0.5, 0.5, 0.5, 0.5])
 @dataclass(frozen=True, slots=True)
 class HandPose:
     """Pose at N times: ``rotation_w2_w0`` (N, 3, 3), ``position_m`` (N, 3) of W2 in W0, clinical wrist angles
-    ``angles_rad`` (N, 3), ``joint_angles_rad`` (N, J), displacement of the arm ``carry_m`` (N, 3), soft parts
+    ``angles_rad`` (N, 3), ``joint_angles_rad`` (N, J), displacement of the arm ``arm_displacement_m`` (N, 3), soft
+    parts
     ``tissue``. The angles are those of the fixed unit and of each finger against its own metacarpal."""
 
     rotation_w2_w0: FloatArray
     position_m: FloatArray
     angles_rad: FloatArray
     joint_angles_rad: FloatArray
-    carry_m: FloatArray
+    arm_displacement_m: FloatArray
     tissue: TissueState
 
 
@@ -50,52 +51,54 @@ class Scene:
 
     def __init__(self, spec: RecordingSpec) -> None:
         self.spec = spec
-        self.patient: Patient = patient_of(spec)
+        self.patient: SimulatedPatient = sample_patient(spec)
         if spec.anatomy == "wide":
-            self.patient = widened(self.patient, spec)
-        self.motion: HandMotion = motion_of(spec)
-        self.tissue = tissue_of(spec)
+            self.patient = sample_wide_anatomy(self.patient, spec)
+        self.motion: HandMotion = create_motion(spec)
+        self.tissue = sample_tissue(spec)
         self._tissue_movement = TissueMovement(self.tissue, self.motion, spec.seconds)
         self.skin = HandSkin(self.patient, self.tissue.knuckle_rise_m)
-        self._last_ridden: tuple[HandPose, tuple[FloatArray, FloatArray]] | None = None
-        self._discs_ride = not self.tissue.is_rigid or bool(self.patient.stuck_off_m.any())
+        self._last_skin_markers: tuple[HandPose, tuple[FloatArray, FloatArray]] | None = None
+        self._markers_follow_skin = not self.tissue.is_rigid or bool(self.patient.placement_error_m.any())
         self._palm_normals = self.skin.palm_normals()
-        self._skin_rise_m = self._skin_rises_m() if spec.skin_movement_mm > 0.0 else np.zeros((2, 6))
-        rng = spec.random(RandomStream.SCENE)
+        self._skin_height_change_m = (
+            self._compute_skin_height_change_m() if spec.skin_movement_mm > 0.0 else np.zeros((2, 6))
+        )
+        rng = spec.generator(RandomStream.SCENE)
         focal_px = 525.0 * rng.uniform(0.98, 1.02)
         self.camera = Camera(
             focal_px, focal_px * rng.uniform(0.998, 1.002), 319.5 + rng.uniform(-5, 5), 239.5 + rng.uniform(-5, 5),
             origin="file", sensor=SENSORS[spec.sensor],
         )  # fmt: skip
-        self.table_height_m = self._lowest_m() - _LOWEST_GAP_M
-        self.rotation_w0_cam = self._orientation(rng)
-        self.translation_w0_cam_m = self._placement(rng)
+        self.table_height_m = self._lowest_point_m() - _LOWEST_GAP_M
+        self.rotation_w0_cam = self._sample_orientation(rng)
+        self.translation_w0_cam_m = self._sample_placement(rng)
 
     def pose(self, time_s: FloatArray) -> HandPose:
         """The hand at times (N,) after the first frame."""
         angles = self.motion.wrist_angles_rad(time_s)
-        carry = self.motion.carry_m(time_s)
+        carry = self.motion.arm_displacement_m(time_s)
         rotation = rotation_from_angles(angles, self.spec.hand)
         joint = self.patient.wrist_joint_m
         position = joint - rotation @ joint + carry
-        joints, tissue = self.motion.joint_angles_rad(time_s), self._tissue_movement.at(time_s)
+        joints, tissue = self.motion.joint_angles_rad(time_s), self._tissue_movement.evaluate(time_s)
         return HandPose(rotation, position, angles, joints, carry, tissue)
 
-    def discs_w0_m(self, pose: HandPose) -> FloatArray:
+    def markers_w0_m(self, pose: HandPose) -> FloatArray:
         """All 21 disc centres in W0, (N, 21, 3)."""
-        if self._discs_ride:
-            return _moved(self._riding_discs_w(pose)[0], pose)
+        if self._markers_follow_skin:
+            return _to_w0(self._skin_markers_w(pose)[0], pose)
         local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
         if self.spec.skin_movement_mm > 0.0:
             share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
             local[:, list(PALM_SITES)] += self._skin_shift_m(share)
-        return _moved(local, pose)
+        return _to_w0(local, pose)
 
-    def disc_normals_w0(self, pose: HandPose) -> FloatArray:
+    def marker_normals_w0(self, pose: HandPose) -> FloatArray:
         """Unit normals of the 21 discs in W0, (N, 21, 3): of the skin on the palm, the bisectors of the bones that
         meet under them on the digits; of the skin everywhere where discs ride on it."""
-        if self._discs_ride:
-            return np.asarray(self._riding_discs_w(pose)[1] @ pose.rotation_w2_w0.transpose(0, 2, 1))
+        if self._markers_follow_skin:
+            return np.asarray(self._skin_markers_w(pose)[1] @ pose.rotation_w2_w0.transpose(0, 2, 1))
         bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad).dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
         normals = np.empty((len(bones), 21, 3))
         normals[:, list(PALM_SITES)] = self._palm_normals
@@ -120,21 +123,21 @@ class Scene:
             bones.dorsal_normal[:, rows] = bones.dorsal_normal[:, rows] @ turn
         return bones
 
-    def _riding_discs_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
+    def _skin_markers_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
         """Centres and normals (N, 21, 3) in W of discs that ride on the skin; those of the last pose are kept, as
         most callers ask for both."""
-        if self._last_ridden is None or self._last_ridden[0] is not pose:
-            self._last_ridden = (pose, self._ridden_w(pose))
-        return self._last_ridden[1]
+        if self._last_skin_markers is None or self._last_skin_markers[0] is not pose:
+            self._last_skin_markers = (pose, self._compute_skin_markers_w(pose))
+        return self._last_skin_markers[1]
 
-    def _ridden_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
+    def _compute_skin_markers_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
         anatomy, tissue = self.patient.anatomy, pose.tissue
         discs = disc_centres(anatomy, pose.joint_angles_rad)
         discs = discs + self._displacement_m(segment_frames(anatomy, pose.joint_angles_rad), tissue.glide_m)
         share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
         discs[:, list(PALM_SITES), 0] += self._skin_shift_m(share)[..., 0]
         cones = self.skin.cones_w(pose.joint_angles_rad, tissue)
-        return on_surface(self.skin.cupped(discs, tissue.cup_rad), cones)
+        return project_to_surface(self.skin.cup_points(discs, tissue.cup_rad), cones)
 
     def _displacement_m(self, bones: SegmentFrames, glide_m: FloatArray) -> FloatArray:
         """Displacements (N, 21, 3) of an uncupped hand's discs: where they were stuck, and their glides (N, 21)."""
@@ -153,7 +156,7 @@ class Scene:
         normals[:, :, 1:] = bones.dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
         distal = distal / np.linalg.norm(distal, axis=-1, keepdims=True)
         radial = mirror * np.cross(up, distal)
-        off_m = self.patient.stuck_off_m
+        off_m = self.patient.placement_error_m
         glides = distal.copy()
         palm = list(PALM_SITES)
         glides[:, palm, 1] += mirror * self.tissue.swerve_rad[palm]
@@ -162,12 +165,12 @@ class Scene:
     def _skin_shift_m(self, share: FloatArray) -> FloatArray:
         """Movement (N, 6, 3) of the palm's discs over the skin at shares -1 to 1 of full flexion, staying on it."""
         along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
-        rise = self._skin_rise_m
+        rise = self._skin_height_change_m
         quadratic, linear = 0.5 * (rise[1] + rise[0]), 0.5 * (rise[1] - rise[0])
         s = share[:, None]
         return np.stack((s * along, np.zeros_like(s * along), s * s * quadratic + s * linear), axis=-1)
 
-    def _skin_rises_m(self) -> FloatArray:
+    def _compute_skin_height_change_m(self) -> FloatArray:
         """Rise (2, 6) of the skin under each palm disc at full extension and at full flexion."""
         discs = disc_centres(self.patient.anatomy, np.zeros(17))[list(PALM_SITES)]
         along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
@@ -181,23 +184,23 @@ class Scene:
             ]
         )
 
-    def disc_frame(self) -> tuple[FloatArray, FloatArray]:
+    def marker_frame(self) -> tuple[FloatArray, FloatArray]:
         """Axes (3, 3) and origin (3,), in the frame W0 of the bones, of the W that the discs span in the first frame.
 
         The two are one where every disc lies in its place; where some were stuck off it, all true values count from
         the discs' own frame, as it is the only one that can be seen.
         """
-        if not self.patient.stuck_off_m.any():
+        if not self.patient.placement_error_m.any():
             return np.eye(3), np.zeros(3)
-        palm = self.discs_w0_m(self.pose(np.zeros(1)))[0, list(PALM_SITES)]
-        return wrist_axes(palm, towards=np.array([0.0, 0.0, 1.0])), palm[0]
+        palm = self.markers_w0_m(self.pose(np.zeros(1)))[0, list(PALM_SITES)]
+        return wrist_axes(palm, dorsal_direction=np.array([0.0, 0.0, 1.0])), palm[0]
 
     def joints_w0_m(self, pose: HandPose) -> FloatArray:
         """All 21 joint centres and tips in W0, (N, 21, 3)."""
         joints = joint_centres(self.patient.anatomy, pose.joint_angles_rad)
         if not self.tissue.is_rigid:
-            joints = self.skin.cupped(joints, pose.tissue.cup_rad)
-        return _moved(joints, pose)
+            joints = self.skin.cup_points(joints, pose.tissue.cup_rad)
+        return _to_w0(joints, pose)
 
     def to_camera(self, point_w0_m: FloatArray) -> FloatArray:
         """Points (..., 3) of W0 in camera axes."""
@@ -205,19 +208,19 @@ class Scene:
 
     def cones_cam(self, pose: HandPose, i: int) -> Cones:
         """Skin of hand and forearm at the i-th time, in camera axes."""
-        hand = self._hand_w(pose, i).moved(pose.rotation_w2_w0[i], pose.position_m[i])
+        hand = self._hand_cones_w(pose, i).transform(pose.rotation_w2_w0[i], pose.position_m[i])
         supination = side_sign(self.spec.hand) * float(pose.angles_rad[i, 2])
-        forearm = self.skin.forearm_w0(supination).moved(np.eye(3), pose.carry_m[i])
-        return joined(hand, forearm).moved(self.rotation_w0_cam, self.translation_w0_cam_m)
+        forearm = self.skin.forearm_cones_w0(supination).transform(np.eye(3), pose.arm_displacement_m[i])
+        return join_cones(hand, forearm).transform(self.rotation_w0_cam, self.translation_w0_cam_m)
 
-    def _hand_w(self, pose: HandPose, i: int) -> Cones:
+    def _hand_cones_w(self, pose: HandPose, i: int) -> Cones:
         """Skin of the hand at the i-th time, in W."""
-        tissue = None if self.tissue.is_rigid else pose.tissue.only(i)
+        tissue = None if self.tissue.is_rigid else pose.tissue.select(i)
         return self.skin.cones_w(pose.joint_angles_rad[i], tissue)
 
-    def _lowest_m(self) -> float:
+    def _lowest_point_m(self) -> float:
         """Height in W0 of the lowest point that the skin reaches."""
-        times = self._samples()
+        times = self._sample_times_s()
         pose = self.pose(times)
         cones = self.skin.cones_w(pose.joint_angles_rad, None if self.tissue.is_rigid else pose.tissue)
         up = pose.rotation_w2_w0[:, 2, :, None]  # of W0, in W2
@@ -227,11 +230,11 @@ class Scene:
         lowest = (np.minimum(low_a, low_b) + pose.position_m[:, 2:]).min()
         return min(-0.040 * self.patient.size, float(lowest))
 
-    def _samples(self) -> FloatArray:
+    def _sample_times_s(self) -> FloatArray:
         """Times that show how far the motion goes."""
         return np.linspace(0.0, self.spec.seconds, min(_MOTION_SAMPLES, 1 + round(20.0 * self.spec.seconds)))
 
-    def _orientation(self, rng: np.random.Generator) -> FloatArray:
+    def _sample_orientation(self, rng: np.random.Generator) -> FloatArray:
         yaw = math.radians(rng.uniform(-20.0, 20.0) if self.spec.yaw_deg is None else self.spec.yaw_deg)
         drawn_tilt, heading = rng.uniform(0.0, 10.0), rng.uniform(-math.pi, math.pi)
         if self.spec.marker_protocol.has_fingers:
@@ -246,20 +249,20 @@ class Scene:
         tilted, _ = cv2.Rodrigues(tilt * axis)
         return np.asarray(_FROM_ABOVE @ turned @ tilted)
 
-    def _placement(self, rng: np.random.Generator) -> FloatArray:
+    def _sample_placement(self, rng: np.random.Generator) -> FloatArray:
         """Put the middle of all that the discs do near the middle of the picture, far enough to see it all."""
         reaches = self.spec.motion.startswith("reach")
         nearest, farthest = (0.84, 0.90) if reaches else (0.62, 0.78 if self.spec.marker_protocol.has_fingers else 0.88)
         drawn = rng.uniform(nearest, farthest)
         distance_m = drawn if self.spec.distance_m is None else self.spec.distance_m
         shift_m = rng.uniform(-0.025, 0.025, 2)
-        times = self._samples()
+        times = self._sample_times_s()
         pose = self.pose(times)
         if self.spec.leaves_picture:
             pose = self.pose(times[times < 0.4 * self.spec.seconds])
-        discs = self.discs_w0_m(pose).reshape(-1, 3) @ self.rotation_w0_cam.T
+        discs = self.markers_w0_m(pose).reshape(-1, 3) @ self.rotation_w0_cam.T
         middle = 0.5 * (discs.min(axis=0) + discs.max(axis=0))
-        wrist = self.discs_w0_m(pose)[0, 0] @ self.rotation_w0_cam.T
+        wrist = self.markers_w0_m(pose)[0, 0] @ self.rotation_w0_cam.T
         translation = np.array([-middle[0], -middle[1], distance_m - wrist[2]])
         translation[:2] += shift_m
         pixel = self.camera.project(discs + translation)
@@ -270,6 +273,6 @@ class Scene:
         return translation
 
 
-def _moved(point_m: FloatArray, pose: HandPose) -> FloatArray:
+def _to_w0(point_m: FloatArray, pose: HandPose) -> FloatArray:
     """Points (N, K, 3) of W2 in W0."""
     return np.asarray(point_m @ pose.rotation_w2_w0.transpose(0, 2, 1) + pose.position_m[:, None, :])

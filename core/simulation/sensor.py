@@ -47,9 +47,9 @@ _GAMMA = _gamma_table()
 class ColorSensor:
     """Turns linear light into the 8-bit picture of the camera; one per recording."""
 
-    def __init__(self, spec: RecordingSpec, looks: Appearance) -> None:
+    def __init__(self, spec: RecordingSpec, appearance: Appearance) -> None:
         self._seed = spec.seed
-        self._looks = looks
+        self._appearance = appearance
         self._noisy = spec.sensor_noise
 
     def expose(self, color: FloatImage, frame: int) -> ByteImage:
@@ -58,26 +58,26 @@ class ColorSensor:
 
         The noise depends on seed and frame number alone."""
         if not self._noisy:
-            return _GAMMA[_counts16(color)]
-        light = np.asarray(cv2.GaussianBlur(color, (0, 0), self._looks.blur_px), dtype=np.float32)
+            return _GAMMA[_to_16_bit(color)]
+        light = np.asarray(cv2.GaussianBlur(color, (0, 0), self._appearance.blur_px), dtype=np.float32)
         # One colour per pixel, as under a Bayer filter: green on the diagonal of red and blue.
         raw = light[..., 1].copy()
         raw[0::2, 0::2] = light[0::2, 0::2, 0]
         raw[1::2, 1::2] = light[1::2, 1::2, 2]
         raw = np.maximum(raw, np.float32(0.0))
         rng = np.random.default_rng([self._seed, RandomStream.COLOR_NOISE, frame])
-        electrons = self._looks.electrons
+        electrons = self._appearance.electrons
         variance = raw / np.float32(electrons) + np.float32((READ_NOISE_ELECTRONS / electrons) ** 2)
         raw += rng.standard_normal(raw.shape, dtype=np.float32) * np.sqrt(variance)
-        whole = cv2.demosaicing(_counts16(raw), cv2.COLOR_BayerRGGB2RGB)
-        return _through_yuv422(_GAMMA[whole])
+        whole = cv2.demosaicing(_to_16_bit(raw), cv2.COLOR_BayerRGGB2RGB)
+        return _apply_yuv422(_GAMMA[whole])
 
 
-def _counts16(light: FloatImage) -> NDArray[np.uint16]:
+def _to_16_bit(light: FloatImage) -> NDArray[np.uint16]:
     return np.asarray(np.clip(light * np.float32(_WHITE), 0.0, _WHITE).astype(np.uint16))
 
 
-def _through_yuv422(rgb: ByteImage) -> ByteImage:
+def _apply_yuv422(rgb: ByteImage) -> ByteImage:
     """Two neighbours in a row share their chroma, as in the camera's UYVY stream."""
     ycc = cv2.cvtColor(rgb, cv2.COLOR_RGB2YCrCb)
     chroma = ycc[..., 1:].astype(np.uint16)
@@ -91,10 +91,10 @@ def depth_scale(spec: RecordingSpec) -> float:
     """Measured over true depth of the simulated unit, within ``spec.depth_scale_error`` of 1."""
     if not spec.sensor_noise:
         return 1.0
-    return 1.0 + spec.depth_scale_error * float(spec.random(RandomStream.DEPTH_NOISE).uniform(-1.0, 1.0))
+    return 1.0 + spec.depth_scale_error * float(spec.generator(RandomStream.DEPTH_NOISE).uniform(-1.0, 1.0))
 
 
-class SimulatedDepth:
+class StructuredLightSensor:
     """Turns true depth into the registered depth picture; one per recording, which has its own scale and pattern."""
 
     def __init__(self, spec: RecordingSpec, shape: tuple[int, int]) -> None:
@@ -103,7 +103,7 @@ class SimulatedDepth:
         self._noisy = spec.sensor_noise
         self._scale = depth_scale(spec)
         self._shape = shape
-        self._fixed = np.float32(_FIXED_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
+        self._fixed_pattern = np.float32(_FIXED_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
         self._shadow_side = 1 if rng.random() < 0.5 else -1
 
     def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
@@ -111,37 +111,39 @@ class SimulatedDepth:
 
         The noise depends on seed and frame number alone; the light in ``color`` plays no part."""
         if not self._noisy:
-            return counts(depth_m)
+            return to_depth_counts(depth_m)
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, frame])
         disparity = np.float32(DISPARITY_PX_M) / depth_m
         window = np.ones((5, 5), np.uint8)
         spread = cv2.dilate(disparity, window) - cv2.erode(disparity, window)
         at_edge = spread > _EDGE_DISPARITY_PX
         smooth = cv2.blur(disparity, (7, 7))
-        wobble = [np.float32(_EDGE_JITTER_PX) * flecks(rng, self._shape) for _ in range(2)]
+        wobble = [np.float32(_EDGE_JITTER_PX) * fleck_noise(rng, self._shape) for _ in range(2)]
         v, u = np.indices(self._shape, dtype=np.float32)
         torn = cv2.remap(disparity, u + wobble[0], v + wobble[1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
         wide = cv2.dilate(at_edge.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(bool)
         mixed = cv2.blur(disparity, (3, 3))
-        chance = flecks(rng, self._shape)
+        chance = fleck_noise(rng, self._shape)
         seen = np.where(wide, np.where(chance > 0.9, mixed, torn), smooth)
         wobble_px = np.float32(_TEMPORAL_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
-        seen = seen + self._fixed + wobble_px
+        seen = seen + self._fixed_pattern + wobble_px
         seen = np.round(seen / np.float32(DISPARITY_STEP_PX)) * np.float32(DISPARITY_STEP_PX)
         depth = np.float32(DISPARITY_PX_M * self._scale) / np.maximum(seen, 1.0)
-        lost = at_edge & (flecks(rng, self._shape) > 0.35)
-        lost |= in_shadow(disparity, self._shadow_side)
-        return _told(depth, lost, (_NEAREST_M, _FARTHEST_M), 2e-4, rng)
+        lost = at_edge & (fleck_noise(rng, self._shape) > 0.35)
+        lost |= is_in_shadow(disparity, self._shadow_side)
+        return _to_depth_image(depth, lost, (_NEAREST_M, _FARTHEST_M), 2e-4, rng)
 
 
-def _told(
+def _to_depth_image(
     depth_m: FloatImage, lost: NDArray[np.bool_], range_m: tuple[float, float], share: float, rng: np.random.Generator
 ) -> DepthImage:
     """What a sensor says of its readings (H, W), in whole millimetres: nothing of those that are ``lost``, out of its
     range, or of a ``share`` drawn anywhere."""
     lost = lost | (depth_m < range_m[0]) | (depth_m > range_m[1])
     lost |= rng.random(lost.shape, dtype=np.float32) < share
-    return np.where(lost, np.uint16(0), counts(np.asarray(np.round(depth_m * 1000.0) / 1000.0, dtype=np.float32)))
+    return np.where(
+        lost, np.uint16(0), to_depth_counts(np.asarray(np.round(depth_m * 1000.0) / 1000.0, dtype=np.float32))
+    )
 
 
 def window_noise(rng: np.random.Generator, shape: tuple[int, int], width_px: int) -> FloatImage:
@@ -150,14 +152,14 @@ def window_noise(rng: np.random.Generator, shape: tuple[int, int], width_px: int
     return np.asarray(cv2.blur(white, (width_px, width_px)) * np.float32(width_px))
 
 
-def flecks(rng: np.random.Generator, shape: tuple[int, int]) -> FloatImage:
+def fleck_noise(rng: np.random.Generator, shape: tuple[int, int]) -> FloatImage:
     """Noise (H, W) of standard deviation about 1, in flecks of some pixels."""
     height, width = shape
     coarse = rng.standard_normal((height // 4 + 1, width // 4 + 1), dtype=np.float32)
     return np.asarray(1.4 * cv2.resize(coarse, (width, height), interpolation=cv2.INTER_LINEAR), dtype=np.float32)
 
 
-def in_shadow(disparity: FloatImage, side: int) -> NDArray[np.bool_]:
+def is_in_shadow(disparity: FloatImage, side: int) -> NDArray[np.bool_]:
     """Pixels that a second eye or a projector, beside the camera on ``side`` (1 or -1), cannot reach past a nearer
     surface; ``disparity`` (H, W) in pixels of this picture."""
     column = np.arange(disparity.shape[1], dtype=np.float32)[None]
@@ -170,7 +172,7 @@ def in_shadow(disparity: FloatImage, side: int) -> NDArray[np.bool_]:
     return np.asarray(reached < lit - 1.5)
 
 
-def counts(depth_m: FloatImage) -> DepthImage:
+def to_depth_counts(depth_m: FloatImage) -> DepthImage:
     """Metres (H, W) in counts of 1/5000 m."""
     return np.clip(np.round(depth_m * _DEPTH_COUNTS_PER_M), 0.0, 65535.0).astype(np.uint16)
 
@@ -179,16 +181,16 @@ COLOR_BASELINE_M = 0.032
 """Between the depth and the colour camera: what colour alone sees has no depth."""
 _MULTIPATH_M, _MULTIPATH_SD_M = 0.003, 0.0009
 _MULTIPATH_CELL_PX = 80
-_PIXEL_STAYS_M = 0.0004
+_PIXEL_PATTERN_SD_M = 0.0004
 _EDGE_M = 0.012
 """A pixel that holds surfaces further apart than this flies."""
 _FLIGHT_LOST_SHARE = 2e-4
-_BRIGHT = 0.5
+_REFERENCE_BRIGHTNESS = 0.5
 """Share of light given back at which the noise is the law's; less than a tenth of it gives no better reading."""
-_DARKEST = 0.05
+_MIN_BRIGHTNESS = 0.05
 
 
-class TimeOfFlight:
+class TimeOfFlightSensor:
     """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording.
 
     A reading mixes the light of all that its pixel holds: between a finger and the table it lies between both. The
@@ -210,8 +212,8 @@ class TimeOfFlight:
         cells = rng.standard_normal((height // _MULTIPATH_CELL_PX + 2, width // _MULTIPATH_CELL_PX + 2))
         slow = cv2.resize(cells.astype(np.float32), (width, height), interpolation=cv2.INTER_CUBIC)
         slow = slow * np.float32(_MULTIPATH_SD_M / float(np.std(slow)))
-        own = np.float32(_PIXEL_STAYS_M) * window_noise(rng, shape, self._patch_px)
-        self._longer_m = np.float32(_MULTIPATH_M * rng.uniform()) + slow + own
+        own = np.float32(_PIXEL_PATTERN_SD_M) * window_noise(rng, shape, self._patch_px)
+        self._range_bias_m = np.float32(_MULTIPATH_M * rng.uniform()) + slow + own
 
     def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
         """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
@@ -219,34 +221,36 @@ class TimeOfFlight:
         ``color`` (H, W, 3) linear light: how much of its light each thing gives back; without it all is bright. The
         noise depends on seed, frame number and this alone."""
         if not self._noisy:
-            return counts(depth_m)
+            return to_depth_counts(depth_m)
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 3, 1 + frame])
         around = np.ones((3, 3), np.uint8)
         flying = cv2.dilate(depth_m, around) - cv2.erode(depth_m, around) > _EDGE_M
         seen = np.where(flying, cv2.blur(depth_m, (3, 3)), depth_m)
-        sd_m = self._sensor.reading_sd_m(depth_m.astype(np.float64)).astype(np.float32) * self._dimness(color)
+        sd_m = self._sensor.reading_sd_m(depth_m.astype(np.float64)).astype(np.float32) * self._noise_factor(color)
         depth = np.float32(self._scale) * (
-            seen + self._longer_m + sd_m * window_noise(rng, self._shape, self._patch_px)
+            seen + self._range_bias_m + sd_m * window_noise(rng, self._shape, self._patch_px)
         )
-        lost = flying & (flecks(rng, self._shape) > 0.9)
-        lost |= in_shadow(np.float32(self._color_px_m) / depth_m, self._side)
-        return _told(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _FLIGHT_LOST_SHARE, rng)
+        lost = flying & (fleck_noise(rng, self._shape) > 0.9)
+        lost |= is_in_shadow(np.float32(self._color_px_m) / depth_m, self._side)
+        return _to_depth_image(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _FLIGHT_LOST_SHARE, rng)
 
-    def _dimness(self, color: FloatImage | None) -> FloatImage:
+    def _noise_factor(self, color: FloatImage | None) -> FloatImage:
         """Factor (H, W) on the noise. The camera brings its own, infrared light, which dyes let through: what is bright
         in any colour is bright in it, and how bright the room is does not count."""
         if color is None:
             return np.ones(self._shape, dtype=np.float32)
         brightest = color.max(axis=-1)
         given_back = brightest / max(float(np.percentile(brightest[::8, ::8], 95)), 1e-6)
-        return np.asarray(_BRIGHT / np.clip(given_back, _DARKEST, None), dtype=np.float32).clip(0.7, 4.0)
+        return np.asarray(_REFERENCE_BRIGHTNESS / np.clip(given_back, _MIN_BRIGHTNESS, None), dtype=np.float32).clip(
+            0.7, 4.0
+        )
 
 
 _STEREO_STEP_PX = 1.0 / 32.0
 _STEREO_LOST_SHARE = 1e-3
 
 
-class ActiveStereo:
+class ActiveStereoSensor:
     """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording.
 
     A pair of eyes with a spot projector: bumps that stay, thick edges, a band that one eye misses. Disparity is f b / z
@@ -276,7 +280,7 @@ class ActiveStereo:
 
         The noise depends on seed and frame number alone; the projector brings its own light."""
         if not self._noisy:
-            return counts(depth_m)
+            return to_depth_counts(depth_m)
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 2, 1 + frame])
         disparity = np.float32(self._product_px_m) / depth_m
         width = self._window_px
@@ -288,25 +292,25 @@ class ActiveStereo:
         smooth = cv2.blur(disparity, (width, width))
         inner = cv2.dilate(at_edge.astype(np.uint8), np.ones((width, width), np.uint8)).astype(bool)
         seen = np.where(inner, disparity, smooth)
-        seen = np.where(at_edge & (flecks(rng, self._shape) > -0.5), thick, seen)
+        seen = np.where(at_edge & (fleck_noise(rng, self._shape) > -0.5), thick, seen)
         turn = np.float32(2.0 * np.pi) * disparity
         seen = seen + self._patterns[0] * np.cos(turn) + self._patterns[1] * np.sin(turn)
         seen = seen + np.float32(self._temporal_px) * window_noise(rng, self._shape, width)
         seen = np.round(seen / np.float32(_STEREO_STEP_PX)) * np.float32(_STEREO_STEP_PX)
         depth = np.float32(self._product_px_m * self._scale) / np.maximum(seen, np.float32(1.0))
-        lost = at_edge & (flecks(rng, self._shape) > 0.9)
-        lost |= in_shadow(disparity * np.float32(self._enlarged), self._second_eye)
-        return _told(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _STEREO_LOST_SHARE, rng)
+        lost = at_edge & (fleck_noise(rng, self._shape) > 0.9)
+        lost |= is_in_shadow(disparity * np.float32(self._enlarged), self._second_eye)
+        return _to_depth_image(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _STEREO_LOST_SHARE, rng)
 
 
-DepthPictures = SimulatedDepth | ActiveStereo | TimeOfFlight
+SimulatedDepthSensor = StructuredLightSensor | ActiveStereoSensor | TimeOfFlightSensor
 
 
-def depth_pictures(spec: RecordingSpec, camera: Camera) -> DepthPictures:
+def create_depth_sensor(spec: RecordingSpec, camera: Camera) -> SimulatedDepthSensor:
     """What the sensor of ``camera`` makes of depth."""
     shape, sensor = (camera.height_px, camera.width_px), camera.sensor
     if sensor.kind == "active stereo":
-        return ActiveStereo(spec, sensor, shape, camera.fx_px)
+        return ActiveStereoSensor(spec, sensor, shape, camera.fx_px)
     if sensor.kind == "time of flight":
-        return TimeOfFlight(spec, sensor, shape, camera.fx_px)
-    return SimulatedDepth(spec, shape)
+        return TimeOfFlightSensor(spec, sensor, shape, camera.fx_px)
+    return StructuredLightSensor(spec, shape)

@@ -4,7 +4,7 @@ Every body part is a set of flattened round cones: the points within a radius, l
 ``radius_b``, of a segment a-b that is widened sideways by a half width, linear too. Parts are united by a smooth
 minimum of finite reach (:func:`smooth_minimum`), so that bending a finger does not touch the skin over the fixed unit.
 On a rigid hand the palm's discs stay exactly on the rendered surface; a soft one has a palm that cups
-(:meth:`HandSkin.cones_w`) and discs that ride on it (:func:`on_surface`).
+(:meth:`HandSkin.cones_w`) and discs that ride on it (:func:`project_to_surface`).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import SEGMENTS, disc_centres, segment_frames
 from carpus.core.hand.protocols import PALM_SITES
 from carpus.core.simulation.hand_motion import TissueState
-from carpus.core.simulation.patient import WRIST_JOINT_DEPTH_M, Patient
+from carpus.core.simulation.patient import WRIST_JOINT_DEPTH_M, SimulatedPatient
 from carpus.core.types import FloatArray
 
 
@@ -82,7 +82,7 @@ class Cones:
     width_b_m: FloatArray
     part: FloatArray
 
-    def moved(self, rotation: FloatArray, translation_m: FloatArray) -> Cones:
+    def transform(self, rotation: FloatArray, translation_m: FloatArray) -> Cones:
         """In another frame: p' = rotation p + translation."""
         return replace(
             self,
@@ -91,19 +91,19 @@ class Cones:
             lateral=self.lateral @ rotation.T,
         )
 
-    def repeated(self, lead: tuple[int, ...]) -> Cones:
+    def broadcast(self, lead: tuple[int, ...]) -> Cones:
         """The same for poses of leading shape ``lead``."""
 
-        def whole(values: FloatArray) -> FloatArray:
+        def broadcast_array(values: FloatArray) -> FloatArray:
             return np.broadcast_to(values, (*lead, *values.shape)).copy()
 
-        return self._with(whole, whole, self.part)
+        return self._rearrange(broadcast_array, broadcast_array, self.part)
 
-    def chosen(self, rows: NDArray[np.bool_]) -> Cones:
+    def select(self, rows: NDArray[np.bool_]) -> Cones:
         """Some of the cones (P,)."""
-        return self._with(lambda points: points[..., rows, :], lambda sizes: sizes[..., rows], self.part[rows])
+        return self._rearrange(lambda points: points[..., rows, :], lambda sizes: sizes[..., rows], self.part[rows])
 
-    def regrouped(self, groups: int) -> Cones:
+    def regroup(self, groups: int) -> Cones:
         """Equal groups of cones, one after the other, as a further leading axis."""
         count = len(self) // groups
 
@@ -113,9 +113,9 @@ class Cones:
         def sizes(values: FloatArray) -> FloatArray:
             return values.reshape(*values.shape[:-1], groups, count)
 
-        return self._with(points, sizes, self.part.reshape(groups, count))
+        return self._rearrange(points, sizes, self.part.reshape(groups, count))
 
-    def _with(
+    def _rearrange(
         self, points: Callable[[FloatArray], FloatArray], sizes: Callable[[FloatArray], FloatArray], part: FloatArray
     ) -> Cones:
         """The same with its points and its sizes rearranged."""
@@ -130,29 +130,29 @@ class Cones:
             part,
         )
 
-    def turn(self, rows: NDArray[np.int64], rotation: FloatArray, pivot_m: FloatArray) -> None:
+    def rotate(self, rows: NDArray[np.int64], rotation: FloatArray, pivot_m: FloatArray) -> None:
         """Turn some cones in place by rotations (..., 3, 3) about a point."""
         for points in (self.a_m, self.b_m):
-            points[..., rows, :] = _turned(points[..., rows, :], rotation, pivot_m)
-        self.lateral[..., rows, :] = _turned(self.lateral[..., rows, :], rotation, np.zeros(3))
+            points[..., rows, :] = _rotate_points(points[..., rows, :], rotation, pivot_m)
+        self.lateral[..., rows, :] = _rotate_points(self.lateral[..., rows, :], rotation, np.zeros(3))
 
     def __len__(self) -> int:
         return len(self.part)
 
 
-def _turned(point_m: FloatArray, rotation: FloatArray, pivot_m: FloatArray) -> FloatArray:
+def _rotate_points(point_m: FloatArray, rotation: FloatArray, pivot_m: FloatArray) -> FloatArray:
     """Points (..., K, 3) turned by rotations (..., 3, 3) about a point."""
     return np.asarray((point_m - pivot_m) @ np.swapaxes(rotation, -1, -2) + pivot_m)
 
 
-def joined(*sets: Cones) -> Cones:
+def join_cones(*sets: Cones) -> Cones:
     """Several sets of the same poses as one."""
 
-    def whole(name: str) -> FloatArray:
+    def concatenate(name: str) -> FloatArray:
         values = [getattr(one, name) for one in sets]
         return np.asarray(np.concatenate(values, axis=-2 if name in ("a_m", "b_m", "lateral") else -1))
 
-    return Cones(*(whole(name) for name in Cones.__slots__))
+    return Cones(*(concatenate(name) for name in Cones.__slots__))
 
 
 def cone_distances(point_m: FloatArray, cones: Cones) -> FloatArray:
@@ -184,14 +184,14 @@ def smooth_minimum(a: FloatArray, b: FloatArray, reach: float | FloatArray) -> F
 
 def skin_distance(point_m: FloatArray, cones: Cones) -> FloatArray:
     """Signed distance of points (..., 3) to the skin; the surface that the renderer shows."""
-    palm, digits = _parts(cone_distances(point_m.reshape(-1, 3), cones), cones.part)
+    palm, digits = _part_distances(cone_distances(point_m.reshape(-1, 3), cones), cones.part)
     out = palm
     for part, distance in digits.items():
         out = np.minimum(out, smooth_minimum(palm, distance, BLEND_M.get(part, FINGER_BLEND_M)))
     return np.asarray(out.reshape(point_m.shape[:-1]))
 
 
-def _parts(distance: FloatArray, part_of_cone: FloatArray) -> tuple[FloatArray, dict[Part, FloatArray]]:
+def _part_distances(distance: FloatArray, part_of_cone: FloatArray) -> tuple[FloatArray, dict[Part, FloatArray]]:
     """Distance to the palm and to each other part from those (..., P) to the cones."""
     palm: FloatArray | None = None
     others: dict[Part, FloatArray] = {}
@@ -205,14 +205,14 @@ def _parts(distance: FloatArray, part_of_cone: FloatArray) -> tuple[FloatArray, 
     return palm, others
 
 
-class _DiscSupport:
+class _MarkerSupport:
     """The palm, and each finger for its own discs: another finger that lies over a disc hides it, but does not carry
     it."""
 
     def __init__(self, cones: Cones) -> None:
-        self._palm = cones.chosen(cones.part == Part.PALM)
-        digits = cones.chosen((cones.part >= Part.THUMB) & (cones.part <= Part.LITTLE))
-        self._digits = digits.regrouped(5)
+        self._palm = cones.select(cones.part == Part.PALM)
+        digits = cones.select((cones.part >= Part.THUMB) & (cones.part <= Part.LITTLE))
+        self._digits = digits.regroup(5)
         self._blend_m = np.array([BLEND_M.get(Part(n), FINGER_BLEND_M) for n in range(Part.THUMB, Part.FOREARM)])
 
     def distance(self, disc_m: FloatArray) -> FloatArray:
@@ -227,19 +227,19 @@ class _DiscSupport:
         carried = smooth_minimum(palm, digit, self._blend_m[:, None])
         return np.concatenate((out[..., :1], carried.reshape(*disc_m.shape[:-2], 20)), axis=-1)
 
-    def slope(self, disc_m: FloatArray, distance: FloatArray) -> FloatArray:
+    def gradient(self, disc_m: FloatArray, distance: FloatArray) -> FloatArray:
         """Its gradient (..., 21, 3)."""
         steps = _SLOPE_STEP_M * np.eye(3)
         return np.stack([self.distance(disc_m + step) - distance for step in steps], axis=-1) / _SLOPE_STEP_M
 
 
-def on_surface(disc_m: FloatArray, cones: Cones) -> tuple[FloatArray, FloatArray]:
+def project_to_surface(marker_m: FloatArray, cones: Cones) -> tuple[FloatArray, FloatArray]:
     """The places on the skin of palm and own finger nearest to discs (..., 21, 3), and the unit normals there."""
-    support, place = _DiscSupport(cones), disc_m
-    step = normal = np.zeros_like(disc_m)
+    support, place = _MarkerSupport(cones), marker_m
+    step = normal = np.zeros_like(marker_m)
     for _ in range(_NEWTON_STEPS):
         distance = support.distance(place)
-        slope = support.slope(place, distance)
+        slope = support.gradient(place, distance)
         steepness = np.linalg.norm(slope, axis=-1, keepdims=True)
         normal = slope / np.maximum(steepness, 1e-12)
         step = normal / np.maximum(steepness, 0.3)
@@ -251,7 +251,7 @@ def on_surface(disc_m: FloatArray, cones: Cones) -> tuple[FloatArray, FloatArray
 class HandSkin:
     """The skin of one patient; built once, then posed for every frame."""
 
-    def __init__(self, patient: Patient, knuckle_rise_m: float = 0.0) -> None:
+    def __init__(self, patient: SimulatedPatient, knuckle_rise_m: float = 0.0) -> None:
         self._patient = patient
         self._knuckle_rise_m = knuckle_rise_m
         self._size = patient.size
@@ -261,21 +261,21 @@ class HandSkin:
         # none, the usual thickness of flesh is kept under the discs.
         own = patient.anatomy.skin_offset_m
         self._radius = np.where(own > 0.0, own, offset)
-        self._palm = self._fitted_palm()
+        self._palm = self._fit_palm()
         self.pivots_m = self._palm.a_m[[_RING_METACARPAL, _LITTLE_METACARPAL]]
         """Bases (2, 3) in W of metacarpals 4 and 5, about which these flex."""
 
     def cones_w(self, joint_angles_rad: FloatArray, tissue: TissueState | None = None) -> Cones:
         """Palm, thumb and fingers in W for joint angles (..., J) and, of a soft hand, its tissue."""
-        digits = self._digits(joint_angles_rad)
-        palm = self._palm.repeated(joint_angles_rad.shape[:-1])
+        digits = self._digit_cones(joint_angles_rad)
+        palm = self._palm.broadcast(joint_angles_rad.shape[:-1])
         if tissue is None:
-            return joined(palm, digits)
+            return join_cones(palm, digits)
         turns = self.cup_rotations(tissue.cup_rad)
         for ray, part in enumerate((Part.RING, Part.LITTLE)):
-            digits.turn(np.flatnonzero(digits.part == part), turns[..., ray, :, :], self.pivots_m[ray])
-        self._cup(palm, tissue.cup_rad, turns)
-        return joined(palm, self._knuckles(palm, tissue.rise), digits)
+            digits.rotate(np.flatnonzero(digits.part == part), turns[..., ray, :, :], self.pivots_m[ray])
+        self._cup_palm(palm, tissue.cup_rad, turns)
+        return join_cones(palm, self._knuckle_cones(palm, tissue.rise), digits)
 
     def cup_rotations(self, cup_rad: FloatArray) -> FloatArray:
         """Rotations (..., 2, 3, 3) of rays 4 and 5 in W for flexions (..., 2) of their metacarpals."""
@@ -283,24 +283,24 @@ class HandSkin:
         right = so3.exp(cup_rad[..., None] * axes)
         return np.asarray(self._mirror[:, None] * right * self._mirror)
 
-    def cupped(self, point_m: FloatArray, cup_rad: FloatArray) -> FloatArray:
+    def cup_points(self, point_m: FloatArray, cup_rad: FloatArray) -> FloatArray:
         """Points (..., 21, 3) of W, in the order of ``hand21``, with rays 4 and 5 flexed about their bases."""
         out = point_m.copy()
         turns = self.cup_rotations(cup_rad)
         for ray, rows in enumerate((slice(13, 17), slice(17, 21))):
-            out[..., rows, :] = _turned(out[..., rows, :], turns[..., ray, :, :], self.pivots_m[ray])
+            out[..., rows, :] = _rotate_points(out[..., rows, :], turns[..., ray, :, :], self.pivots_m[ray])
         return out
 
-    def _cup(self, palm: Cones, cup_rad: FloatArray, turns: FloatArray) -> None:
+    def _cup_palm(self, palm: Cones, cup_rad: FloatArray, turns: FloatArray) -> None:
         """Flex metacarpals 4 and 5 of palms in place, with the flesh on them; the flesh between the metacarpals rolls
         about its radial edge."""
-        palm.turn(np.array([_RING_METACARPAL]), turns[..., 0, :, :], self.pivots_m[0])
-        palm.turn(np.array([_LITTLE_METACARPAL, _HYPOTHENAR]), turns[..., 1, :, :], self.pivots_m[1])
+        palm.rotate(np.array([_RING_METACARPAL]), turns[..., 0, :, :], self.pivots_m[0])
+        palm.rotate(np.array([_LITTLE_METACARPAL, _HYPOTHENAR]), turns[..., 1, :, :], self.pivots_m[1])
         edge = self._palm.a_m[_SLAB] + self._palm.lateral[_SLAB] * self._palm.width_a_m[_SLAB]
         roll = so3.exp(_SLAB_ROLL * cup_rad[..., 1:] * np.array([1.0, 0.0, 0.0]))
-        palm.turn(np.array([_SLAB]), self._mirror[:, None] * roll * self._mirror, edge)
+        palm.rotate(np.array([_SLAB]), self._mirror[:, None] * roll * self._mirror, edge)
 
-    def _knuckles(self, palm: Cones, rise: FloatArray) -> Cones:
+    def _knuckle_cones(self, palm: Cones, rise: FloatArray) -> Cones:
         """Heads of the metacarpals that stand out under the skin as the fingers bend; at ``rise`` (..., 4) 0 they are
         too deep to lift it."""
         heads = palm.b_m[..., _METACARPALS, :]
@@ -322,7 +322,7 @@ class HandSkin:
             part=np.full(4, float(Part.PALM)),
         )
 
-    def forearm_w0(self, supination_rad: float) -> Cones:
+    def forearm_cones_w0(self, supination_rad: float) -> Cones:
         """The forearm in W0, turned about its own axis as far as the hand's (signed Euler phi)."""
         s = self._size
         joint = np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * s])  # where it usually is: the skin joins there
@@ -363,9 +363,9 @@ class HandSkin:
         )
         return np.asarray(slope / np.linalg.norm(slope, axis=-1, keepdims=True))
 
-    def _fitted_palm(self) -> Cones:
+    def _fit_palm(self) -> Cones:
         """The palm, its radii adjusted until the discs lie on its surface."""
-        palm = self._rough_palm()
+        palm = self._initial_palm()
         discs = self._patient.anatomy.palm_disc_m * self._mirror
         carpus, bump, first_metacarpal = 0, 1, 2
         for _ in range(8):
@@ -378,7 +378,7 @@ class HandSkin:
             palm = replace(palm, radius_a_m=radius_a, radius_b_m=radius_b)
         return palm
 
-    def _rough_palm(self) -> Cones:
+    def _initial_palm(self) -> Cones:
         """Carpus, base of the thumb, four metacarpals, and flesh between and beside them; bones start and end at the
         depth of their radius under the discs. Millimetres of a hand 180 mm long."""
         mm = 0.001 * self._size
@@ -391,7 +391,7 @@ class HandSkin:
         slope = np.array([0.0, np.cos(_THUMB_BASE_TILT_RAD), -np.sin(_THUMB_BASE_TILT_RAD)])
         thumb = discs[1] - r[1] * np.cross([1.0, 0.0, 0.0], slope) + 3.0 * slope
 
-        def at(x: float, y: float, z: float) -> FloatArray:
+        def vector(x: float, y: float, z: float) -> FloatArray:
             return np.array([x, y, z])
 
         metacarpals = [
@@ -399,12 +399,12 @@ class HandSkin:
             for start, end, radius in zip((38.0, 30.0, 24.0, 22.0), knuckle, r[2:], strict=True)
         ]
         rows = [
-            (at(0, -8, -11), at(20, -10, -15), level, 11.0, 11.5, 8.2, 8.2),
-            (thumb, at(40, 0, -18), slope, r[1], 11.0, 5.5, 2.0),
+            (vector(0, -8, -11), vector(20, -10, -15), level, 11.0, 11.5, 8.2, 8.2),
+            (thumb, vector(40, 0, -18), slope, r[1], 11.0, 5.5, 2.0),
             *metacarpals,
-            (at(34, -7, -21), at(64, -6, -20), level, 12.0, 11.0, 20.0, 20.0),
-            (at(14, -17, -20), at(54, -27, -19), level, 12.0, 10.0, 2.0, 2.0),
-            (under[1] + at(6, 2, -7), at(60, 20, -24), level, 12.0, 8.0, 3.0, 2.0),
+            (vector(34, -7, -21), vector(64, -6, -20), level, 12.0, 11.0, 20.0, 20.0),
+            (vector(14, -17, -20), vector(54, -27, -19), level, 12.0, 10.0, 2.0, 2.0),
+            (under[1] + vector(6, 2, -7), vector(60, 20, -24), level, 12.0, 8.0, 3.0, 2.0),
         ]
         a, b, lateral, radius_a, radius_b, width_a, width_b = (np.array([row[i] for row in rows]) for i in range(7))
         return Cones(
@@ -418,7 +418,7 @@ class HandSkin:
             part=np.full(len(rows), float(Part.PALM)),
         )
 
-    def _digits(self, joint_angles_rad: FloatArray) -> Cones:
+    def _digit_cones(self, joint_angles_rad: FloatArray) -> Cones:
         """Thumb and fingers: every bone runs under its discs at the depth of their radius."""
         s, radius = self._size, self._radius
         anatomy = self._patient.anatomy
@@ -462,16 +462,16 @@ class HandSkin:
                 width_b.append(widths[i + 1])
         lead = joint_angles_rad.shape[:-1]
 
-        def for_all(values: list[float]) -> FloatArray:
+        def broadcast(values: list[float]) -> FloatArray:
             return np.broadcast_to(np.array(values), (*lead, len(values)))
 
         return Cones(
             np.stack(a, axis=-2),
             np.stack(b, axis=-2),
             np.stack(lateral, axis=-2),
-            for_all(radius_a),
-            for_all(radius_b),
-            for_all(width_a),
-            for_all(width_b),
+            broadcast(radius_a),
+            broadcast(radius_b),
+            broadcast(width_a),
+            broadcast(width_b),
             np.repeat(np.arange(Part.THUMB, Part.FOREARM, dtype=np.float64), 3),
         )

@@ -13,14 +13,14 @@ import numpy as np
 
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.protocols import MarkerProtocol, protocol_named
+from carpus.core.hand.protocols import MarkerProtocol, get_protocol
 from carpus.core.names import Limits, check_limits
 from carpus.core.types import Side
 
 RENDERER_VERSION = 5
 """Part of the cache key: raise it whenever the same spec gives other pictures than before."""
 
-WORN = ("ring", "watch", "bandage")
+WORN_ITEMS = ("ring", "watch", "bandage")
 HABITS = ("tenodesis", "grip", "open_close", "rolling_forearm", "restless_clicks")
 NONE = "none"
 
@@ -91,7 +91,7 @@ class RecordingSpec:
     rigid hand, None drawn per person. ``habit``: names of :data:`HABITS` joined by ``+``, or ``none``.
 
     ``anatomy="wide"``: hands and discs that differ from the tables by more than these say (:mod:`.patient`).
-    ``worn``: names of :data:`WORN` joined by ``+``, or ``none``; ``pen_marks`` small blue marks on the skin.
+    ``worn``: names of :data:`WORN_ITEMS` joined by ``+``, or ``none``; ``pen_marks`` small blue marks on the skin.
 
     Camera: ``distance_m`` to the hand, turned by ``yaw_deg``, off the vertical by ``tilt_deg`` about the axis in the
     table at ``tilt_heading_deg`` from the fingers' direction: 0 has a side of the hand nearer, -90 its finger tips.
@@ -148,7 +148,7 @@ class RecordingSpec:
     sensor: str = "primesense"
 
     def __post_init__(self) -> None:
-        protocol_named(self.protocol)
+        get_protocol(self.protocol)
         check_limits("simulation", self, _LIMITS)
         if self.hand not in ("right", "left"):
             raise SettingsInvalid("simulation", f"hand = {self.hand}")
@@ -156,7 +156,7 @@ class RecordingSpec:
             raise SettingsInvalid("simulation", f"sensor = {self.sensor} ({', '.join(SENSORS)})")
         if self.anatomy not in ("usual", "wide"):
             raise SettingsInvalid("simulation", f"anatomy = {self.anatomy}")
-        for name, given, known in (("habit", self.habits, HABITS), ("worn", self.things_worn, WORN)):
+        for name, given, known in (("habit", self.habits, HABITS), ("worn", self.worn_items, WORN_ITEMS)):
             if not set(given) <= set(known):
                 wanted = f"{NONE}, or with + between: {', '.join(known)}"
                 raise SettingsInvalid("simulation", f"{name} = {getattr(self, name)} ({wanted})")
@@ -167,15 +167,15 @@ class RecordingSpec:
         return () if self.habit == NONE else tuple(self.habit.split("+"))
 
     @property
-    def things_worn(self) -> tuple[str, ...]:
+    def worn_items(self) -> tuple[str, ...]:
         """Names of what is worn; empty for none."""
         return () if self.worn == NONE else tuple(self.worn.split("+"))
 
     @property
     def marker_protocol(self) -> MarkerProtocol:
-        return protocol_named(self.protocol)
+        return get_protocol(self.protocol)
 
-    def random(self, stream: RandomStream) -> np.random.Generator:
+    def generator(self, stream: RandomStream) -> np.random.Generator:
         """The generator of one concern; always the same for the same seed."""
         return np.random.default_rng([self.seed, int(stream)])
 

@@ -18,7 +18,7 @@ from carpus.core.types import FloatArray
 FloatImage = NDArray[np.float32]
 
 _STEPS = 7
-_SLOWEST_APPROACH = np.float32(0.35)
+_MIN_APPROACH = np.float32(0.35)
 """A grazing ray's distance shrinks slowly; steps are lengthened up to the inverse of this."""
 _FAR_M = np.float32(9.0)
 _PROBE_M = 5e-4
@@ -42,14 +42,14 @@ class Box:
     def is_empty(self) -> bool:
         return self.bottom <= self.top or self.right <= self.left
 
-    def within(self, outer: Box) -> tuple[slice, slice]:
+    def relative_slices(self, outer: Box) -> tuple[slice, slice]:
         """Slices of this box inside arrays that cover ``outer``."""
         return (
             slice(self.top - outer.top, self.bottom - outer.top),
             slice(self.left - outer.left, self.right - outer.left),
         )
 
-    def around(self, other: Box) -> Box:
+    def union(self, other: Box) -> Box:
         """Smallest box that holds both."""
         if other.is_empty:
             return self
@@ -73,7 +73,7 @@ class TracedSurface:
     part: NDArray[np.uint8]
 
 
-def box_around(camera: Camera, center_m: FloatArray, radius_m: FloatArray, margin_px: float = 1.0) -> Box:
+def bounding_box(camera: Camera, center_m: FloatArray, radius_m: FloatArray, margin_px: float = 1.0) -> Box:
     """Box of the picture that holds spheres (K, 3) of radii (K,) in camera axes."""
     near = np.maximum(center_m[:, 2] - radius_m, 0.05)
     reach_px = radius_m / near * camera.fx_px * 1.15 + margin_px
@@ -88,7 +88,7 @@ def box_around(camera: Camera, center_m: FloatArray, radius_m: FloatArray, margi
     )
 
 
-def _numbers(cones: Cones) -> FloatArray:
+def _cone_parameters(cones: Cones) -> FloatArray:
     """What a picture needs of each cone, (P, 18): its axes (3, 3) in rows, where ``a_m`` lies along them, length, half
     width and by how much that widens, radius, taper, and how far the normal leans."""
     along = cones.b_m - cones.a_m
@@ -103,17 +103,17 @@ def _numbers(cones: Cones) -> FloatArray:
     return np.hstack((axes.reshape(-1, 9), np.vecdot(axes, cones.a_m[:, None]), np.column_stack(sizes)))
 
 
-class _SeenCone:
+class _VisibleCone:
     """One cone prepared for a picture: the ray's components along its axes, over its box."""
 
-    def __init__(self, numbers: FloatArray, part: Part, x: FloatImage, y: FloatImage, box: Box) -> None:
-        self.axes, self.origin = numbers[:9].reshape(3, 3), numbers[9:12]
+    def __init__(self, parameters: FloatArray, part: Part, x: FloatImage, y: FloatImage, box: Box) -> None:
+        self.axes, self.origin = parameters[:9].reshape(3, 3), parameters[9:12]
         rows, columns = box.slices
         self.ray = [
             (np.float32(e[0]) * x[None, columns] + (np.float32(e[1]) * y[rows, None] + np.float32(e[2])))
             for e in self.axes
         ]
-        self.length, self.width, self.widening, self.radius, self.taper, self.lean = numbers[12:].astype(np.float32)
+        self.length, self.width, self.widening, self.radius, self.taper, self.lean = parameters[12:].astype(np.float32)
         self.box, self.part = box, part
 
     def distance(self, z: FloatImage, offset_m: FloatArray) -> FloatImage:
@@ -148,7 +148,7 @@ class _SeenCone:
         return along
 
 
-def _fillet(a: FloatImage, b: FloatImage, reach: float) -> FloatImage:
+def _smooth_minimum(a: FloatImage, b: FloatImage, reach: float) -> FloatImage:
     near = np.abs(a - b)
     np.subtract(np.float32(reach), near, out=near)
     np.maximum(near, np.float32(0.0), out=near)
@@ -157,40 +157,40 @@ def _fillet(a: FloatImage, b: FloatImage, reach: float) -> FloatImage:
     return np.asarray(np.minimum(a, b) - near)
 
 
-def trace(camera: Camera, cones: Cones) -> TracedSurface | None:
+def trace_cones(camera: Camera, cones: Cones) -> TracedSurface | None:
     """The skin as the camera sees it; None when none of it is in the picture."""
     x = ((np.arange(camera.width_px) - camera.cx_px) / camera.fx_px).astype(np.float32)
     y = ((np.arange(camera.height_px) - camera.cy_px) / camera.fy_px).astype(np.float32)
     reach = np.maximum(cones.radius_a_m + cones.width_a_m, cones.radius_b_m + cones.width_b_m)
     near_m = max(float((np.minimum(cones.a_m[:, 2], cones.b_m[:, 2]) - reach).min()), 0.1)
-    places = _places(camera, cones)
+    places = _visible_boxes(camera, cones)
     if not places:
         return None
-    whole = reduce(Box.around, places.values())
-    numbers = _numbers(cones)[list(places)]
-    seen = [_SeenCone(numbers[k], Part(int(cones.part[i])), x, y, box) for k, (i, box) in enumerate(places.items())]
-    return _traced(seen, whole, x, y, near_m, camera.fx_px)
+    whole = reduce(Box.union, places.values())
+    numbers = _cone_parameters(cones)[list(places)]
+    seen = [_VisibleCone(numbers[k], Part(int(cones.part[i])), x, y, box) for k, (i, box) in enumerate(places.items())]
+    return _trace_rays(seen, whole, x, y, near_m, camera.fx_px)
 
 
-def _places(camera: Camera, cones: Cones) -> dict[int, Box]:
+def _visible_boxes(camera: Camera, cones: Cones) -> dict[int, Box]:
     """Where in the picture each cone may be seen, by its row; without those that cannot."""
     out: dict[int, Box] = {}
     for i in range(len(cones)):
         wider = max(cones.width_a_m[i], cones.width_b_m[i]) + max(BLEND_M.values())
         radius = np.array([cones.radius_a_m[i], cones.radius_b_m[i]]) + wider
-        box = box_around(camera, np.array([cones.a_m[i], cones.b_m[i]]), radius)
+        box = bounding_box(camera, np.array([cones.a_m[i], cones.b_m[i]]), radius)
         if not box.is_empty:
             out[i] = box
     return out
 
 
-def _traced(
-    seen: list[_SeenCone], whole: Box, x: FloatImage, y: FloatImage, near_m: float, fx_px: float
+def _trace_rays(
+    visible: list[_VisibleCone], whole: Box, x: FloatImage, y: FloatImage, near_m: float, fx_px: float
 ) -> TracedSurface:
     """The union of all cones along the rays x, y of ``whole``, from depth ``near_m`` on."""
     part_box: dict[Part, Box] = {}
-    for cone in seen:
-        part_box[cone.part] = part_box.get(cone.part, Box(0, 0, 0, 0)).around(cone.box)
+    for cone in visible:
+        part_box[cone.part] = part_box.get(cone.part, Box(0, 0, 0, 0)).union(cone.box)
     rows, columns = whole.slices
     per_length = 1.0 / np.sqrt(1.0 + x[None, columns] ** 2 + y[rows, None] ** 2)
     z = np.full(per_length.shape, near_m, dtype=np.float32)
@@ -200,27 +200,29 @@ def _traced(
     part_image = np.zeros(z.shape, dtype=np.uint8)
     before = best
     for step in range(_STEPS):
-        distance = _union(seen, part_box, whole, z, np.zeros(3), part_image if step == _STEPS - 1 else None)
+        distance = _union_distance(visible, part_box, whole, z, np.zeros(3), part_image if step == _STEPS - 1 else None)
         size = np.abs(distance)
         closer = size < best
         np.copyto(depth, z, where=closer)
         np.copyto(best, size, where=closer)
         if step > 0:
             approach = (before - distance) / np.maximum(before * stretch, np.float32(1e-6))
-            stretch = np.float32(1.0) / np.clip(approach, _SLOWEST_APPROACH, np.float32(1.0))
+            stretch = np.float32(1.0) / np.clip(approach, _MIN_APPROACH, np.float32(1.0))
         z = z + distance * stretch * per_length
         before = distance
     pixel_m = depth / np.float32(fx_px)
     coverage = np.clip(1.0 - best / (0.8 * pixel_m), 0.0, 1.0, dtype=np.float32)
-    normal = np.stack([_union(seen, part_box, whole, depth, offset) for offset in np.eye(3) * _PROBE_M], axis=-1)
-    normal -= _union(seen, part_box, whole, depth, np.zeros(3))[..., None]
+    normal = np.stack(
+        [_union_distance(visible, part_box, whole, depth, offset) for offset in np.eye(3) * _PROBE_M], axis=-1
+    )
+    normal -= _union_distance(visible, part_box, whole, depth, np.zeros(3))[..., None]
     length = np.sqrt(np.einsum("hwi,hwi->hw", normal, normal))
     normal /= np.maximum(length, np.float32(1e-9))[..., None]
     return TracedSurface(whole, depth, coverage, normal, part_image)
 
 
-def _union(
-    seen: list[_SeenCone],
+def _union_distance(
+    visible: list[_VisibleCone],
     part_box: dict[Part, Box],
     whole: Box,
     z: FloatImage,
@@ -231,26 +233,26 @@ def _union(
     ``part_image`` where one is given."""
     palm = np.full(z.shape, _FAR_M, dtype=np.float32)
     others = {
-        part: np.full(z[box.within(whole)].shape, _FAR_M, dtype=np.float32)
+        part: np.full(z[box.relative_slices(whole)].shape, _FAR_M, dtype=np.float32)
         for part, box in part_box.items()
         if part is not Part.PALM
     }
-    for cone in seen:
-        place = cone.box.within(whole)
+    for cone in visible:
+        place = cone.box.relative_slices(whole)
         d = cone.distance(z[place], offset_m)
         if cone.part is Part.PALM:
-            palm[place] = _fillet(palm[place], d, BLEND_M[Part.PALM])
+            palm[place] = _smooth_minimum(palm[place], d, BLEND_M[Part.PALM])
         else:
-            inner = cone.box.within(part_box[cone.part])
+            inner = cone.box.relative_slices(part_box[cone.part])
             np.minimum(others[cone.part][inner], d, out=others[cone.part][inner])
     out = palm.copy()
     for part, d in others.items():
-        place = part_box[part].within(whole)
-        np.minimum(out[place], _fillet(palm[place], d, BLEND_M.get(part, FINGER_BLEND_M)), out=out[place])
+        place = part_box[part].relative_slices(whole)
+        np.minimum(out[place], _smooth_minimum(palm[place], d, BLEND_M.get(part, FINGER_BLEND_M)), out=out[place])
     if part_image is not None:
         nearest = palm.copy()
         for part, d in others.items():
-            place = part_box[part].within(whole)
+            place = part_box[part].relative_slices(whole)
             part_image[place][d < nearest[place]] = int(part)
             np.minimum(nearest[place], d, out=nearest[place])
     return out

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from carpus.core.hand.protocols import PALM_MARKERS
 from carpus.core.simulation.hand_motion import STILL_S
-from carpus.core.simulation.patient import DISC_RADIUS_M
+from carpus.core.simulation.patient import MARKER_RADIUS_M
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
@@ -42,7 +42,7 @@ class FalseBlob:
 
 
 @dataclass(frozen=True, slots=True)
-class PassingThing:
+class PassingRod:
     """A rod that crosses above the hand: its ends in W0 at start and end of the crossing, (2, 3) each."""
 
     start_s: float
@@ -51,7 +51,7 @@ class PassingThing:
     to_m: FloatArray
     radius_m: float
 
-    def ends_w0_m(self, time_s: float) -> FloatArray | None:
+    def end_points_w0_m(self, time_s: float) -> FloatArray | None:
         """Both ends (2, 3) at a time, None when it is not there."""
         if not self.start_s <= time_s <= self.end_s:
             return None
@@ -68,22 +68,22 @@ class FrameTimes:
     dropped_before: NDArray[np.int64]
 
 
-def frame_times(spec: RecordingSpec) -> FrameTimes:
+def sample_frame_times(spec: RecordingSpec) -> FrameTimes:
     """True times: regular but for a millisecond of jitter, also across dropped frames; the first is always kept."""
-    rng = spec.random(RandomStream.TIMES)
+    rng = spec.generator(RandomStream.TIMES)
     count = max(1, round(spec.seconds * spec.fps))
     jitter_s = np.clip(rng.normal(0.0, 0.001, (2, count)), -0.003, 0.003)
     nominal_s = np.arange(count) / spec.fps
     color_s = np.round(nominal_s + jitter_s[0] - jitter_s[0, 0], 6)
     depth_s = np.round(color_s + spec.depth_delay_s + 0.5 * jitter_s[1], 6)
-    kept = spec.random(RandomStream.TROUBLE).random(count) >= spec.dropped_share
+    kept = spec.generator(RandomStream.TROUBLE).random(count) >= spec.dropped_share
     kept[0] = True
     index = np.flatnonzero(kept)
     dropped_before = np.diff(index, prepend=index[0] - 1) - 1
     return FrameTimes(color_s[kept], depth_s[kept], dropped_before)
 
 
-def covered_discs(spec: RecordingSpec, time_s: FloatArray) -> NDArray[np.bool_]:
+def sample_covered_markers(spec: RecordingSpec, time_s: FloatArray) -> NDArray[np.bool_]:
     """Which discs are covered at times (N,): (N, 21) in the order of ``hand21``; none during the still start."""
     covered = np.zeros((len(time_s), 21), dtype=bool)
     if spec.hidden_share <= 0.0:
@@ -101,8 +101,8 @@ def covered_discs(spec: RecordingSpec, time_s: FloatArray) -> NDArray[np.bool_]:
     return covered
 
 
-def false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
-    """All false blobs of a recording: at each time ``spec.false_blobs`` of them on average."""
+def sample_false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
+    """All false blobs of a recording: at each time ``spec.sample_false_blobs`` of them on average."""
     spec = scene.spec
     rng = np.random.default_rng([spec.seed, RandomStream.TROUBLE, 2])
     slots = int(spec.false_blobs) + (1 if rng.random() < spec.false_blobs % 1.0 else 0)
@@ -111,15 +111,15 @@ def false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
         now_s = -rng.exponential(BLOB_MEAN_S)
         while now_s < spec.seconds:
             end_s = now_s + 0.1 + rng.exponential(BLOB_MEAN_S)
-            blobs.append(_blob(scene, rng, now_s, end_s))
+            blobs.append(_sample_blob(scene, rng, now_s, end_s))
             now_s = end_s
-    return (*(blob for blob in blobs if blob.end_s > 0.0), *_pen_marks(scene))
+    return (*(blob for blob in blobs if blob.end_s > 0.0), *_sample_pen_marks(scene))
 
 
-def _pen_marks(scene: Scene) -> Iterator[FalseBlob]:
+def _sample_pen_marks(scene: Scene) -> Iterator[FalseBlob]:
     """Dots of a blue pen beside the discs, as somebody made who marked their places; there all the time."""
     spec = scene.spec
-    rng = spec.random(RandomStream.WORN)
+    rng = spec.generator(RandomStream.WORN)
     discs = scene.patient.anatomy.palm_disc_m * [1.0, -1.0 if spec.hand == "left" else 1.0, 1.0]
     for _ in range(spec.pen_marks):
         disc = discs[int(rng.integers(len(discs)))]
@@ -130,18 +130,18 @@ def _pen_marks(scene: Scene) -> Iterator[FalseBlob]:
         yield FalseBlob("skin", -1.0, math.inf, place, np.array([0.0, 0.0, 1.0]), radius_m, hue)
 
 
-def _blob(scene: Scene, rng: np.random.Generator, start_s: float, end_s: float) -> FalseBlob:
+def _sample_blob(scene: Scene, rng: np.random.Generator, start_s: float, end_s: float) -> FalseBlob:
     places: tuple[BlobPlace, ...] = ("table", "table", "air", "skin")
     place = places[int(rng.integers(4))]
-    radius_m = DISC_RADIUS_M * rng.uniform(0.7, 1.3)
+    radius_m = MARKER_RADIUS_M * rng.uniform(0.7, 1.3)
     hue = rng.uniform(0.8, 1.25, 3)
     if place == "skin":
-        found = _place_on_palm(scene, rng)
+        found = _sample_palm_point(scene, rng)
         if found is not None:
             return FalseBlob(place, start_s, end_s, found, np.array([0.0, 0.0, 1.0]), radius_m, hue)
         place = "table"
     pixel = np.array([rng.uniform(30.0, 610.0), rng.uniform(30.0, 450.0)])
-    ray = scene.rotation_w0_cam.T @ scene.camera.back_project(pixel, np.array(1.0))
+    ray = scene.rotation_w0_cam.T @ scene.camera.backproject(pixel, np.array(1.0))
     eye = -scene.rotation_w0_cam.T @ scene.translation_w0_cam_m
     height_m = scene.table_height_m + 0.0004
     normal = np.array([0.0, 0.0, 1.0])
@@ -153,7 +153,7 @@ def _blob(scene: Scene, rng: np.random.Generator, start_s: float, end_s: float) 
     return FalseBlob(place, start_s, end_s, center, normal, radius_m, hue)
 
 
-def _place_on_palm(scene: Scene, rng: np.random.Generator) -> FloatArray | None:
+def _sample_palm_point(scene: Scene, rng: np.random.Generator) -> FloatArray | None:
     """A point of the back of the palm, in W2, clear of the discs."""
     discs = scene.patient.anatomy.palm_disc_m.copy()
     if scene.spec.hand == "left":
@@ -167,7 +167,7 @@ def _place_on_palm(scene: Scene, rng: np.random.Generator) -> FloatArray | None:
     return None
 
 
-def passing_thing(scene: Scene) -> PassingThing | None:
+def sample_passing_rod(scene: Scene) -> PassingRod | None:
     """The rod of ``spec.object_passes``: crosses in about a second, 5 to 9 cm above the hand."""
     spec = scene.spec
     if not spec.object_passes:
@@ -180,7 +180,7 @@ def passing_thing(scene: Scene) -> PassingThing | None:
     across = np.array([-along[1], along[0], 0.0])
     middle = np.array([0.4 * scene.patient.anatomy.hand_length_m, 0.0, height_m])
     rod = np.array([-0.6 * along, 0.35 * along])
-    return PassingThing(
+    return PassingRod(
         start_s,
         start_s + lasts_s,
         middle - 0.28 * across + rod,

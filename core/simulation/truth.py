@@ -20,8 +20,8 @@ from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trouble import FrameTimes, frame_times
-from carpus.core.types import Detections, FloatArray, Moment, Side, TrackedFrame, TrackStatus
+from carpus.core.simulation.trouble import FrameTimes, sample_frame_times
+from carpus.core.types import Detections, FloatArray, KinematicState, Side, TrackedFrame, TrackStatus
 
 RECORDING_EPOCH_S = 1_700_000_000.0
 """Time stamps of a recording start here, as of a real one: large numbers, not zero."""
@@ -36,7 +36,7 @@ class Truth:
     ``timestamp_s`` (N,) as in the recording and ``time_s`` (N,) after its first frame; ``position_m``,
     ``velocity_m_s`` (N, 3) of W2 in W0; ``rotation_w2_w0`` (N, 3, 3); ``angular_velocity_rad_s`` (N, 3) in W2;
     ``angles_rad`` (N, 3) deviation, flexion, pronosupination; ``joint_angles_rad``, ``joint_velocity_rad_s`` (N, J);
-    ``joint_position_w0_m``, ``disc_position_cam_m`` (N, M, 3); ``disc_pixel`` (N, M, 2) their projection;
+    ``joint_position_w0_m``, ``marker_position_cam_m`` (N, M, 3); ``marker_px`` (N, M, 2) their projection;
     ``visible_share`` (N, M) of each disc's paper area that the camera sees, NaN where nothing was rendered;
     ``dropped_before`` (N,). Neutral pose: ``marker_position_w0_m`` (M, 3), ``rotation_w0_cam`` (3, 3),
     ``translation_w0_cam_m`` (3,).
@@ -56,8 +56,8 @@ class Truth:
     joint_angles_rad: FloatArray
     joint_velocity_rad_s: FloatArray
     joint_position_w0_m: FloatArray
-    disc_position_cam_m: FloatArray
-    disc_pixel: FloatArray
+    marker_position_cam_m: FloatArray
+    marker_px: FloatArray
     visible_share: FloatArray
     marker_position_w0_m: FloatArray
     rotation_w0_cam: FloatArray
@@ -69,19 +69,19 @@ def protocol_rows(spec: RecordingSpec) -> list[int]:
     return list(spec.marker_protocol.sites)
 
 
-def truth_of(scene: Scene, times: FrameTimes | None = None) -> Truth:
+def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
     """True values at the colour pictures' times; velocities are derivatives of the motion, not differences of
     frames."""
     spec = scene.spec
-    times = frame_times(spec) if times is None else times
+    times = sample_frame_times(spec) if times is None else times
     t = times.color_s
-    axes, origin = scene.disc_frame()
+    axes, origin = scene.marker_frame()
     pose = scene.pose(t)
     now, before, after = (
-        _in_frame(at, axes, origin, spec.hand) for at in (pose, scene.pose(t - _STEP_S), scene.pose(t + _STEP_S))
+        _change_frame(at, axes, origin, spec.hand) for at in (pose, scene.pose(t - _STEP_S), scene.pose(t + _STEP_S))
     )
     rows = protocol_rows(spec)
-    discs_cam = scene.to_camera(scene.discs_w0_m(pose)[:, rows])
+    discs_cam = scene.to_camera(scene.markers_w0_m(pose)[:, rows])
     joint_names = spec.marker_protocol.joint_names(spec.dip == "free")
     columns = [scene.motion.joint_names.index(name) for name in joint_names]
     joint_velocity = (after.joint_angles_rad - before.joint_angles_rad) / (2.0 * _STEP_S)
@@ -94,22 +94,22 @@ def truth_of(scene: Scene, times: FrameTimes | None = None) -> Truth:
         position_m=now.position_m,
         velocity_m_s=(after.position_m - before.position_m) / (2.0 * _STEP_S),
         rotation_w2_w0=now.rotation_w2_w0,
-        angular_velocity_rad_s=_turn_rate(before, after),
+        angular_velocity_rad_s=_angular_velocity(before, after),
         angles_rad=now.angles_rad,
         joint_names=joint_names,
         joint_angles_rad=pose.joint_angles_rad[:, columns],
         joint_velocity_rad_s=joint_velocity[:, columns],
         joint_position_w0_m=(scene.joints_w0_m(pose)[:, rows] - origin) @ axes,
-        disc_position_cam_m=discs_cam,
-        disc_pixel=scene.camera.project(discs_cam),
+        marker_position_cam_m=discs_cam,
+        marker_px=scene.camera.project(discs_cam),
         visible_share=np.full((len(t), len(rows)), np.nan),
-        marker_position_w0_m=(scene.discs_w0_m(scene.pose(np.zeros(1)))[0, rows] - origin) @ axes,
+        marker_position_w0_m=(scene.markers_w0_m(scene.pose(np.zeros(1)))[0, rows] - origin) @ axes,
         rotation_w0_cam=scene.rotation_w0_cam @ axes,
         translation_w0_cam_m=scene.to_camera(origin),
     )
 
 
-def _in_frame(pose: HandPose, axes: FloatArray, origin_m: FloatArray, side: Side) -> HandPose:
+def _change_frame(pose: HandPose, axes: FloatArray, origin_m: FloatArray, side: Side) -> HandPose:
     """The pose told in another W, given by axes and origin in the bones' W."""
     if not origin_m.any():
         return pose
@@ -119,17 +119,17 @@ def _in_frame(pose: HandPose, axes: FloatArray, origin_m: FloatArray, side: Side
     return replace(pose, rotation_w2_w0=rotation, position_m=position, angles_rad=angles)
 
 
-def _turn_rate(before: HandPose, after: HandPose) -> FloatArray:
+def _angular_velocity(before: HandPose, after: HandPose) -> FloatArray:
     """Angular velocity in W2 from two rotations a small step apart; (N, 3) rad/s."""
     turn = before.rotation_w2_w0.transpose(0, 2, 1) @ after.rotation_w2_w0
     skew = 0.5 * (turn - turn.transpose(0, 2, 1))
     return np.asarray(np.stack((skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]), axis=-1) / (2.0 * _STEP_S))
 
 
-SEEN_SHARE = 0.35
+MIN_VISIBLE_SHARE = 0.35
 """A disc of which less than this can be seen counts as not measured."""
 VISIBLE_SHARE_PATH = "/simulation/visible_share"
-_PALM_NEEDED = 3
+_MIN_PALM_MARKERS = 3
 
 
 def write_truth(path: Path, truth: Truth, clicks: Clicks) -> None:
@@ -145,9 +145,9 @@ def write_truth(path: Path, truth: Truth, clicks: Clicks) -> None:
         now=datetime.fromtimestamp(float(truth.timestamp_s[0]), UTC),
         session_id=uuid.uuid5(uuid.NAMESPACE_OID, spec.to_json()),
     )
-    with SessionWriter.create(path, header, truth.camera, _calibration(truth, clicks)) as writer:
+    with SessionWriter.create(path, header, truth.camera, _true_calibration(truth, clicks)) as writer:
         for i in range(len(truth.timestamp_s)):
-            writer.append(_tracked(truth, i))
+            writer.append(_tracked_frame(truth, i))
     with h5py.File(path, "r+") as file:
         dataset = file.create_dataset(VISIBLE_SHARE_PATH, data=truth.visible_share)
         dataset.attrs["unit"] = "1"
@@ -155,7 +155,7 @@ def write_truth(path: Path, truth: Truth, clicks: Clicks) -> None:
         dataset.attrs["names"] = list(spec.marker_protocol.markers)
 
 
-def _calibration(truth: Truth, clicks: Clicks) -> Calibration:
+def _true_calibration(truth: Truth, clicks: Clicks) -> Calibration:
     normal = truth.rotation_w0_cam[:, 2]
     verdict = Verdict(
         residual_mm=np.zeros(len(truth.marker_position_w0_m)),
@@ -176,18 +176,18 @@ def _calibration(truth: Truth, clicks: Clicks) -> Calibration:
     )
 
 
-def _tracked(truth: Truth, i: int) -> TrackedFrame:
+def _tracked_frame(truth: Truth, i: int) -> TrackedFrame:
     spec = truth.spec
     joints = truth.joint_angles_rad.shape[1]
-    visible = truth.visible_share[i] > SEEN_SHARE
-    pixel = np.where(visible[:, None], truth.disc_pixel[i], np.nan)
-    depth = np.where(visible, truth.disc_position_cam_m[i, :, 2], np.nan)
+    visible = truth.visible_share[i] > MIN_VISIBLE_SHARE
+    pixel = np.where(visible[:, None], truth.marker_px[i], np.nan)
+    depth = np.where(visible, truth.marker_position_cam_m[i, :, 2], np.nan)
     palm_seen = int(visible[list(spec.marker_protocol.palm)].sum())
     return TrackedFrame(
         index=i,
         timestamp_s=float(truth.timestamp_s[i]),
-        status=TrackStatus.TRACKED if palm_seen >= _PALM_NEEDED else TrackStatus.PREDICTED,
-        moment=Moment(
+        status=TrackStatus.TRACKED if palm_seen >= _MIN_PALM_MARKERS else TrackStatus.PREDICTED,
+        kinematics=KinematicState(
             position_m=truth.position_m[i],
             velocity_m_s=truth.velocity_m_s[i],
             w0_turn_rad=np.zeros(3),
@@ -201,8 +201,8 @@ def _tracked(truth: Truth, i: int) -> TrackedFrame:
             joint_velocity_rad_s=truth.joint_velocity_rad_s[i],
             joint_position_m=truth.joint_position_w0_m[i],
         ),
-        marker_position_cam_m=truth.disc_position_cam_m[i],
-        marker_predicted_px=truth.disc_pixel[i],
+        marker_position_cam_m=truth.marker_position_cam_m[i],
+        marker_predicted_px=truth.marker_px[i],
         marker_predicted_cov_px2=np.zeros((len(visible), 2, 2)),
         marker_measured_px=pixel,
         marker_measured_depth_m=depth,

@@ -23,10 +23,10 @@ from numpy.typing import NDArray
 from carpus.core.compiled.association import compute_log_odds, find_likeliest
 from carpus.core.types import FloatArray
 
-IMPOSSIBLE = -1e9
+LOG_IMPOSSIBLE = -1e9
 
 
-DEPTH_OUTLIER = 1e-4
+DEPTH_OUTLIER_PROBABILITY = 1e-4
 """The chance that a blob's depth is of something else."""
 
 
@@ -54,7 +54,7 @@ class AssociationSettings:
 
 @dataclass(frozen=True, slots=True)
 class LogOdds:
-    """Log of (12) for marker j over (12) for clutter, (M, D); ``IMPOSSIBLE`` outside the gate.
+    """Log of (12) for marker j over (12) for clutter, (M, D); ``LOG_IMPOSSIBLE`` outside the gate.
 
     ``with_depth``: whether the blob's depth is believed; where not, it is the depth of something else.
     """
@@ -65,13 +65,13 @@ class LogOdds:
 
 @lru_cache(maxsize=8)
 def log_densities(
-    resolution_px2: float, depth_outlier: float, settings: AssociationSettings
+    resolution_px2: float, outlier_probability: float, settings: AssociationSettings
 ) -> tuple[float, float, float]:
     """Logs of a marker's prior and clutter's density in the picture, of clutter's in depth (both but for those of the
     normal density), and of the chance that a depth is of something else."""
     prior = settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi)
     by_depth = settings.depth_range_m / math.sqrt(2.0 * math.pi)
-    return math.log(prior), math.log(by_depth), math.log(depth_outlier)
+    return math.log(prior), math.log(by_depth), math.log(outlier_probability)
 
 
 def log_odds(
@@ -80,7 +80,7 @@ def log_odds(
     measured: FloatArray,
     noise_variance: FloatArray,
     resolution_px2: float,
-    depth_outlier: float,
+    outlier_probability: float,
     settings: AssociationSettings,
 ) -> LogOdds:
     """Odds of every marker and blob.
@@ -88,15 +88,17 @@ def log_odds(
     ``predicted`` (M, 3) and ``covariance`` (M, 3, 3): pixel u, v and depth m; ``measured`` (D, 3), its depth
     NaN where unknown (then only the pixel counts, and clutter's density is 1/RES);
     ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
-    with the chance ``depth_outlier``.
+    with the chance ``outlier_probability``.
     """
-    densities = log_densities(resolution_px2, depth_outlier, settings)
+    densities = log_densities(resolution_px2, outlier_probability, settings)
     return LogOdds(
-        *compute_log_odds(predicted, covariance, measured, noise_variance, densities, settings.gate_sd**2, IMPOSSIBLE)
+        *compute_log_odds(
+            predicted, covariance, measured, noise_variance, densities, settings.gate_sd**2, LOG_IMPOSSIBLE
+        )
     )
 
 
-def posterior(odds: FloatArray) -> FloatArray:
+def association_posterior(odds: FloatArray) -> FloatArray:
     """p(a_i = j | y_i) of every blob, (D, M + 1), column 0 clutter; rows sum to one: eq. (12)."""
     stacked = np.concatenate((np.zeros((1, odds.shape[1])), odds), axis=0).T
     stacked = stacked - stacked.max(axis=1, keepdims=True)
@@ -104,7 +106,7 @@ def posterior(odds: FloatArray) -> FloatArray:
     return np.asarray(weight / weight.sum(axis=1, keepdims=True))
 
 
-def resolve(odds: FloatArray) -> NDArray[np.int64]:
+def assign_blobs(odds: FloatArray) -> NDArray[np.int64]:
     """Blob index of every marker (M,), -1 for none: the joint assignment of greatest posterior.
 
     Leaving a blob to clutter costs nothing, so only positive odds are taken.
@@ -120,29 +122,29 @@ def resolve(odds: FloatArray) -> NDArray[np.int64]:
     return assigned
 
 
-MOST_DOF, MOST_STEPS = 200, 40
+MAX_DOF, MAX_NEWTON_STEPS = 200, 40
 
 
 @lru_cache(maxsize=4)
-def most_chi2(chance: float) -> tuple[float, ...]:
+def chi2_quantiles(probability: float) -> tuple[float, ...]:
     """Quantiles of chi squared by degrees of freedom, by Newton's steps.
 
     They are taken on the logarithm of what lies above them, which is a finite sum. (SciPy's are the same within 1e-14,
     and take as long to load as all of NumPy.)
     """
-    if chance >= 1.0:
-        return (np.inf,) * MOST_DOF
-    dof = np.arange(1.0, MOST_DOF)
+    if probability >= 1.0:
+        return (np.inf,) * MAX_DOF
+    dof = np.arange(1.0, MAX_DOF)
     is_odd = dof % 2.0
-    powers = 0.5 * is_odd[:, None] + np.arange(MOST_DOF // 2)
-    log_gamma = np.array([math.lgamma(0.5 * twice) for twice in range(1, 2 * MOST_DOF)])
+    powers = 0.5 * is_odd[:, None] + np.arange(MAX_DOF // 2)
+    log_gamma = np.array([math.lgamma(0.5 * twice) for twice in range(1, 2 * MAX_DOF)])
     log_factor = np.where(powers < 0.5 * dof[:, None], -log_gamma[(2.0 * powers).astype(int) + 1], -np.inf)
     half = 0.5 * dof
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_NEWTON_STEPS):
         above = np.exp(powers * np.log(half)[:, None] - half[:, None] + log_factor).sum(axis=1)
         above += is_odd * [math.erfc(math.sqrt(one)) for one in half]
         density = np.exp((0.5 * dof - 1.0) * np.log(half) - half - log_gamma[: dof.size])
-        step = above * (np.log(above) - math.log1p(-chance)) / density
+        step = above * (np.log(above) - math.log1p(-probability)) / density
         half = np.maximum(half + step, 0.1 * half)
         if (np.abs(step) <= 1e-14 * half).all():
             break
@@ -151,7 +153,7 @@ def most_chi2(chance: float) -> tuple[float, ...]:
 
 def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -> bool:
     """Whether the innovations of all markers together are what the filter foresaw."""
-    most = most_chi2(settings.consistent)
+    most = chi2_quantiles(settings.consistent)
     return dof == 0 or nis <= most[min(dof, len(most) - 1)]
 
 
@@ -183,7 +185,7 @@ def associate_jointly(
     measured: FloatArray,
     noise_variance: FloatArray,
     resolution_px2: float,
-    depth_outlier: float,
+    outlier_probability: float,
     settings: AssociationSettings,
     beam: int | None = None,
 ) -> JointAssociation:
@@ -198,7 +200,7 @@ def associate_jointly(
     # By the number of measured coordinates: clutter's depth is spread over a range; a depth that is left out was wrong.
     clutter = {
         3: np.full(len(measured), base + float(np.log(settings.depth_range_m))),
-        2: base + np.where(np.isfinite(measured[:, 2]), np.log(depth_outlier), 0.0),
+        2: base + np.where(np.isfinite(measured[:, 2]), np.log(outlier_probability), 0.0),
     }
     certain_first = np.argsort(
         [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(markers)], kind="stable"
@@ -212,14 +214,16 @@ def associate_jointly(
         own = branches.covariance[:, block, block]
         is_used = (branches.assigned[:, :, None] == np.arange(len(measured))).any(axis=1)
         for used in (3, 2):
-            distance2, log_normal = _normal(difference[..., :used], own[:, :used, :used], noise_variance[:, :used])
+            distance2, log_normal = _log_normal_density(
+                difference[..., :used], own[:, :used, :used], noise_variance[:, :used]
+            )
             possible = (distance2 <= settings.gate_sd**2) & ~is_used
             ways.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
         score = np.concatenate(ways, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
         order = np.argsort(-score, axis=None, kind="stable")[: settings.beam if beam is None else beam]
         order = order[np.isfinite(score.ravel()[order])]
         parent, way = np.divmod(order, score.shape[1])
-        branches = _grown(branches, parent, way, score.ravel()[order], block, measured, noise_variance)
+        branches = _extend_branches(branches, parent, way, score.ravel()[order], block, measured, noise_variance)
     best = int(np.argmax(branches.score))
     assigned = np.full(markers, -1, dtype=np.int64)
     with_depth = np.zeros(markers, dtype=bool)
@@ -228,7 +232,7 @@ def associate_jointly(
     return JointAssociation(assigned, with_depth, float(branches.score[best]))
 
 
-def _normal(
+def _log_normal_density(
     difference: FloatArray, covariance: FloatArray, noise_variance: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Squared distance (B, D) in standard deviations and log density of ``difference`` (B, D, k) under covariances
@@ -240,7 +244,7 @@ def _normal(
     return distance2, -0.5 * (distance2 + np.linalg.slogdet(s)[1] + axes.size * np.log(2 * np.pi))
 
 
-def _grown(
+def _extend_branches(
     branches: _Branches,
     parent: NDArray[np.int64],
     way: NDArray[np.int64],

@@ -15,28 +15,28 @@ from numpy.typing import NDArray
 from carpus.core.camera import Camera
 from carpus.core.types import Detections, FloatArray
 
-UNUSED_S = 0.3
+MAX_UNUSED_S = 0.3
 """For so long a disc may go unused while a blob lies at its place,"""
-NEAR_M, NEAR_DEPTH_M = 0.010, 0.015
+GATE_M, GATE_DEPTH_M = 0.010, 0.015
 """within so much across the line of sight and in depth: what skin and sensor stray by at most."""
-AVERAGE_S = 0.3
+NIS_AVERAGING_S = 0.3
 """Over which innovations are averaged,"""
-MAX_NIS = 2.5
+MAX_MEAN_NIS = 2.5
 """and how large they may be on average for each component."""
-UNUSED_WIDENS = 1.5
+UNUSED_SD_FACTOR = 1.5
 """The standard deviations, by this factor."""
 
 
 @dataclass(frozen=True, slots=True)
 class Inconsistency:
-    """``doubted`` (M,) markers in question; ``widens`` factor on the standard deviations, 1 without doubt."""
+    """``doubted`` (M,) markers in question; ``sd_factor`` factor on the standard deviations, 1 without doubt."""
 
     doubted: NDArray[np.bool_]
-    widens: float
+    sd_factor: float
 
     @property
     def is_any(self) -> bool:
-        return self.widens > 1.0
+        return self.sd_factor > 1.0
 
 
 class ConsistencyTest:
@@ -46,28 +46,30 @@ class ConsistencyTest:
         self._unused_s = np.zeros(markers)
         self._mean_nis = 1.0
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """The hand is lost, or begins anew: nothing is contradicted."""
         self._unused_s[:] = 0.0
         self._mean_nis = 1.0
 
-    def watch(self, dt_s: float, unused: NDArray[np.bool_], nis: float, dof: int, worst: int) -> Inconsistency:
-        """The doubt after one more frame. ``unused`` (M,) discs passed over while a blob lies there, ``nis`` with
-        ``dof`` of all that was measured, ``worst`` the marker that contributes most."""
-        self._unused_s = np.where(unused, self._unused_s + dt_s, 0.0)
+    def update(
+        self, dt_s: float, is_unused: NDArray[np.bool_], nis: float, dof: int, worst_marker: int
+    ) -> Inconsistency:
+        """The doubt after one more frame. ``is_unused`` (M,) discs passed over while a blob lies there, ``nis`` with
+        ``dof`` of all that was measured, ``worst_marker`` the marker that contributes most."""
+        self._unused_s = np.where(is_unused, self._unused_s + dt_s, 0.0)
         if dof and math.isfinite(nis):
-            weight = 1.0 - math.exp(-dt_s / AVERAGE_S)
+            weight = 1.0 - math.exp(-dt_s / NIS_AVERAGING_S)
             self._mean_nis += weight * (nis / dof - self._mean_nis)
-        doubted = self._unused_s > UNUSED_S
-        widens = UNUSED_WIDENS if doubted.any() else 1.0
-        if self._mean_nis > MAX_NIS:
+        doubted = self._unused_s > MAX_UNUSED_S
+        widens = UNUSED_SD_FACTOR if doubted.any() else 1.0
+        if self._mean_nis > MAX_MEAN_NIS:
             widens = max(widens, math.sqrt(self._mean_nis))
             doubted = doubted.copy()
-            doubted[worst] = True
+            doubted[worst_marker] = True
         return Inconsistency(doubted, widens)
 
 
-def passed_over(
+def find_unused_markers(
     disc_cam_m: FloatArray,
     assigned: NDArray[np.int64],
     blobs: Detections,
@@ -85,7 +87,7 @@ def passed_over(
     missing, unassigned = np.flatnonzero(~is_named), np.delete(np.arange(len(blobs)), named)
     apart_px = blobs.pixel[unassigned] - camera.project(disc_cam_m[missing])[:, None]
     depth_m, blob_depth_m = disc_cam_m[missing, 2, None], blobs.depth_m[unassigned]
-    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < NEAR_M * camera.fx_px / depth_m
-    deep = np.abs(blob_depth_m - depth_m) < NEAR_DEPTH_M
+    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < GATE_M * camera.fx_px / depth_m
+    deep = np.abs(blob_depth_m - depth_m) < GATE_DEPTH_M
     out[missing] = (near & (deep | ~np.isfinite(blob_depth_m))).any(axis=1)
     return out

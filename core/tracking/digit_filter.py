@@ -15,16 +15,16 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.compiled import digit_images, digits
-from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, predicted
-from carpus.core.tracking.unscented import Spread, Weights, weights_for
+from carpus.core.tracking.hand_geometry import N_CONSTANTS, N_DIGITS, N_SLOTS
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, predict_mixture
+from carpus.core.tracking.unscented import SigmaWeights, UnscentedParameters, compute_weights
 from carpus.core.types import FloatArray
 
-JOINTS, RATES = slice(0, SLOTS), slice(SLOTS, 2 * SLOTS)
-ANATOMY = slice(RATES.stop, RATES.stop + CONSTANTS)
+JOINTS, RATES = slice(0, N_SLOTS), slice(N_SLOTS, 2 * N_SLOTS)
+ANATOMY = slice(RATES.stop, RATES.stop + N_CONSTANTS)
 """Where joints, their rates and the constants of the anatomy stand in a digit's state."""
 DIGIT_SIZE = ANATOMY.stop
-SEEN = np.r_[JOINTS, ANATOMY]
+OBSERVED = np.r_[JOINTS, ANATOMY]
 """States on which the discs depend."""
 
 
@@ -51,22 +51,26 @@ class DigitMotion:
     ) -> None:
         self.density, self.drift = density, drift
         self.stationary2, self.settles_s = stationary2, settles_s
-        self._scales2 = np.tile(scales**2, (CHAINS, 1))
+        self._scales2 = np.tile(scales**2, (N_DIGITS, 1))
 
-    def predicted(
+    def predict(
         self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
     ) -> ModeMixture:
         """The estimates ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
-        return predicted(estimates, *digits.move_digits(self, dt_s, self._scales2, forgetting), switch)
+        return predict_mixture(
+            estimates, *digits.compute_digit_transition(self, dt_s, self._scales2, forgetting), switch
+        )
 
-    def step(self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None) -> tuple[FloatArray, FloatArray]:
+    def compute_transition(
+        self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None
+    ) -> tuple[FloatArray, FloatArray]:
         """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
-        forward, noise = digits.move_digits(self, dt_s, (scale**2)[:, None], forgetting)
+        forward, noise = digits.compute_digit_transition(self, dt_s, (scale**2)[:, None], forgetting)
         return forward, noise[:, 0]
 
 
 @dataclass(frozen=True, slots=True)
-class DigitPoints:
+class DigitSigmaPoints:
     """Sigma points of a Gaussian over joints and constants, their discs in W.
 
     The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: what bends the
@@ -85,15 +89,17 @@ class DigitPoints:
     covariance: FloatArray
 
 
-def bent_weights(spread: Spread) -> Weights:
+def digit_sigma_weights(spread: UnscentedParameters) -> SigmaWeights:
     """Weights of the points."""
-    return weights_for(digits.BENT.size, spread)
+    return compute_weights(digits.BENT.size, spread)
 
 
-def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> DigitPoints:
+def draw_sigma_points(
+    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
+) -> DigitSigmaPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
-    found = digits.spread_points(mean, covariance, root_disc_m, bent_weights(spread).scale)
-    return DigitPoints(*found, mean, covariance)
+    found = digits.spread_points(mean, covariance, root_disc_m, digit_sigma_weights(spread).scale)
+    return DigitSigmaPoints(*found, mean, covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +123,7 @@ class DigitView:
 
 
 @dataclass(frozen=True, slots=True)
-class DigitsLinearisation(Linearisation):
+class DigitLinearisation(Linearisation):
     """What the camera should see: u, v, z of the three discs in turn, (5, 9), linearised.
 
     ``spread`` (5, 9, 9) covariance of the images, slope and error together. ``centre_m`` (5, 3, 3) the discs in camera
@@ -129,7 +135,9 @@ class DigitsLinearisation(Linearisation):
     by_place: FloatArray
 
 
-def digits_linearised(points: DigitPoints, view: DigitView, spread: Spread) -> DigitsLinearisation:
+def linearise_digits(points: DigitSigmaPoints, view: DigitView, spread: UnscentedParameters) -> DigitLinearisation:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
-    value, slope, error, whole, centre_m, by_place = digit_images.linearise_images(points, view, bent_weights(spread))
-    return DigitsLinearisation(value, slope, error, points.mean, whole, centre_m, by_place)
+    value, slope, error, whole, centre_m, by_place = digit_images.linearise_images(
+        points, view, digit_sigma_weights(spread)
+    )
+    return DigitLinearisation(value, slope, error, points.mean, whole, centre_m, by_place)

@@ -10,23 +10,23 @@ from carpus.core.calibration.result import Clicks
 from carpus.core.camera import Camera
 from carpus.core.compiled.digit_images import compute_inherited
 from carpus.core.compiled.digits import place_digits
-from carpus.core.tracking.digit_filter import RATES, SEEN, DigitsLinearisation, DigitView
-from carpus.core.tracking.finger_depth import FLEXION
+from carpus.core.tracking.digit_filter import OBSERVED, RATES, DigitLinearisation, DigitView
+from carpus.core.tracking.finger_depth import FLEXION_SLOT
 from carpus.core.tracking.hand_geometry import (
-    CHAINS,
-    DISCS,
-    SLOTS,
-    JointMoment,
-    JointReading,
-    PalmInBody,
-    direct_markers,
+    N_DIGITS,
+    N_DISCS,
+    N_SLOTS,
+    JointAngleMap,
+    JointState,
+    PalmGeometry,
+    direct_marker_rows,
 )
-from carpus.core.tracking.palm_state import PalmEstimate, View
+from carpus.core.tracking.palm_state import PalmEstimate, PalmView
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
-_DIP_OFF = 3
+_DIP_OFFSET = 3
 """The slot of a finger's DIP flexion beyond what PIP flexion brings with it."""
 
 SKIN_SD_RAD = 0.022
@@ -34,23 +34,23 @@ SKIN_SD_RAD = 0.022
 
 
 @dataclass(frozen=True, slots=True)
-class Seat:
+class DigitBase:
     """The palm as just corrected, on which the fingers sit.
 
     ``view`` from W2 of a right hand to the camera. In camera axes: ``pose_covariance`` (6, 6) of the tracked body's
     place and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included.
     """
 
-    palm: PalmInBody
+    palm: PalmGeometry
     view: DigitView
     pose_covariance: FloatArray
     turn_covariance: FloatArray
 
 
-def seat_of(estimate: PalmEstimate, view: View, readout: Readout) -> Seat:
+def base_from_estimate(estimate: PalmEstimate, view: PalmView, readout: Readout) -> DigitBase:
     """The seat that an estimate about the palm gives to the fingers."""
-    palm, rotation, translation_m, pose, turn = readout.seat(estimate, view)
-    return Seat(palm, DigitView(rotation, translation_m, view.camera), pose, turn)
+    palm, rotation, translation_m, pose, turn = readout.compute_base(estimate, view)
+    return DigitBase(palm, DigitView(rotation, translation_m, view.camera), pose, turn)
 
 
 class DigitReadout:
@@ -59,38 +59,38 @@ class DigitReadout:
     def __init__(self, clicks: Clicks, camera: Camera, settings: TrackerSettings, wrist_depth_m: float) -> None:
         protocol, self._side = clicks.protocol, clicks.side
         self._dip_free = settings.dip == "free"
-        self._skin_rad2 = settings.fingers.skin_offsets * SKIN_SD_RAD**2 * np.eye(SLOTS)
-        self.reading = JointReading.of(self._dip_free, protocol.digits)
-        self.direct_markers = direct_markers(protocol, self._dip_free)
+        self._skin_rad2 = settings.fingers.skin_offsets * SKIN_SD_RAD**2 * np.eye(N_SLOTS)
+        self.angle_map = JointAngleMap.from_digits(self._dip_free, protocol.digits)
+        self.direct_markers = direct_marker_rows(protocol, self._dip_free)
         self._sites = np.array(list(protocol.sites), dtype=np.int64)
         self._wrist_depth_m = wrist_depth_m
 
-    def read(
-        self, mean: FloatArray, covariance: FloatArray, seat: Seat, linearised: DigitsLinearisation
-    ) -> JointMoment:
+    def read_joints(
+        self, mean: FloatArray, covariance: FloatArray, seat: DigitBase, linearised: DigitLinearisation
+    ) -> JointState:
         """Joints of digits (5, n) with covariance (5, n, n) on that palm; ``linearised`` as the camera saw them."""
-        palm, state = seat.palm, mean[:, SEEN]
+        palm, state = seat.palm, mean[:, OBSERVED]
         _, normal, joint_m, disc_m = place_digits(state, palm.disc_m[1:])
         if not self._dip_free:
             # As the angles have the end joints, at two thirds of the middle ones: by how much one strays is for the
             # discs alone, and is no measurement of the joint.
-            state[1:, _DIP_OFF] = 0.0
+            state[1:, _DIP_OFFSET] = 0.0
             _, _, joint_m, _ = place_digits(state, palm.disc_m[1:])
         # A knuckle's flexion is against its own metacarpal.
-        slots = mean[:, :SLOTS].copy()
-        unsure = covariance[:, :SLOTS, :SLOTS] + compute_inherited(covariance, seat, linearised, normal)
-        slots[:, FLEXION] -= palm.cup_rad
-        unsure[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
+        slots = mean[:, :N_SLOTS].copy()
+        unsure = covariance[:, :N_SLOTS, :N_SLOTS] + compute_inherited(covariance, seat, linearised, normal)
+        slots[:, FLEXION_SLOT] -= palm.cup_rad
+        unsure[:, FLEXION_SLOT, FLEXION_SLOT] += palm.cup_sd_rad**2
         unsure += self._skin_rad2
-        centre = np.empty((1 + CHAINS * (DISCS + 1), 3))
+        centre = np.empty((1 + N_DIGITS * (N_DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
         centre[1:] = joint_m.reshape(-1, 3)
         if self._side == "left":
             centre[:, 1] *= -1.0
-        return JointMoment(
-            self.reading.angles(slots),
-            np.sqrt(np.maximum(self.reading.variances(unsure), 0.0)),
-            self.reading.angles(mean[:, RATES]),
+        return JointState(
+            self.angle_map.compute_angles(slots),
+            np.sqrt(np.maximum(self.angle_map.compute_variances(unsure), 0.0)),
+            self.angle_map.compute_angles(mean[:, RATES]),
             centre[self._sites],
             disc_m @ seat.view.rotation.T + seat.view.translation_m,
         )

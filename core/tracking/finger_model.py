@@ -12,37 +12,37 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy_prior import AnatomyPrior
-from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
+from carpus.core.hand.fitting import AnatomyFit, MeasuredDiscs, fit_anatomy
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import DIGITS, SITES, MarkerProtocol
 from carpus.core.tracking.digit_filter import (
     DIGIT_SIZE,
     JOINTS,
+    OBSERVED,
     RATES,
-    SEEN,
     DigitMotion,
-    DigitPoints,
+    DigitSigmaPoints,
     Forgetting,
-    spread_points,
+    draw_sigma_points,
 )
-from carpus.core.tracking.digit_readout import DigitReadout, Seat
+from carpus.core.tracking.digit_readout import DigitBase, DigitReadout
 from carpus.core.tracking.hand_geometry import (
-    CHAINS,
-    CONSTANTS,
     CROWDED_PX,
     CROWDED_RADII,
-    SLOTS,
-    PalmInBody,
+    N_CONSTANTS,
+    N_DIGITS,
+    N_SLOTS,
+    PalmGeometry,
     is_crowded,
-    palm_of,
+    palm_calibration,
 )
-from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, settled
-from carpus.core.tracking.kernel import ModeMixture, switching
+from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, apply_and_check_limits, apply_soft_limits
+from carpus.core.tracking.kernel import ModeMixture, mode_transition_matrix
 from carpus.core.tracking.motion import MODE_DWELL_S, RATE_MEMORY_S, REFERENCE_DT_S
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
-_NARROW_RAD = 1e-6
+_FIXED_SD_RAD = 1e-6
 """Of a slot that does not move: the fifth of a finger, the third while the end joint is coupled."""
 
 
@@ -57,27 +57,27 @@ class DigitStart:
 
 ABDUCTION_SHARE = 0.5
 """Of the process noise of flexion, for abductions and the thumb's CMC (reference 4.5)."""
-RANGE_AFTER_S = 0.5
+DIFFUSION_S = 0.5
 """Within this a joint that no disc shows is spread over its anatomical range."""
-LEARNING = 0.02
+LEARNING_SHARE = 0.02
 """Share of what a picture says of the anatomy that is believed: neighbouring ones show skin that strays alike."""
-SURE_TURN_RAD = math.radians(1.0)
+SURE_TURN_SD_RAD = math.radians(1.0)
 """Of the palm, all axes, at which half as much is learnt of the fingers."""
 DRIFT_PER_S = 2e-3
 """Share of what was not known of the anatomy that comes back each second: skin over bone."""
-DIP_SLACK_RAD = math.radians(6.0)
+DIP_COUPLING_SD_RAD = math.radians(6.0)
 """So far end joints that follow the middle ones stray from two thirds of them,"""
-THUMB_ASIDE_RAD = math.radians(6.0)
+THUMB_ABDUCTION_SD_RAD = math.radians(6.0)
 """and the thumb's MCP joint, which hardly moves sideways, from straight;"""
-SETTLES_S = 1.0
+RETURN_TIME_S = 1.0
 """both return within this."""
-POSTURE_SD_RAD, POSTURE_RATE_SD = math.radians(12.0), 3.0
+POSTURE_SD_RAD, POSTURE_RATE_SD_RAD_S = math.radians(12.0), 3.0
 """Of a posture of the grid on which a digit is searched, and of its rates."""
-BEGINS_RATE_SD = 1.0
+REACQUIRED_RATE_SD_RAD_S = 1.0
 """Of the rates of a hand found again."""
-CLICK_PX = 2.0
+CLICK_SD_PX = 2.0
 """Of a disc with no depth."""
-GAP_S = 0.12
+MIN_GAP_S = 0.12
 """Between pictures from which on limits count before a picture too."""
 MAX_BEYOND_RAD = math.radians(30.0)
 """A finger further past its limits was misread."""
@@ -93,39 +93,39 @@ def digit_start(
     prior: AnatomyPrior,
 ) -> DigitStart:
     """The anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
-    seen = _seen(calibration, camera, marker_radius_m)
+    seen = _discs_from_calibration(calibration, camera, marker_radius_m)
     fit = fit_anatomy(
         seen,
         calibration.clicks.side,
         dip_free=dip_free,
         skin_offsets=skin_offsets,
         prior=prior,
-        straight=calibration.clicks.straight_fingers,
+        is_straight=calibration.clicks.straight_fingers,
     )
-    mean = np.zeros((CHAINS, SLOTS + CONSTANTS))
-    covariance = np.zeros((CHAINS, SLOTS + CONSTANTS, SLOTS + CONSTANTS))
-    for chain in range(CHAINS):
+    mean = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS))
+    covariance = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS, N_SLOTS + N_CONSTANTS))
+    for chain in range(N_DIGITS):
         count = fit.neutral_digits[chain].mean.size
         to_slots = np.eye(count)
         if chain:
             to_slots[3, 2] = -DIP_PER_PIP
         cross = to_slots @ fit.neutral_cross[chain]
         mean[chain, :count] = to_slots @ fit.neutral_digits[chain].mean
-        mean[chain, SLOTS:] = fit.digits.mean[chain]
+        mean[chain, N_SLOTS:] = fit.digits.mean[chain]
         covariance[chain, :count, :count] = to_slots @ fit.neutral_digits[chain].covariance @ to_slots.T
-        covariance[chain, :count, SLOTS:] = cross
-        covariance[chain, SLOTS:, :count] = cross.T
-        covariance[chain, SLOTS:, SLOTS:] = fit.digits.covariance[chain]
-    index = np.arange(SLOTS)
-    covariance[:, index, index] += _NARROW_RAD**2
+        covariance[chain, :count, N_SLOTS:] = cross
+        covariance[chain, N_SLOTS:, :count] = cross.T
+        covariance[chain, N_SLOTS:, N_SLOTS:] = fit.digits.covariance[chain]
+    index = np.arange(N_SLOTS)
+    covariance[:, index, index] += _FIXED_SD_RAD**2
     return DigitStart(mean, covariance, fit)
 
 
-def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float) -> SeenDiscs:
+def _discs_from_calibration(calibration: Calibration, camera: Camera, marker_radius_m: float) -> MeasuredDiscs:
     """The calibrated discs; where one has no depth, the line of sight through its click."""
     protocol, disc = calibration.clicks.protocol, calibration.marker_position_w0_m.copy()
     rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
-    clicked = camera.back_project(camera.undistort(calibration.clicks.pixel), np.full(len(disc), translation[2]))
+    clicked = camera.backproject(camera.undistort(calibration.clicks.pixel), np.full(len(disc), translation[2]))
     is_blind = np.asarray(np.isnan(disc).any(axis=-1))
     disc[is_blind] = (clicked[is_blind] - translation) @ rotation
     in_camera = disc @ rotation.T + translation
@@ -139,23 +139,23 @@ def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float) -> S
     radius_px = (marker_radius_m / pixel_m)[rays]
     crowded[rays] = is_crowded(camera.project(in_camera)[rays], radius_px, CROWDED_RADII)
     across = np.where(crowded, np.hypot(across, CROWDED_PX * pixel_m), across)
-    blind_m = CLICK_PX * pixel_m
-    return SeenDiscs(
-        _at_sites(protocol, disc, np.nan),
-        _at_sites(protocol, view, np.nan),
-        _at_sites(protocol, np.where(is_blind, blind_m, across), 1.0),
-        _at_sites(protocol, np.where(is_blind, np.inf, along), np.inf),
+    blind_m = CLICK_SD_PX * pixel_m
+    return MeasuredDiscs(
+        _to_sites(protocol, disc, np.nan),
+        _to_sites(protocol, view, np.nan),
+        _to_sites(protocol, np.where(is_blind, blind_m, across), 1.0),
+        _to_sites(protocol, np.where(is_blind, np.inf, along), np.inf),
     )
 
 
-def _at_sites(protocol: MarkerProtocol, values: FloatArray, nothing: float) -> FloatArray:
+def _to_sites(protocol: MarkerProtocol, values: FloatArray, nothing: float) -> FloatArray:
     """Values (1, 21, ...) of the sites from those of the markers (M, ...); ``nothing`` where there is no disc."""
     out = np.full((1, len(SITES), *values.shape[1:]), nothing)
     out[0, list(protocol.sites)] = values
     return out
 
 
-_SLOT = np.arange(SLOTS)
+_SLOT = np.arange(N_SLOTS)
 
 
 class FingerModel:
@@ -170,8 +170,8 @@ class FingerModel:
         self.markers = np.array(list(protocol.chains.values()))[:, 2:]
         """Rows (R, 3) of the moving discs of those digits."""
         self.resolution_px2 = float(camera.width_px * camera.height_px)
-        self.calibrated_palm = PalmInBody.of(
-            palm_of(calibration).marker_position_w0_m, np.eye(3), calibration.clicks.side
+        self.calibrated_palm = PalmGeometry.from_discs(
+            palm_calibration(calibration).marker_position_w0_m, np.eye(3), calibration.clicks.side
         )
         self.scales = np.array(settings.mode_scales)
         self._start: DigitStart = digit_start(
@@ -185,89 +185,89 @@ class FingerModel:
         wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
         self.readout = DigitReadout(calibration.clicks, camera, settings, wrist_depth_m)
         motion = settings.motion_noise
-        sd = np.full((CHAINS, SLOTS), motion.joint_acceleration_rad_s2)
+        sd = np.full((N_DIGITS, N_SLOTS), motion.joint_acceleration_rad_s2)
         sd[0, [0, 1, 3]] *= ABDUCTION_SHARE
         sd[1:, 0] *= ABDUCTION_SHARE
         sd[1:, 4] = 0.0
         sd[0, 3] = 0.0
-        stationary2 = np.zeros((CHAINS, SLOTS))
-        stationary2[0, 3] = THUMB_ASIDE_RAD**2
+        stationary2 = np.zeros((N_DIGITS, N_SLOTS))
+        stationary2[0, 3] = THUMB_ABDUCTION_SD_RAD**2
         if not dip_free:
             sd[1:, 3] = 0.0
-            stationary2[1:, 3] = DIP_SLACK_RAD**2
-        self._moves = sd > 0.0
+            stationary2[1:, 3] = DIP_COUPLING_SD_RAD**2
+        self._is_moving = sd > 0.0
         self._stationary2 = np.maximum(stationary2, 1e-12)
-        self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._stationary2)
+        self._range2 = np.where(self._is_moving, RANGE_SD_RAD**2, self._stationary2)
         drift = DRIFT_PER_S * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
-        self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, SETTLES_S)
+        self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, RETURN_TIME_S)
 
-    def at_neutral(self) -> ModeMixture:
+    def neutral_mixture(self) -> ModeMixture:
         """At the neutral pose, at rest."""
-        seen = SEEN
-        mean, covariance = np.zeros((CHAINS, DIGIT_SIZE)), np.zeros((CHAINS, DIGIT_SIZE, DIGIT_SIZE))
+        seen = OBSERVED
+        mean, covariance = np.zeros((N_DIGITS, DIGIT_SIZE)), np.zeros((N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
         mean[:, seen] = self._start.mean
         covariance[:, seen[:, None], seen] = self._start.covariance
         rate = np.arange(RATES.start, RATES.stop)
-        covariance[:, rate, rate] = np.where(self._moves, self.settings.initial.joint_rates_rad_s**2, 1e-12)
-        return self.alike(mean, covariance)
+        covariance[:, rate, rate] = np.where(self._is_moving, self.settings.initial.joint_rates_rad_s**2, 1e-12)
+        return self.mixture_from_gaussian(mean, covariance)
 
-    def anywhere(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
+    def diffuse_mixture(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
         """The anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
         moving = np.arange(RATES.stop)
         mean, covariance = mean.copy(), covariance.copy()
         mean[:, moving] = 0.0
-        mean[:, JOINTS] = np.where(self._moves, MID_RANGE_RAD, 0.0)
+        mean[:, JOINTS] = np.where(self._is_moving, MID_RANGE_RAD, 0.0)
         covariance[:, moving, :] = 0.0
         covariance[:, :, moving] = 0.0
         covariance[:, _SLOT, _SLOT] = self._range2
         rate = np.arange(RATES.start, RATES.stop)
-        covariance[:, rate, rate] = np.where(self._moves, BEGINS_RATE_SD**2, 1e-12)
-        return self.alike(mean, covariance)
+        covariance[:, rate, rate] = np.where(self._is_moving, REACQUIRED_RATE_SD_RAD_S**2, 1e-12)
+        return self.mixture_from_gaussian(mean, covariance)
 
-    def at_postures(self, estimates: ModeMixture, postures: dict[int, FloatArray]) -> ModeMixture:
+    def restart_at_postures(self, estimates: ModeMixture, postures: dict[int, FloatArray]) -> ModeMixture:
         """Some digits begun anew about postures, slots (5,) by digit, the anatomy as known by now."""
         chains, slots = np.array(list(postures)), np.array(list(postures.values()))
-        kept = self.begun_anew(estimates, np.isin(np.arange(CHAINS), chains), estimates)
+        kept = self.restart_digits(estimates, np.isin(np.arange(N_DIGITS), chains), estimates)
         mean, covariance = kept.mean, kept.covariance
-        mean[chains, :, :SLOTS] = slots[:, None]
-        moving = np.where(self._moves[chains], POSTURE_SD_RAD**2, self._stationary2[chains])
+        mean[chains, :, :N_SLOTS] = slots[:, None]
+        moving = np.where(self._is_moving[chains], POSTURE_SD_RAD**2, self._stationary2[chains])
         covariance[chains[:, None], :, _SLOT, _SLOT] = moving[..., None]
-        rate = SLOTS + _SLOT
-        moving = np.where(self._moves[chains], POSTURE_RATE_SD**2, 1e-12)
+        rate = N_SLOTS + _SLOT
+        moving = np.where(self._is_moving[chains], POSTURE_RATE_SD_RAD_S**2, 1e-12)
         covariance[chains[:, None], :, rate, rate] = moving[..., None]
         return kept
 
-    def begun_anew(self, estimates: ModeMixture, chains: NDArray[np.bool_], known: ModeMixture) -> ModeMixture:
-        """Estimates of which ``chains`` (5,) may be anywhere, on the anatomy as ``known``."""
-        fresh, chosen = self.anywhere(*known.merged()), chains[:, None]
+    def restart_digits(self, estimates: ModeMixture, chains: NDArray[np.bool_], anatomy: ModeMixture) -> ModeMixture:
+        """Estimates of which ``chains`` (5,) may be anywhere, on the anatomy as ``anatomy``."""
+        fresh, chosen = self.diffuse_mixture(*anatomy.merge()), chains[:, None]
         return ModeMixture(
             np.where(chosen[..., None], fresh.mean, estimates.mean),
             np.where(chosen[..., None, None], fresh.covariance, estimates.covariance),
             np.where(chosen, fresh.probability, estimates.probability),
         )
 
-    def within_reach(
+    def apply_joint_limits(
         self, estimates: ModeMixture, before: ModeMixture
     ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
         """Estimates with the limits taken into account, and digits (5,) that a picture has bent as no finger bends: it
         was misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the
         estimates merged."""
-        kept, merged, misread = settled(estimates, MAX_BEYOND_RAD)
+        kept, merged, misread = apply_and_check_limits(estimates, MAX_BEYOND_RAD)
         if misread.any():
-            kept = self.begun_anew(kept, misread, before)
-            merged = kept.merged()
+            kept = self.restart_digits(kept, misread, before)
+            merged = kept.merge()
         return kept, merged, misread
 
-    def alike(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
+    def mixture_from_gaussian(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
         """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""
         count = self.scales.size
         return ModeMixture(
             np.repeat(mean[:, None], count, axis=1),
             np.repeat(covariance[:, None], count, axis=1),
-            np.full((CHAINS, count), 1.0 / count),
+            np.full((N_DIGITS, count), 1.0 / count),
         )
 
-    def predicted(self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float) -> ModeMixture:
+    def predict(self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float) -> ModeMixture:
         """The digits ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot.
 
         After a gap between pictures a rate has led anywhere, full turns of a joint among it, between which nothing
@@ -276,32 +276,32 @@ class FingerModel:
         """
         if dt_s <= 0.0:
             return estimates
-        switch = switching(self.scales.size, MODE_DWELL_S, dt_s)
+        switch = mode_transition_matrix(self.scales.size, MODE_DWELL_S, dt_s)
         mean = (estimates.probability[:, None] @ estimates.mean)[:, 0]
-        if dt_s >= RANGE_AFTER_S:
-            return self.anywhere(*estimates.merged())
-        ahead = self.motion.predicted(estimates, dt_s, self.forgetting(mean, unseen_s, dt_s), switch)
-        if dt_s < GAP_S:
+        if dt_s >= DIFFUSION_S:
+            return self.diffuse_mixture(*estimates.merge())
+        ahead = self.motion.predict(estimates, dt_s, self.compute_forgetting(mean, unseen_s, dt_s), switch)
+        if dt_s < MIN_GAP_S:
             return ahead
-        return constrained(ahead, ahead.merged()[0][:, :SLOTS])
+        return apply_soft_limits(ahead, ahead.merge()[0][:, :N_SLOTS])
 
-    def ahead(
+    def predict_sigma_points(
         self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float, root_disc_m: FloatArray
-    ) -> tuple[ModeMixture, DigitPoints]:
+    ) -> tuple[ModeMixture, DigitSigmaPoints]:
         """The digits ``dt_s`` later, and sigma points of them under ``root_disc_m`` (5, 3)."""
-        ahead = self.predicted(estimates, unseen_s, dt_s)
-        return ahead, spread_points(*ahead.merged(), root_disc_m, self.settings.spread)
+        ahead = self.predict(estimates, unseen_s, dt_s)
+        return ahead, draw_sigma_points(*ahead.merge(), root_disc_m, self.settings.spread)
 
-    def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
+    def compute_forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """What becomes of the slots of digits at ``mean`` (5, n) that nothing shows; None where all are shown.
 
-        The angle is spread over the joint's range in :data:`RANGE_AFTER_S`, slowly at first. The rate fades, and as
+        The angle is spread over the joint's range in :data:`DIFFUSION_S`, slowly at first. The rate fades, and as
         much of it as is given up becomes possible in either direction.
         """
-        is_unseen = (unseen_s > 0.0) & self._moves
+        is_unseen = (unseen_s > 0.0) & self._is_moving
         if not is_unseen.any():
             return None
-        whole_s = RANGE_AFTER_S
+        whole_s = DIFFUSION_S
         before = np.minimum(unseen_s, whole_s) / whole_s
         after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
         # Once it may be anywhere it goes on moving as it likes: else smoothing would carry what is seen at its
@@ -312,8 +312,8 @@ class FingerModel:
         rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, RATES] ** 2, 0.0)
         return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
 
-    def learning(self, seat: Seat) -> float:
+    def compute_learning_share(self, seat: DigitBase) -> float:
         """Share of what this picture says of the anatomy that is believed: little while the palm is unsure, as its
         error stays for as long as its discs are hidden."""
         variance = float(sum(seat.pose_covariance.diagonal()[3:].tolist()))
-        return LEARNING / (1.0 + (variance / SURE_TURN_RAD**2) ** 2)
+        return LEARNING_SHARE / (1.0 + (variance / SURE_TURN_SD_RAD**2) ** 2)

@@ -16,24 +16,24 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.tracking.association import is_jointly_compatible
-from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
-from carpus.core.tracking.digit_readout import seat_of
+from carpus.core.tracking.digit_naming import DigitFrame, DigitPosterior
+from carpus.core.tracking.digit_readout import base_from_estimate
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
-from carpus.core.tracking.fingers import Fingers
-from carpus.core.tracking.hand_geometry import CHAINS, JointMoment, palm_of
+from carpus.core.tracking.fingers import FingerFilter
+from carpus.core.tracking.hand_geometry import N_DIGITS, JointState, palm_calibration
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, slowing, slowing_unseen, unseen_turns
-from carpus.core.tracking.operator_hints import NamedSpot
+from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, fading_factors, fading_matrix, find_unobserved_turns
+from carpus.core.tracking.operator_hints import LabelledBlob
 from carpus.core.tracking.palm_association import (
     Measurements,
     UpdatedPalm,
     associate_and_update,
-    measurements_of,
-    update,
+    measurements_from_blobs,
+    update_palm,
 )
 from carpus.core.tracking.palm_smoother import FilterStep
 from carpus.core.tracking.palm_state import (
-    LEARNT,
+    CALIBRATION_ERROR,
     POSE,
     RELIEF,
     SHAPE,
@@ -42,79 +42,91 @@ from carpus.core.tracking.palm_state import (
     TURN,
     InitialSd,
     PalmEstimate,
-    View,
-    error_reset,
-    resting_estimate,
+    PalmView,
+    initial_estimate,
+    reset_error,
 )
 from carpus.core.tracking.predicted_measurement import (
     MarkerOrder,
     PredictedMeasurement,
-    adapted_factor,
-    hidden_by_calibration,
-    predicted_ahead,
-    predicted_measurement,
+    adapt_noise_factor,
+    depth_bias_matrix,
+    predict_measurement,
+    predict_measurement_ahead,
     shape_covariance,
 )
-from carpus.core.tracking.reacquire import RATE_RAD_S, VELOCITY_M_S, Facing, FoundPalm, find_palm, is_other_hand
+from carpus.core.tracking.reacquire import (
+    RATE_SD_RAD_S,
+    VELOCITY_SD_M_S,
+    FoundPalm,
+    TurnLimits,
+    find_palm,
+    is_other_hand,
+)
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import (
-    NO_DIGITS,
+    ZERO_SPEEDS,
     DigitSpeeds,
-    always_pushed,
-    moved_by_joints,
-    resting_or_moving,
+    joint_driven_modes,
+    resting_and_moving_modes,
+    single_moving_mode,
     stationary_covariance,
 )
-from carpus.core.tracking.surface_fit import calibrated_covariance, reset_and_levelled
-from carpus.core.tracking.track_manager import MIN_PALM_DISCS, NARROW_M
+from carpus.core.tracking.surface_fit import reset_and_surface_update, surface_calibration_covariance
+from carpus.core.tracking.track_manager import COLLINEAR_RMS_M, MIN_PALM_MARKERS
 from carpus.core.types import BoolArray, Detections, FloatArray
 
-_TWICE = 2.0
+_REREAD_NOISE_FACTOR = 2.0
 """The picture is read once more right after: half of its weight now, half then."""
 
 
-def disc_anew(
-    ahead: PredictedMeasurement, view: View, disc: int, blob: int, blobs: Measurements, settings: TrackerSettings
-) -> tuple[PalmEstimate, ModeMixture, View]:
+def reinitialise_disc(
+    predicted: PredictedMeasurement,
+    view: PalmView,
+    disc: int,
+    blob: int,
+    blobs: Measurements,
+    settings: TrackerSettings,
+) -> tuple[PalmEstimate, ModeMixture, PalmView]:
     """Estimate and mixture with the palm's ``disc`` (its row of 6) at a blob, and the view to go on with."""
     u_px, v_px, depth_m = blobs.value[blob]
-    depth_m = depth_m if np.isfinite(depth_m) else float(ahead.mean[disc, 2])
-    estimate = ahead.nominal
-    in_camera = view.camera.back_project(np.array([[u_px, v_px]]), np.array([depth_m]))[0]
+    depth_m = depth_m if np.isfinite(depth_m) else float(predicted.mean[disc, 2])
+    estimate = predicted.nominal
+    in_camera = view.camera.backproject(np.array([[u_px, v_px]]), np.array([depth_m]))[0]
     in_w0 = view.rotation_w0_cam.T @ (in_camera - view.translation_w0_cam_m)
     on_palm_m = estimate.rotation_w2_w0.T @ (in_w0 - estimate.position_m)
 
     shape, skin = (np.arange(part.start + 3 * disc, part.start + 3 * disc + 3) for part in (SHAPE, SKIN))
     own = np.concatenate((shape, skin))
     fresh = np.zeros((6, 6))
-    fresh[:3, :3] = ANYWHERE_M**2 * np.eye(3)
+    fresh[:3, :3] = PLACED_DISC_SD_M**2 * np.eye(3)
     fresh[3:, 3:] = stationary_covariance(settings.tissue)[skin[:, None], skin]
     value = estimate.value.copy()
     value[shape], value[skin] = on_palm_m - view.palm_m[disc], 0.0
     estimate = PalmEstimate(estimate.rotation_w2_w0, value, _with_block(estimate.covariance, own, fresh))
-    mean = ahead.mixture.mean.copy()
+    mean = predicted.mixture.mean.copy()
     mean[..., own] = 0.0
-    mixture = ModeMixture(mean, _with_block(ahead.mixture.covariance, own, fresh), ahead.mixture.probability)
+    mixture = ModeMixture(mean, _with_block(predicted.mixture.covariance, own, fresh), predicted.mixture.probability)
 
     # How wrong its depth was at the calibration says nothing of it any more.
     hidden = view.hidden.copy()
     hidden[disc, 3 * disc : 3 * disc + 3] = 0.0
     view = replace(view, hidden=hidden)
-    assigned: NDArray[np.int64] = np.full(len(ahead.mean), -1, dtype=np.int64)
+    assigned: NDArray[np.int64] = np.full(len(predicted.mean), -1, dtype=np.int64)
     assigned[disc] = blob
     with_depth: BoolArray = (assigned >= 0) & np.isfinite(blobs.value[blob, 2])
-    whole = predicted_measurement(estimate, mixture, view, settings.spread)
-    measured = update(whole, blobs, assigned, with_depth, np.full((assigned.size, 3), _TWICE))
-    return *error_reset(estimate, measured.mixture), view
+    whole = predict_measurement(estimate, mixture, view, settings.spread)
+    measured = update_palm(whole, blobs, assigned, with_depth, np.full((assigned.size, 3), _REREAD_NOISE_FACTOR))
+    return *reset_error(estimate, measured.mixture), view
 
 
-def with_discs_as_known(view: View, shape: FloatArray, named: BoolArray) -> View:
+def with_placed_discs(view: PalmView, shape: FloatArray, is_placed: BoolArray) -> PalmView:
     """The view in which to look for the hand anew: the discs that a person ``named`` (6,) where they are by now, by the
     shape (18,)."""
-    if not named.any():
+    if not is_placed.any():
         return view
-    return replace(view, palm_m=view.palm_m + np.where(named[:, None], shape.reshape(-1, 3), 0.0))
+    return replace(view, palm_m=view.palm_m + np.where(is_placed[:, None], shape.reshape(-1, 3), 0.0))
 
 
 def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArray) -> FloatArray:
@@ -128,9 +140,9 @@ def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArr
 
 _TURN_VARIANCES = tuple((SIZE + 1) * row for row in range(TURN.start, TURN.stop))
 """Where they stand in the covariance, counted row by row."""
-ANYWHERE_M = 0.02
+PLACED_DISC_SD_M = 0.02
 """So far from where the one picture shows it a disc shown elsewhere may be: more than any depth errs."""
-_NEAREST_M = 0.1
+_MIN_DEPTH_M = 0.1
 """No camera sees a hand nearer: keeps the size of a disc finite."""
 
 
@@ -148,10 +160,10 @@ class Scan:
         """The scan as if no blob were in it."""
         none = np.zeros(len(self.ideal), dtype=bool)
         blobs = Measurements(self.blobs.value[none], self.blobs.variance[none])
-        return replace(self, ideal=self.ideal.only(none), blobs=blobs)
+        return replace(self, ideal=self.ideal.subset(none), blobs=blobs)
 
 
-def as_ideal(detections: Detections, camera: Camera) -> Detections:
+def undistort_detections(detections: Detections, camera: Camera) -> Detections:
     """Blobs and readings where a camera without distortion would see them."""
     if not camera.is_distorted:
         return detections
@@ -167,19 +179,20 @@ class Posterior:
     """The hand updated by one scan from what was ``predicted``: the ``palm`` as associated, its modes as errors from
     ``estimate``, and the fingers on it.
 
-    ``seen`` discs of the palm; ``unassigned`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the
-    fingers'; ``levelled``: the back of the hand was measured too.
+    ``seen_count`` discs of the palm; ``unassigned`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are
+    the
+    fingers'; ``surface_used``: the back of the hand was measured too.
     """
 
     predicted: PredictedMeasurement
     palm: UpdatedPalm
     estimate: PalmEstimate
     mixture: ModeMixture
-    seen: int
-    fingers: FingerTrial | None
+    seen_count: int
+    fingers: DigitPosterior | None
     unassigned: NDArray[np.bool_]
     is_finger: NDArray[np.bool_]
-    levelled: bool
+    surface_used: bool
 
     @property
     def turn_sd_rad(self) -> float:
@@ -192,95 +205,105 @@ class HandFilter:
 
     def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
         self._settings = settings
-        self.fingers = Fingers(calibration, camera, settings) if calibration.clicks.protocol.has_fingers else None
+        self.fingers = FingerFilter(calibration, camera, settings) if calibration.clicks.protocol.has_fingers else None
         protocol = calibration.clicks.protocol
         rows = np.array(protocol.palm)
         if self.fingers is None:
-            self.order = MarkerOrder(rows, np.empty((0, 3), dtype=np.int64), np.zeros(CHAINS, dtype=bool))
+            self.order = MarkerOrder(rows, np.empty((0, 3), dtype=np.int64), np.zeros(N_DIGITS, dtype=bool))
         else:
             self.order = MarkerOrder(rows, self.fingers.model.markers, self.fingers.model.has_discs)
         self._surface = calibration.surface if settings.use_surface and settings.use_depth else None
-        calibration = palm_of(calibration)
-        self.view = View(
+        calibration = palm_calibration(calibration)
+        self.view = PalmView(
             camera,
             calibration.rotation_w0_cam,
             calibration.translation_w0_cam_m,
             calibration.marker_position_w0_m,
-            hidden_by_calibration(calibration, settings.shape_hidden),
+            depth_bias_matrix(calibration, settings.shape_hidden),
         )
         self.readout = Readout(calibration, camera, settings.marker_radius_m)
         # Blobs alone do not tell tissue that rests from a hand that moves; joints that are seen tell when it moves.
-        seen = moved_by_joints if self.fingers is not None else resting_or_moving
-        tissue = (always_pushed if self._surface is None else seen)(settings.tissue)
+        seen = joint_driven_modes if self.fingers is not None else resting_and_moving_modes
+        tissue = (single_moving_mode if self._surface is None else seen)(settings.tissue)
         self.motion = PalmMotion(settings.motion_noise, tissue, np.array(settings.mode_scales))
-        self._calibrated = self._as_calibrated(calibration)
+        self._calibrated_covariance = self._calibration_covariance(calibration)
         self._stationary = stationary_covariance(settings.tissue)
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._noise_factor = np.ones((rows.size, 3))
-        self._placed_anew = np.zeros(rows.size, dtype=bool)
-        self._ahead: tuple[object, object, float, PredictedMeasurement] | None = None
+        self._is_reinitialised = np.zeros(rows.size, dtype=bool)
+        self._prediction: tuple[object, object, float, PredictedMeasurement] | None = None
         self.begin_at_neutral()
 
     def begin_at_neutral(self) -> None:
-        self._learnt, self._learnt_covariance = np.zeros(LEARNT.stop - LEARNT.start), self._calibrated
-        start = resting_estimate(self._settings.initial, self._learnt_covariance)
-        self.begin(start, self.motion.at_rest)
-        self._placed_anew[:] = False
+        self._learnt_error, self._learnt_covariance = (
+            np.zeros(CALIBRATION_ERROR.stop - CALIBRATION_ERROR.start),
+            self._calibrated_covariance,
+        )
+        start = initial_estimate(self._settings.initial, self._learnt_covariance)
+        self.start(start, self.motion.initial_probability)
+        self._is_reinitialised[:] = False
         if self.fingers is not None:
             self.fingers.begin_at_neutral()
 
-    def _as_calibrated(self, calibration: Calibration) -> FloatArray:
+    def _calibration_covariance(self, calibration: Calibration) -> FloatArray:
         """Covariance (21, 21) of what the calibration says of the discs' places and of the back of the hand."""
         settings, shapes = self._settings, SHAPE.stop - SHAPE.start
-        out = np.zeros((LEARNT.stop - LEARNT.start,) * 2)
+        out = np.zeros((CALIBRATION_ERROR.stop - CALIBRATION_ERROR.start,) * 2)
         out[:shapes, :shapes] = shape_covariance(calibration, self.view.camera.sensor, settings.noise)
         out[shapes:, shapes:] = np.eye(3)
         if self._surface is not None:
-            out[shapes:, shapes:] = calibrated_covariance(self._surface, self.view, settings.surface)
+            out[shapes:, shapes:] = surface_calibration_covariance(self._surface, self.view, settings.surface)
         return out
 
-    def begin(self, estimate: PalmEstimate, probability: FloatArray | None = None) -> None:
+    def start(self, estimate: PalmEstimate, probability: FloatArray | None = None) -> None:
         """Start from a state estimate of the palm, its modes of a ``probability`` (K,), or all alike."""
         mixture = self._resting_mixture(estimate)
         mixture = mixture if probability is None else replace(mixture, probability=probability[None])
-        self._known: tuple[PalmEstimate, ModeMixture] | None = (estimate, mixture)
-        self._unseen: NDArray[np.float64] | None = None
+        self._palm: tuple[PalmEstimate, ModeMixture] | None = (estimate, mixture)
+        self._unobserved_turns: NDArray[np.float64] | None = None
 
     def _resting_mixture(self, estimate: PalmEstimate) -> ModeMixture:
-        return ModeMixture.alike(np.zeros((1, SIZE)), estimate.covariance[None], self.motion.modes)
+        return ModeMixture.from_gaussian(np.zeros((1, SIZE)), estimate.covariance[None], self.motion.modes)
 
-    def lose(self) -> None:
+    def drop_track(self) -> None:
         """Nothing is known any more but the hand's anatomy."""
-        self._known = None
+        self._palm = None
         if self.fingers is not None:
-            self.fingers.begin_anywhere()
+            self.fingers.reset_joints()
 
     def predict(self, dt_s: float) -> PredictedMeasurement:
         """The state ``dt_s`` after the last frame, and what the camera should see of it; worked out once."""
-        assert self._known is not None
-        fingers = None if self.fingers is None else self.fingers.known
-        if self._ahead is None or not (
-            self._ahead[0] is self._known and self._ahead[1] is fingers and self._ahead[2] == dt_s
+        assert self._palm is not None
+        fingers = None if self.fingers is None else self.fingers.estimates
+        if self._prediction is None or not (
+            self._prediction[0] is self._palm and self._prediction[1] is fingers and self._prediction[2] == dt_s
         ):
-            digits = None if self.fingers is None else self.fingers.ahead(dt_s)
-            ahead = predicted_ahead(
-                *self._known, self.view, self.motion, dt_s, self._unseen, self._digit_speeds, self._settings, digits,
+            digits = None if self.fingers is None else self.fingers.predict(dt_s)
+            ahead = predict_measurement_ahead(
+                *self._palm,
+                self.view,
+                self.motion,
+                dt_s,
+                self._unobserved_turns,
+                self._digit_speeds,
+                self._settings,
+                digits,
                 self.order,
-            )  # fmt: skip
-            self._ahead = self._known, fingers, dt_s, ahead
-        return self._ahead[3]
+            )
+            self._prediction = self._palm, fingers, dt_s, ahead
+        return self._prediction[3]
 
-    def scan(self, predicted: PredictedMeasurement, ideal: Detections, timestamp_s: float, dt_s: float) -> Scan:
+    def build_scan(self, predicted: PredictedMeasurement, ideal: Detections, timestamp_s: float, dt_s: float) -> Scan:
         """The blobs as measurements at the distance at which the hand was predicted."""
-        depth_m, camera = max(float(predicted.mean[0, 2]), _NEAREST_M), self.view.camera
+        depth_m, camera = max(float(predicted.mean[0, 2]), _MIN_DEPTH_M), self.view.camera
         radius_px = camera.fx_px * self._settings.marker_radius_m / depth_m
-        return Scan(timestamp_s, dt_s, ideal, measurements_of(ideal, radius_px, self._settings, camera.sensor))
+        return Scan(timestamp_s, dt_s, ideal, measurements_from_blobs(ideal, radius_px, self._settings, camera.sensor))
 
     def update(self, predicted: PredictedMeasurement, scan: Scan) -> Posterior:
         """Associate the blobs with the discs that were predicted and update by them."""
-        blobs, enough = scan.blobs, MIN_PALM_DISCS + 1
+        blobs, enough = scan.blobs, MIN_PALM_MARKERS + 1
         palm = associate_and_update(predicted, blobs, enough, self._resolution_px2, self._noise_factor, self._settings)
-        estimate, mixture, levelled = reset_and_levelled(
+        estimate, mixture, levelled = reset_and_surface_update(
             predicted.nominal, palm.mixture, scan.ideal.surface, self._surface, self.view, predicted.partial,
             self._settings.surface,
         )  # fmt: skip
@@ -289,95 +312,97 @@ class HandFilter:
         unassigned[palm.assigned[is_named]] = False
         fingers = None
         if self.fingers is not None and predicted.digits is not None:
-            seat = seat_of(estimate, self.view, self.readout)
-            picture = DigitPicture(scan.dt_s, seat, blobs, scan.ideal.area_px, unassigned)
-            fingers = self.fingers.naming.weigh(predicted.digits, picture, scan.ideal.fingers)
+            seat = base_from_estimate(estimate, self.view, self.readout)
+            picture = DigitFrame(scan.dt_s, seat, blobs, scan.ideal.area_px, unassigned)
+            fingers = self.fingers.updater.update(predicted.digits, picture, scan.ideal.fingers)
             is_finger[fingers.blob[fingers.blob >= 0]] = True
         seen = int(np.count_nonzero(is_named))
         return Posterior(
             predicted, palm, estimate, mixture, seen, fingers, unassigned & ~is_finger, is_finger, levelled
         )
 
-    def fits(self, posterior: Posterior) -> bool:
+    def is_consistent(self, posterior: Posterior) -> bool:
         """Whether the discs lie where the updated pose puts them."""
         return bool((np.abs(posterior.palm.raw_residual) <= self._settings.noise.outlier_sd).all())
 
     @property
-    def showed_turn(self) -> bool:
+    def is_rotation_observed(self) -> bool:
         """Whether the last picture showed every turn of the hand."""
-        return self._unseen is None
+        return self._unobserved_turns is None
 
-    def shows_turn(self, posterior: Posterior) -> bool:
+    def is_rotation_measured(self, posterior: Posterior) -> bool:
         """Whether what was measured shows every turn of the hand."""
-        return posterior.levelled or self._unseen_turns(posterior) is None
+        return posterior.surface_used or self._find_unobserved_turns(posterior) is None
 
-    def _unseen_turns(self, posterior: Posterior) -> NDArray[np.float64] | None:
-        return unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], NARROW_M)
+    def _find_unobserved_turns(self, posterior: Posterior) -> NDArray[np.float64] | None:
+        return find_unobserved_turns(self.view.palm_m[posterior.palm.assigned >= 0], COLLINEAR_RMS_M)
 
     def learn(self, posterior: Posterior, dt_s: float) -> None:
         """Take what outlives a lost track: each disc's noise, and the palm's shape."""
         palm, noise = posterior.palm, self._settings.noise
-        self._noise_factor = adapted_factor(self._noise_factor, palm.raw_residual, palm.measured, dt_s, noise)
-        self._learnt = posterior.estimate.value[LEARNT]
-        self._learnt_covariance = posterior.estimate.covariance[LEARNT, LEARNT]
+        self._noise_factor = adapt_noise_factor(self._noise_factor, palm.raw_residual, palm.is_measured, dt_s, noise)
+        self._learnt_error = posterior.estimate.value[CALIBRATION_ERROR]
+        self._learnt_covariance = posterior.estimate.covariance[CALIBRATION_ERROR, CALIBRATION_ERROR]
 
     def accept(
-        self, posterior: Posterior, scan: Scan, *, is_seen: bool, linked: bool
+        self, posterior: Posterior, scan: Scan, *, is_seen: bool, is_linked: bool
     ) -> tuple[FilterStep, FingerStep | None]:
         """Go on from an update; what the smoother needs of it. ``is_seen``: enough discs tell the palm's pose;
-        ``linked``: the step follows from the one before."""
-        unseen, self._unseen = self._unseen, None
+        ``is_linked``: the step follows from the one before."""
+        unseen, self._unobserved_turns = self._unobserved_turns, None
         kept = float(np.exp(-scan.dt_s / RATE_MEMORY_S))
         estimate, mixture = posterior.estimate, posterior.mixture
-        if not posterior.levelled:
-            self._unseen = self._unseen_turns(posterior)
+        if not posterior.surface_used:
+            self._unobserved_turns = self._find_unobserved_turns(posterior)
         if not is_seen:
             # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
-            estimate, mixture = _slowed(estimate, mixture, np.diag(slowing(kept)))
-        elif self._unseen is not None:
-            estimate, mixture = _slowed(estimate, mixture, slowing_unseen(kept, self._unseen))
-        self._known = estimate, mixture
+            estimate, mixture = _fade_velocity(estimate, mixture, np.diag(fading_factors(kept)))
+        elif self._unobserved_turns is not None:
+            estimate, mixture = _fade_velocity(estimate, mixture, fading_matrix(kept, self._unobserved_turns))
+        self._palm = estimate, mixture
         fingers = None
         if self.fingers is not None and posterior.fingers is not None:
             fingers = self.fingers.accept(posterior.fingers, scan.timestamp_s, scan.dt_s)
         probability, speeds = posterior.mixture.probability[0], self._digit_speeds
-        return FilterStep(scan.timestamp_s, estimate, probability, linked, unseen, speeds), fingers
+        return FilterStep(scan.timestamp_s, estimate, probability, is_linked, unseen, speeds), fingers
 
     @property
     def _digit_speeds(self) -> DigitSpeeds:
         """How fast the digits move now, where the tissue goes by it."""
-        return NO_DIGITS if self.fingers is None or not self.motion.tissue.follows_joints else self.fingers.speeds
+        return (
+            ZERO_SPEEDS if self.fingers is None or not self.motion.tissue.follows_joints else self.fingers.joint_speeds
+        )
 
     def finger_start(self, timestamp_s: float) -> FingerStart | None:
         """What is believed of the fingers now, for smoothing over the frames to come."""
-        return None if self.fingers is None else self.fingers.start(timestamp_s, self._known is None)
+        return None if self.fingers is None else self.fingers.smoother_start(timestamp_s, self._palm is None)
 
-    def find(self, ideal: Detections, facing: Facing) -> FoundPalm | None:
+    def find_palm(self, ideal: Detections, facing: TurnLimits) -> FoundPalm | None:
         """The palm as the blobs show it without any prediction."""
         shapes = SHAPE.stop - SHAPE.start
         strays = self._stationary[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
-        reach = None if self.fingers is None else self.fingers.reach
-        return find_palm(ideal, self._as_known, strays, facing, reach)
+        reach = None if self.fingers is None else self.fingers.is_in_reach
+        return find_palm(ideal, self._current_view, strays, facing, reach)
 
     @property
-    def _as_known(self) -> View:
+    def _current_view(self) -> PalmView:
         """The palm as calibrated, but for discs that a person showed elsewhere."""
-        return with_discs_as_known(self.view, self._learnt[: SHAPE.stop - SHAPE.start], self._placed_anew)
+        return with_placed_discs(self.view, self._learnt_error[: SHAPE.stop - SHAPE.start], self._is_reinitialised)
 
-    def estimate_at(self, found: FoundPalm) -> PalmEstimate:
+    def estimate_from_found(self, found: FoundPalm) -> PalmEstimate:
         """The state estimate of a palm found without any prediction."""
-        initial = InitialSd(velocity_m_s=VELOCITY_M_S, rate_rad_s=RATE_RAD_S)
-        estimate = resting_estimate(initial, self._learnt_covariance)
+        initial = InitialSd(velocity_m_s=VELOCITY_SD_M_S, rate_rad_s=RATE_SD_RAD_S)
+        estimate = initial_estimate(initial, self._learnt_covariance)
         estimate.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m)
         estimate.covariance[SKIN, SKIN] = self._stationary[SKIN, SKIN]
         estimate.covariance[RELIEF, RELIEF] = self._stationary[RELIEF, RELIEF]
-        estimate.value[LEARNT], estimate.value[:3] = self._learnt, found.position_m
+        estimate.value[CALIBRATION_ERROR], estimate.value[:3] = self._learnt_error, found.position_m
         return replace(estimate, rotation_w2_w0=found.rotation_w2_w0)
 
-    def is_against(self, found: FoundPalm, posterior: Posterior) -> bool:
+    def is_contradicted(self, found: FoundPalm, posterior: Posterior) -> bool:
         """Whether a palm was found turned further than a prediction leaves open that enough discs bear out."""
         palm, own, nominal = posterior.palm, self._settings, posterior.predicted.nominal
-        if posterior.seen < MIN_PALM_DISCS or not is_jointly_compatible(palm.nis, palm.dof, own.association):
+        if posterior.seen_count < MIN_PALM_MARKERS or not is_jointly_compatible(palm.nis, palm.dof, own.association):
             return False
         off = so3.log(nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
         either = nominal.covariance[TURN, TURN] + found.pose_covariance(self.view.palm_m)[3:, 3:]
@@ -388,38 +413,42 @@ class HandFilter:
         assigned, rest = posterior.palm.assigned, ~posterior.is_finger
         is_named = np.zeros(rest.size, dtype=bool)
         is_named[assigned[assigned >= 0]] = True
-        return is_other_hand(scan.ideal.only(rest), is_named[rest], self._as_known)
+        return is_other_hand(scan.ideal.subset(rest), is_named[rest], self._current_view)
 
-    def predicted_at(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
+    def predict_from_found(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
         """What was predicted, should the palm be where it was found."""
-        estimate = self.estimate_at(found)
-        return predicted.about(estimate, self._resting_mixture(estimate))
+        estimate = self.estimate_from_found(found)
+        return predicted.with_estimate(estimate, self._resting_mixture(estimate))
 
-    def place_disc(self, named: NamedSpot, predicted: PredictedMeasurement, scan: Scan) -> PredictedMeasurement | None:
+    def place_marker(
+        self, label: LabelledBlob, predicted: PredictedMeasurement, scan: Scan
+    ) -> PredictedMeasurement | None:
         """The prediction with a disc of the palm begun anew where a person says that it is; None for another disc."""
-        if named.marker not in self.order.palm:
+        if label.marker not in self.order.palm:
             return None
-        disc = int(np.flatnonzero(self.order.palm == named.marker)[0])
-        estimate, mixture, self.view = disc_anew(predicted, self.view, disc, named.blob, scan.blobs, self._settings)
+        disc = int(np.flatnonzero(self.order.palm == label.marker)[0])
+        estimate, mixture, self.view = reinitialise_disc(
+            predicted, self.view, disc, label.blob, scan.blobs, self._settings
+        )
         self._noise_factor[disc] = 1.0
-        self._placed_anew[disc] = True
-        self._known = estimate, mixture
-        return predicted.about(estimate, mixture, self.view)
+        self._is_reinitialised[disc] = True
+        self._palm = estimate, mixture
+        return predicted.with_estimate(estimate, mixture, self.view)
 
-    def look_anew(self, named: NamedSpot) -> None:
+    def restart_labelled_digit(self, label: LabelledBlob) -> None:
         """Look for the digit anew of which a person has said which spot a disc is."""
-        digits = np.flatnonzero(self.order.has_discs)[(self.order.digits == named.marker).any(axis=1)]
+        digits = np.flatnonzero(self.order.has_discs)[(self.order.digits == label.marker).any(axis=1)]
         if self.fingers is not None and digits.size:
-            self.fingers.look_anew(int(digits[0]))
+            self.fingers.restart_digit(int(digits[0]))
 
-    def joints(self, posterior: Posterior) -> JointMoment | None:
+    def read_joints(self, posterior: Posterior) -> JointState | None:
         """Thumb and fingers after that update was accepted."""
         if self.fingers is None or posterior.fingers is None:
             return None
-        return self.fingers.read(posterior.fingers)
+        return self.fingers.read_joints(posterior.fingers)
 
 
-def _slowed(
+def _fade_velocity(
     estimate: PalmEstimate, mixture: ModeMixture, kept: NDArray[np.float64]
 ) -> tuple[PalmEstimate, ModeMixture]:
     """Velocities faded: the estimate times ``kept`` (n, n)."""

@@ -16,19 +16,19 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import DIGITS, PALM_MARKERS, MarkerProtocol, joint_discs
+from carpus.core.hand.protocols import DIGITS, PALM_MARKERS, MarkerProtocol, markers_at_joint
 from carpus.core.types import FloatArray, Side
 
-CHAINS, SLOTS, CONSTANTS = 5, 5, 11
-DISCS = 3
+N_DIGITS, N_SLOTS, N_CONSTANTS = 5, 5, 11
+N_DISCS = 3
 """Discs of a digit that move against the palm."""
 
 # The first disc that moves with a slot: 0 the first of the digit's three; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
-SHOWS = np.arange(DISCS) >= _FIRST_DISC[..., None]
+SLOT_MOVES_DISC = np.arange(N_DISCS) >= _FIRST_DISC[..., None]
 """(5, 5, 3) whether a disc moves with a slot."""
 
-NO_CUP = np.zeros(CHAINS)
+ZERO_CUP = np.zeros(N_DIGITS)
 """No metacarpal has flexed."""
 CROWDED_RADII, CROWDED_PX = 2.4, 0.5
 """Centres of discs nearer than so many radii stray by so much: their edges run together."""
@@ -45,7 +45,7 @@ def is_crowded(pixel: FloatArray, radius_px: FloatArray, radii: float) -> NDArra
 
 
 @dataclass(frozen=True, slots=True)
-class PalmInBody:
+class PalmGeometry:
     """The palm as refined so far, in the axes of the tracked body (W0 as calibrated).
 
     ``axes`` (3, 3) maps W of a right hand into the body: for a left hand it mirrors; ``origin_m`` (3,) the WRIST disc
@@ -60,21 +60,21 @@ class PalmInBody:
     cup_sd_rad: FloatArray
 
     @staticmethod
-    def of(
+    def from_discs(
         palm_body_m: FloatArray,
         axes: FloatArray,
         side: Side,
-        cup_rad: FloatArray = NO_CUP,
-        cup_sd_rad: FloatArray = NO_CUP,
-    ) -> PalmInBody:
+        cup_rad: FloatArray = ZERO_CUP,
+        cup_sd_rad: FloatArray = ZERO_CUP,
+    ) -> PalmGeometry:
         """From the palm's discs (6, 3) and the axes (3, 3) of W as columns, both in the body."""
         if side == "left":
             axes = axes * np.array([1.0, -1.0, 1.0])
-        return PalmInBody(axes, palm_body_m[0], (palm_body_m - palm_body_m[0]) @ axes, cup_rad, cup_sd_rad)
+        return PalmGeometry(axes, palm_body_m[0], (palm_body_m - palm_body_m[0]) @ axes, cup_rad, cup_sd_rad)
 
 
 @dataclass(frozen=True, slots=True)
-class JointMoment:
+class JointState:
     """Joint angles (J,), standard deviations and rates (NaN in the papers' model); joint centres and tips (M, 3) in
     W2 of the hand's own side; the digits' discs (5, 3, 3) in camera axes."""
 
@@ -86,39 +86,39 @@ class JointMoment:
 
 
 @dataclass(frozen=True, slots=True)
-class JointReading:
+class JointAngleMap:
     """From the digits' slots to the joint angles of some digits: angle j is ``weight[j] @ slots[chain[j]]``."""
 
     chain: np.ndarray
     weight: FloatArray
 
     @staticmethod
-    def of(dip_free: bool, digits: Sequence[int] = DIGITS) -> JointReading:
-        rows = [(0, np.eye(SLOTS)[slot]) for slot in range(5) if 1 in digits]
+    def from_digits(dip_free: bool, digits: Sequence[int] = DIGITS) -> JointAngleMap:
+        rows = [(0, np.eye(N_SLOTS)[slot]) for slot in range(5) if 1 in digits]
         for chain in (digit - 1 for digit in DIGITS[1:] if digit in digits):
-            rows += [(chain, np.eye(SLOTS)[slot]) for slot in range(3)]
+            rows += [(chain, np.eye(N_SLOTS)[slot]) for slot in range(3)]
             if dip_free:
                 rows.append((chain, np.array([0.0, 0.0, DIP_PER_PIP, 1.0, 0.0])))
-        return JointReading(np.array([chain for chain, _ in rows]), np.array([weight for _, weight in rows]))
+        return JointAngleMap(np.array([chain for chain, _ in rows]), np.array([weight for _, weight in rows]))
 
-    def angles(self, slots: FloatArray) -> FloatArray:
+    def compute_angles(self, slots: FloatArray) -> FloatArray:
         """Joint angles (..., J) of slots (..., 5, 5)."""
         return np.asarray(np.sum(slots[..., self.chain, :] * self.weight, axis=-1))
 
-    def variances(self, covariance: FloatArray) -> FloatArray:
+    def compute_variances(self, covariance: FloatArray) -> FloatArray:
         """Variances (J,) from covariances (5, 5, 5) of the slots."""
         return np.asarray(np.einsum("ji,jik,jk->j", self.weight, covariance[self.chain], self.weight))
 
 
-def direct_markers(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
+def direct_marker_rows(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
     """Rows (J, 2) of the discs at each joint and next past it, which measure it directly."""
-    return np.array([protocol.rows(joint_discs(name)) for name in protocol.joint_names(dip_free)])
+    return np.array([protocol.rows(markers_at_joint(name)) for name in protocol.joint_names(dip_free)])
 
 
 _PALM = MarkerProtocol("palm", PALM_MARKERS)
 
 
-def palm_of(calibration: Calibration) -> Calibration:
+def palm_calibration(calibration: Calibration) -> Calibration:
     """The calibration of the discs that move with the palm, whatever else is on the hand."""
     clicks = calibration.clicks
     if not clicks.protocol.has_fingers:

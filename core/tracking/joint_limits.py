@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from carpus.core.compiled.digits import apply_limits
 from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FloatArray
 
@@ -26,7 +26,7 @@ _NAMES = (
 )
 _WIDE = (-1e3, 1e3)
 _LIMITS = np.array([[HARD_LIMITS_RAD.get(name, _WIDE) for name in chain] for chain in _NAMES])  # (5, 5, 2)
-_DIRECTION = np.broadcast_to(np.eye(SLOTS), (CHAINS, SLOTS, SLOTS)).copy()
+_DIRECTION = np.broadcast_to(np.eye(N_SLOTS), (N_DIGITS, N_SLOTS, N_SLOTS)).copy()
 _DIRECTION[1:, 3, 2] = DIP_PER_PIP
 
 RANGE_SD_RAD = np.where(_LIMITS[..., 1] < 1e2, (_LIMITS[..., 1] - _LIMITS[..., 0]) / math.sqrt(12.0), 0.0)
@@ -38,9 +38,9 @@ MID_RANGE_RAD[1:, 3] = 0.0
 """Slots (5, 5) in the middle of their range; the end joint as the coupling has it."""
 
 
-SOFT_RAD = math.radians(3.0)
+LIMIT_SD_RAD = math.radians(3.0)
 """Standard deviation of the step that a limit is."""
-NEAR_SD = 3.0
+LIMIT_GATE_SD = 3.0
 """Standard deviations from a limit, of angle and step together, from which on it pulls."""
 
 
@@ -52,31 +52,32 @@ def slot_limits_rad(slots: FloatArray) -> FloatArray:
     return limits
 
 
-def outside_limits(slots: FloatArray) -> FloatArray:
+def compute_limit_excess(slots: FloatArray) -> FloatArray:
     """By how much (5, 5) the angles lie beyond their limits; radians, 0 inside, negative below."""
     angles = np.einsum("rjs,rs->rj", _DIRECTION, slots)
     limits = slot_limits_rad(slots)
     return np.asarray(np.maximum(angles - limits[..., 1], 0.0) + np.minimum(angles - limits[..., 0], 0.0))
 
 
-def constrained(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
+def apply_soft_limits(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
     """Estimates with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
 
     Each angle's pull is found by itself, then all pulls of a digit act together, as measurements with independent
     errors.
     """
-    found = apply_limits(estimates, slot_limits_rad(slots), _DIRECTION, SOFT_RAD, NEAR_SD)
+    found = apply_limits(estimates, slot_limits_rad(slots), _DIRECTION, LIMIT_SD_RAD, LIMIT_GATE_SD)
     return estimates if found is None else ModeMixture(*found, estimates.probability)
 
 
-def settled(
-    estimates: ModeMixture, most_beyond_rad: float
+def apply_and_check_limits(
+    estimates: ModeMixture, max_excess_rad: float
 ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
-    """Estimates :func:`constrained` and those merged, and digits (5,) that are ``most_beyond_rad`` beyond a limit even
+    """Estimates :func:`apply_soft_limits` and those merged, and digits (5,) that are ``max_excess_rad`` beyond a
+    limit even
     so."""
-    merged = estimates.merged()
-    kept = constrained(estimates, merged[0][:, :SLOTS])
+    merged = estimates.merge()
+    kept = apply_soft_limits(estimates, merged[0][:, :N_SLOTS])
     if kept is not estimates:
-        merged = kept.merged()
-    beyond_rad = np.abs(outside_limits(merged[0][:, :SLOTS]))
-    return kept, merged, np.asarray((beyond_rad > most_beyond_rad).any(axis=1))
+        merged = kept.merge()
+    beyond_rad = np.abs(compute_limit_excess(merged[0][:, :N_SLOTS]))
+    return kept, merged, np.asarray((beyond_rad > max_excess_rad).any(axis=1))

@@ -28,7 +28,7 @@ class ModeMixture:
     probability: FloatArray
 
     @staticmethod
-    def alike(mean: FloatArray, covariance: FloatArray, modes: int) -> ModeMixture:
+    def from_gaussian(mean: FloatArray, covariance: FloatArray, modes: int) -> ModeMixture:
         """All modes alike and as probable, of means (C, n) and covariances (C, n, n)."""
         return ModeMixture(
             np.repeat(mean[:, None], modes, axis=1),
@@ -36,14 +36,14 @@ class ModeMixture:
             np.full((len(mean), modes), 1.0 / modes),
         )
 
-    def merged(self) -> tuple[FloatArray, FloatArray]:
+    def merge(self) -> tuple[FloatArray, FloatArray]:
         """Mean (C, n) and covariance (C, n, n) over the modes."""
         if self.probability.shape[1] == 1:
             return self.mean[:, 0], self.covariance[:, 0]
-        return compiled.merged(self)
+        return compiled.merge_modes(self)
 
 
-def switching(modes: int, dwell_s: float, dt_s: float) -> FloatArray:
+def mode_transition_matrix(modes: int, dwell_s: float, dt_s: float) -> FloatArray:
     """Probability (K, K) to go from row to column mode in ``dt_s``, staying ``dwell_s`` on average."""
     if modes == 1:
         return np.ones((1, 1))
@@ -53,18 +53,18 @@ def switching(modes: int, dwell_s: float, dt_s: float) -> FloatArray:
     return out
 
 
-def mixed(mixture: ModeMixture, switch: FloatArray) -> ModeMixture:
+def mix_modes(mixture: ModeMixture, switch: FloatArray) -> ModeMixture:
     """Each mode's start from all that may have switched to it; ``switch`` (K, K) from row to column."""
-    return mixture if switch.shape[0] == 1 else ModeMixture(*compiled.mixed(mixture, switch))
+    return mixture if switch.shape[0] == 1 else ModeMixture(*compiled.mix_modes(mixture, switch))
 
 
-def predicted(
+def predict_mixture(
     mixture: ModeMixture, forward: FloatArray, noise: FloatArray, switch: FloatArray | None = None
 ) -> ModeMixture:
-    """P <- F P F' + Q with ``forward`` (C, n, n) and ``noise`` (C, K, n, n), the modes :func:`mixed` before
+    """P <- F P F' + Q with ``forward`` (C, n, n) and ``noise`` (C, K, n, n), the modes :func:`mix_modes` before
     where there is a ``switch``."""
-    mixture = mixture if switch is None else mixed(mixture, switch)
-    return ModeMixture(*compiled.predicted(mixture, forward, noise), mixture.probability)
+    mixture = mixture if switch is None else mix_modes(mixture, switch)
+    return ModeMixture(*compiled.predict_modes(mixture, forward, noise), mixture.probability)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,14 +79,14 @@ class Transition:
     relaxing: FloatArray
 
 
-def transitioned(
+def propagate_mixture(
     mixture: ModeMixture, step: Transition, nominal: FloatArray, switch: FloatArray | None = None
 ) -> ModeMixture:
     """The mixture after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
-    what of that a mode does not keep is an error of the mode. Its modes are :func:`mixed` before where there is a
+    what of that a mode does not keep is an error of the mode. Its modes are :func:`mix_modes` before where there is a
     ``switch``."""
-    mixture = mixture if switch is None else mixed(mixture, switch)
-    return ModeMixture(*compiled.transitioned(mixture, step, nominal), mixture.probability)
+    mixture = mixture if switch is None else mix_modes(mixture, switch)
+    return ModeMixture(*compiled.predict_palm_modes(mixture, step, nominal), mixture.probability)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,18 +114,18 @@ class Update:
     residual: FloatArray
 
 
-def partial_update(size: int, slow: slice, learning: float) -> FloatArray:
-    """Shares (n,) of a correction that the mean takes: the numbers of ``slow`` only ``learning``.
+def partial_update_shares(size: int, rows: slice, share: float) -> FloatArray:
+    """Shares (n,) of a correction that the mean takes: the numbers of ``rows`` only ``share``.
 
     Partial-update Schmidt-Kalman filter (Brink 2017): errors that stay with a disc come again in every picture, and
     believed in full they would bend the hand's geometry until it explains them.
     """
     mean = np.ones(size)
-    mean[slow] = learning
+    mean[rows] = share
     return mean
 
 
-def corrected(
+def update_mixture(
     mixture: ModeMixture,
     linearised: Linearisation,
     measured: FloatArray,
@@ -136,10 +136,11 @@ def corrected(
     """Kalman correction of every chain and mode by ``measured`` (C, m), NaN where there is nothing.
 
     ``variance`` (C, m) of the measurements' own errors, ``shared`` (C, m, m) a covariance common to several of them;
-    ``partial`` of :func:`partial_update`. Everything is taken in units of the noise, since pixels and metres differ by
+    ``partial`` of :func:`partial_update_shares`. Everything is taken in units of the noise, since pixels and metres
+    differ by
     orders of magnitude.
     """
-    found = compiled.corrected(mixture, linearised, measured, variance, shared, partial)
+    found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial)
     return Update(ModeMixture(*found[:3]), *found[3:])
 
 
@@ -147,7 +148,7 @@ def rts_step(
     covariance: FloatArray,
     forward: FloatArray,
     noise: FloatArray,
-    later_less_predicted: FloatArray,
+    difference: FloatArray,
     later_covariance: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
     """One step of Rauch, Tung and Striebel's recursion: the correction (C, n) of a filtered mean and the smoothed
@@ -157,5 +158,5 @@ def rts_step(
     ahead = across @ np.swapaxes(forward, -1, -2) + noise
     gain = np.swapaxes(np.linalg.solve(ahead, across), -1, -2)
     smoothed = covariance + gain @ (later_covariance - ahead) @ np.swapaxes(gain, -1, -2)
-    correction = (gain @ later_less_predicted[..., None])[..., 0]
+    correction = (gain @ difference[..., None])[..., 0]
     return correction, 0.5 * (smoothed + np.swapaxes(smoothed, -1, -2))

@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import move_palm, switch_modes
-from carpus.core.tracking.kernel import ModeMixture, Transition, transitioned
+from carpus.core.compiled.palm import compute_mode_transition, compute_palm_transition
+from carpus.core.tracking.kernel import ModeMixture, Transition, propagate_mixture
 from carpus.core.tracking.palm_state import POSITION, RATE, SIZE, SKIN, TURN, VELOCITY, PalmEstimate
-from carpus.core.tracking.soft_tissue import HOME, NO_DIGITS, STILL, DigitSpeeds, TissueModes
+from carpus.core.tracking.soft_tissue import HOME, STILL, ZERO_SPEEDS, DigitSpeeds, TissueModes
 from carpus.core.types import FloatArray
 
 REFERENCE_DT_S = 1.0 / 30.0
@@ -52,15 +52,15 @@ class MotionNoise:
 class PalmTransition(Transition):
     """A step of the palm, and the turn (3, 3) that the rate makes of it."""
 
-    turned: FloatArray
+    rotation_increment: FloatArray
 
-    def carries(self, estimate: PalmEstimate, dt_s: float, covariance: FloatArray | None = None) -> PalmEstimate:
+    def propagate(self, estimate: PalmEstimate, dt_s: float, covariance: FloatArray | None = None) -> PalmEstimate:
         """The nominal estimate after the step, its covariance left as it is, or the one given."""
         value = estimate.value.copy()
         value[POSITION] += estimate.velocity_m_s * dt_s
         value[TURN] = 0.0
         covariance = estimate.covariance if covariance is None else covariance
-        return PalmEstimate(estimate.rotation_w2_w0 @ self.turned, value, covariance)
+        return PalmEstimate(estimate.rotation_w2_w0 @ self.rotation_increment, value, covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,23 +93,25 @@ class PalmMotion:
     def modes(self) -> int:
         return self.scale_of.size
 
-    def switch(self, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = NO_DIGITS) -> FloatArray:
+    def mode_transition_matrix(
+        self, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = ZERO_SPEEDS
+    ) -> FloatArray:
         """Probability (K, K) to go from row to column mode in ``dt_s``, of a hand that turns at ``rate_rad_s`` (3,)."""
-        return switch_modes(self, rate_rad_s, dt_s, digits)
+        return compute_mode_transition(self, rate_rad_s, dt_s, digits)
 
     @property
-    def at_rest(self) -> FloatArray:
+    def initial_probability(self) -> FloatArray:
         """Probability (K,) of the modes of a hand just calibrated."""
-        out: FloatArray = self.tissue.at_rest[self.tissue_of]
+        out: FloatArray = self.tissue.initial_probability[self.tissue_of]
         out[: self.scales.size * self.tissue.resting] /= self.scales.size
         return out
 
-    def tissue_noise(self, went_over: FloatArray, step: PalmTransition) -> FloatArray:
+    def tissue_noise(self, mode_transitions: FloatArray, step: PalmTransition) -> FloatArray:
         """What pushes the tissue (r, r) in a step that went from row to column mode with these probabilities (K, K),
         seen as one that keeps all it has: coming home is a push as well."""
         tissue = self.tissue
         joint = np.zeros((tissue.count, tissue.count))
-        np.add.at(joint, (self.tissue_of[:, None], self.tissue_of), went_over)
+        np.add.at(joint, (self.tissue_of[:, None], self.tissue_of), mode_transitions)
         pushed = np.empty((tissue.count, *step.relaxing.shape[1:]))
         pushed[self.tissue_of] = step.relaxing
         if tissue.count == 1:
@@ -126,51 +128,53 @@ def palm_transition(
     motion: PalmMotion,
     dt_s: float,
     unseen: FloatArray | None = None,
-    digits: DigitSpeeds = NO_DIGITS,
+    digits: DigitSpeeds = ZERO_SPEEDS,
 ) -> PalmTransition:
     """The step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,) while its ``digits`` move; ``unseen`` (3, 3)
     projects on the turns in W2 that nothing showed."""
-    return PalmTransition(*move_palm(motion, rate_rad_s, dt_s, unseen, digits))
+    return PalmTransition(*compute_palm_transition(motion, rate_rad_s, dt_s, unseen, digits))
 
 
-def palm_ahead(
+def predict_palm(
     estimate: PalmEstimate,
     mixture: ModeMixture,
     motion: PalmMotion,
     dt_s: float,
     unseen: FloatArray | None = None,
-    digits: DigitSpeeds = NO_DIGITS,
+    digits: DigitSpeeds = ZERO_SPEEDS,
 ) -> tuple[PalmEstimate, ModeMixture]:
     """The palm ``dt_s`` later, its modes as errors from the nominal estimate, whose covariance is that of them all."""
     step = palm_transition(estimate.rate_rad_s, motion, dt_s, unseen, digits)
-    later = transitioned(mixture, step, estimate.value, motion.switch(estimate.rate_rad_s, dt_s, digits))
-    return step.carries(estimate, dt_s, later.merged()[1][0]), later
+    later = propagate_mixture(
+        mixture, step, estimate.value, motion.mode_transition_matrix(estimate.rate_rad_s, dt_s, digits)
+    )
+    return step.propagate(estimate, dt_s, later.merge()[1][0]), later
 
 
-def slowing(keep: float) -> FloatArray:
+def fading_factors(keep: float) -> FloatArray:
     """Factors (n,) that leave the share ``keep`` of the velocities and all else as it is."""
     out = np.ones(SIZE)
     out[VELOCITY] = out[RATE] = keep
     return out
 
 
-def slowing_unseen(keep: float, unseen: FloatArray) -> FloatArray:
+def fading_matrix(keep: float, unseen: FloatArray) -> FloatArray:
     """A matrix (n, n) that leaves the share ``keep`` of the turning along ``unseen`` (3, 3) and all else as it is."""
     out = np.eye(SIZE)
     out[RATE, RATE] -= (1.0 - keep) * unseen
     return out
 
 
-def unseen_turns(places_m: FloatArray, narrow_m: float) -> FloatArray | None:
-    """Which turns (3, 3, a projection) discs at ``places_m`` (D, 3) on the palm do not show; None where they show all.
+def find_unobserved_turns(disc_m: FloatArray, collinear_rms_m: float) -> FloatArray | None:
+    """Which turns (3, 3, a projection) discs at ``disc_m`` (D, 3) on the palm do not show; None where they show all.
 
     Discs near one line say nothing of turning about it: what moves then is their heights over it, a few millimetres.
     """
-    if len(places_m) < 2:
+    if len(disc_m) < 2:
         return np.eye(3)
-    apart = places_m[:, :2] - places_m[:, :2].mean(axis=0)
+    apart = disc_m[:, :2] - disc_m[:, :2].mean(axis=0)
     _, spread, axes = np.linalg.svd(apart, full_matrices=False)
-    if spread[1] >= narrow_m * math.sqrt(len(places_m)):
+    if spread[1] >= collinear_rms_m * math.sqrt(len(disc_m)):
         return None
     line = np.array([axes[0, 0], axes[0, 1], 0.0])
     return np.outer(line, line)

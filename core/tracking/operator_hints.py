@@ -14,51 +14,51 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.types import BoolArray, Detections, FloatArray, SpotAnswer
+from carpus.core.types import BoolArray, Detections, FloatArray, MarkerLabel
 
-STEP_PX = 8.0
+MAX_STEP_PX = 8.0
 """No further a spot is followed from picture to picture."""
-BACK_WITHIN_PX = 12.0
+RETURN_GATE_PX = 12.0
 """So near to where it was, in the picture or beside its marker, a spot that comes back is the same."""
-HOLDS_S = 60.0
+REJECTION_VALID_S = 60.0
 """After that a spot that is no disc is asked about again, if there is still something to ask."""
-GONE_AFTER_S = 0.5
+MAX_HIDDEN_S = 0.5
 """Where nobody will ask: out of sight for so long, what comes out there later may be a disc."""
-KEPT_PICTURES = 60
+KEPT_FRAMES = 60
 """In which a spot that was spoken of is looked for."""
-ANSWER_HOLDS_S = 0.5
+LABEL_TIMEOUT_S = 0.5
 """So long an answer waits for a picture that shows its spot."""
-SAME_PX = 0.5
+SAME_POSITION_PX = 0.5
 """A blob so near to the spot that was followed is that spot."""
 
 
-class RecentSpots:
+class RecentBlobs:
     """The spots of the last pictures: what was said of one, a moment ago, is found in the newest."""
 
-    def __init__(self, step_px: float = STEP_PX) -> None:
+    def __init__(self, step_px: float = MAX_STEP_PX) -> None:
         self._step_px = step_px
-        self._pictures: deque[tuple[int, FloatArray]] = deque(maxlen=KEPT_PICTURES)
+        self._frames: deque[tuple[int, FloatArray]] = deque(maxlen=KEPT_FRAMES)
 
-    def keep(self, index: int, pixel: FloatArray) -> None:
+    def add_frame(self, index: int, pixel: FloatArray) -> None:
         """Remember the spots (D, 2) of a picture."""
-        self._pictures.append((index, pixel))
+        self._frames.append((index, pixel))
 
-    def now_px(self, index: int, place_px: FloatArray) -> FloatArray | None:
-        """Where the spot that lay at ``place_px`` (2,) in picture ``index`` lies in the newest; None when lost."""
-        place = np.asarray(place_px, dtype=np.float64)
-        for number, pixel in self._pictures:
-            if number < index or not len(pixel):
+    def locate(self, frame_index: int, pixel: FloatArray) -> FloatArray | None:
+        """Where the spot that lay at ``pixel`` (2,) in picture ``frame_index`` lies in the newest; None when lost."""
+        place = np.asarray(pixel, dtype=np.float64)
+        for number, pixel in self._frames:
+            if number < frame_index or not len(pixel):
                 continue
             away = np.linalg.norm(pixel - place, axis=1)
             if away.min() <= self._step_px:
                 place = pixel[int(away.argmin())]
-        return place if len(self._pictures) and len(self._pictures[-1][1]) and self._is_seen(place) else None
+        return place if len(self._frames) and len(self._frames[-1][1]) and self._is_seen(place) else None
 
     def _is_seen(self, place: FloatArray) -> bool:
-        return bool(np.linalg.norm(self._pictures[-1][1] - place, axis=1).min() < 1e-6)
+        return bool(np.linalg.norm(self._frames[-1][1] - place, axis=1).min() < 1e-6)
 
 
-class NoDisc:
+class RejectedBlob:
     """A spot that a person said at ``time_s`` is not a marker, row ``marker`` of the protocol."""
 
     def __init__(
@@ -71,29 +71,29 @@ class NoDisc:
         is_asked_again: bool,
     ) -> None:
         self.marker = marker
-        self._place_px, self._beside_px, self._is_asked_again = place_px, beside_px, is_asked_again
-        self._said_s = self._seen_s = time_s
+        self._pixel, self._offset_px, self._is_asked_again = place_px, beside_px, is_asked_again
+        self._labelled_s = self._seen_s = time_s
         self._was_seen = True
 
-    def holds(self, time_s: float) -> bool:
+    def is_valid(self, time_s: float) -> bool:
         """Whether what was said of it still counts."""
         if self._is_asked_again:
-            return time_s - self._said_s <= HOLDS_S
-        return time_s - self._seen_s <= GONE_AFTER_S
+            return time_s - self._labelled_s <= REJECTION_VALID_S
+        return time_s - self._seen_s <= MAX_HIDDEN_S
 
-    def find(self, time_s: float, pixel: FloatArray, expected_px: FloatArray, held: BoolArray) -> int:
+    def find(self, time_s: float, pixel: FloatArray, predicted_px: FloatArray, is_measured: BoolArray) -> int:
         """Which of the spots (D, 2) it is, -1 for none. ``expected_px`` (M, 2) where the markers should be; those
-        ``held`` (M,) a moment ago keep the spots that are nearer to them."""
+        ``is_measured`` (M,) a moment ago keep the spots that are nearer to them."""
         if self._was_seen:
             self._seen_s = time_s
         if not len(pixel):
             self._was_seen = False
             return -1
-        marker_px = expected_px[self.marker]
-        guesses = [self._place_px] if self._was_seen else [self._place_px, marker_px + self._beside_px]
-        reach_px = STEP_PX if self._was_seen else BACK_WITHIN_PX
+        marker_px = predicted_px[self.marker]
+        guesses = [self._pixel] if self._was_seen else [self._pixel, marker_px + self._offset_px]
+        reach_px = MAX_STEP_PX if self._was_seen else RETURN_GATE_PX
         away = np.min([np.linalg.norm(pixel - guess, axis=1) for guess in guesses if np.isfinite(guess).all()], axis=0)
-        claims = expected_px[held & np.isfinite(expected_px).all(axis=1)]
+        claims = predicted_px[is_measured & np.isfinite(predicted_px).all(axis=1)]
         if len(claims):
             claimed = np.linalg.norm(pixel[:, None] - claims[None], axis=-1).min(axis=1)
             away = np.where(claimed < away, math.inf, away)
@@ -101,142 +101,147 @@ class NoDisc:
         self._was_seen = bool(away[best] <= reach_px)
         if not self._was_seen:
             return -1
-        self._place_px = pixel[best]
+        self._pixel = pixel[best]
         if np.isfinite(marker_px).all():
-            self._beside_px = self._place_px - marker_px
+            self._offset_px = self._pixel - marker_px
         return best
 
 
 @dataclass(frozen=True, slots=True)
-class NamedSpot:
+class LabelledBlob:
     """An answer of which the spot is seen: ``blob`` of the picture is the protocol's ``marker``."""
 
-    answer: SpotAnswer
+    label: MarkerLabel
     marker: int
     blob: int
 
 
 @dataclass(frozen=True, slots=True)
-class _Waiting:
+class _PendingLabel:
     """An answer whose spots were looked for in vain ``since_s``, NaN for not yet."""
 
-    answer: SpotAnswer
+    label: MarkerLabel
     is_asked_again: bool
     since_s: float = math.nan
 
 
 @dataclass(frozen=True, slots=True)
-class Hinted:
-    """The blobs of a picture that may be discs, which ``no_disc`` (D,) of all were left out, and the one that a person
+class LabelledDetections:
+    """The blobs of a picture that may be discs, which ``is_rejected`` (D,) of all were left out, and the one that a
+    person
     has just named."""
 
     detections: Detections
-    no_disc: BoolArray
-    named: NamedSpot | None
+    is_rejected: BoolArray
+    labelled: LabelledBlob | None
 
 
-class OperatorHints:
+class OperatorLabels:
     """Remembers what a person said, and finds the spots again in every picture."""
 
     def __init__(self, markers: Sequence[str]) -> None:
         self._markers = markers
-        self._spots = RecentSpots()
-        self._answers: list[_Waiting] = []
-        self._taken_up: list[SpotAnswer] = []
-        self._no_discs: list[NoDisc] = []
-        self._held = np.zeros(len(markers), dtype=bool)
+        self._recent = RecentBlobs()
+        self._pending: list[_PendingLabel] = []
+        self._applied: list[MarkerLabel] = []
+        self._rejected: list[RejectedBlob] = []
+        self._is_measured = np.zeros(len(markers), dtype=bool)
 
-    def hear(self, answer: SpotAnswer, *, is_asked_again: bool = True) -> None:
+    def add(self, label: MarkerLabel, *, is_asked_again: bool = True) -> None:
         """Something said of a picture shown a moment ago, from the next picture on; after a while the person is asked
         again, or never."""
-        self._answers.append(_Waiting(answer, is_asked_again))
+        self._pending.append(_PendingLabel(label, is_asked_again))
 
-    def taken_up(self) -> list[SpotAnswer]:
+    def pop_applied(self) -> list[MarkerLabel]:
         """The answers taken up since the last call, with the spots as they lay in the picture that took them."""
-        out, self._taken_up = self._taken_up, []
+        out, self._applied = self._applied, []
         return out
 
-    def take_up(self, named: NamedSpot) -> None:
+    def mark_applied(self, labelled: LabelledBlob) -> None:
         """The spot was associated as said."""
-        self._taken_up.append(named.answer)
+        self._applied.append(labelled.label)
 
-    def hold(self, measured_px: FloatArray) -> None:
+    def follow(self, measured_px: FloatArray) -> None:
         """Which markers a picture was measured by, (M, 2) NaN where not: they keep the spots nearer to them."""
-        self._held = np.isfinite(measured_px[:, 0])
+        self._is_measured = np.isfinite(measured_px[:, 0])
 
-    def screened(
-        self, index: int, timestamp_s: float, detections: Detections, expected_px: Callable[[], FloatArray]
-    ) -> Hinted:
+    def apply_labels(
+        self, index: int, timestamp_s: float, detections: Detections, predict_px: Callable[[], FloatArray]
+    ) -> LabelledDetections:
         """A picture in the light of what was said; ``expected_px`` (M, 2) where its markers should be, NaN while the
         hand is lost."""
-        self._spots.keep(index, detections.pixel)
-        heard = self._heard(index, timestamp_s, expected_px)
-        no_disc = self._without(timestamp_s, detections.pixel, expected_px)
-        left = detections.only(~no_disc) if self._no_discs else detections
-        return Hinted(left, no_disc, None if heard is None else self._named(heard, left.pixel))
+        self._recent.add_frame(index, detections.pixel)
+        heard = self._apply_pending(index, timestamp_s, predict_px)
+        no_disc = self._find_rejected(timestamp_s, detections.pixel, predict_px)
+        left = detections.subset(~no_disc) if self._rejected else detections
+        return LabelledDetections(left, no_disc, None if heard is None else self._find_labelled(heard, left.pixel))
 
-    def _heard(self, index: int, timestamp_s: float, expected_px: Callable[[], FloatArray]) -> SpotAnswer | None:
+    def _apply_pending(
+        self, index: int, timestamp_s: float, expected_px: Callable[[], FloatArray]
+    ) -> MarkerLabel | None:
         """Take up what is no disc of every answer whose spots are seen, and the first that names one: a picture is
         associated with one name that is new, and the next takes its turn in the next."""
-        waiting, self._answers = self._answers, []
-        named: SpotAnswer | None = None
+        waiting, self._pending = self._pending, []
+        named: MarkerLabel | None = None
         for one in waiting:
-            now = self._now(one.answer)
+            now = self._locate_label(one.label)
             if now is None:
                 since_s = timestamp_s if math.isnan(one.since_s) else one.since_s
-                if timestamp_s - since_s < ANSWER_HOLDS_S and one.answer.marker in self._markers:
-                    self._answers.append(replace(one, since_s=since_s))
+                if timestamp_s - since_s < LABEL_TIMEOUT_S and one.label.marker in self._markers:
+                    self._pending.append(replace(one, since_s=since_s))
                 continue
-            now = replace(now, index=index)
-            if now.place_px is not None and named is not None:
-                self._answers.append(replace(one, answer=replace(now, not_px=()), since_s=math.nan))
-                now = replace(now, place_px=None)
-            elif now.place_px is not None:
+            now = replace(now, frame_index=index)
+            if now.pixel is not None and named is not None:
+                self._pending.append(replace(one, label=replace(now, rejected_px=()), since_s=math.nan))
+                now = replace(now, pixel=None)
+            elif now.pixel is not None:
                 named = now
-            if now.not_px or now.place_px is not None:
-                self._add_no_discs(replace(one, answer=now), timestamp_s, expected_px)
+            if now.rejected_px or now.pixel is not None:
+                self._add_rejected(replace(one, label=now), timestamp_s, expected_px)
         return named
 
-    def _now(self, answer: SpotAnswer) -> SpotAnswer | None:
+    def _locate_label(self, answer: MarkerLabel) -> MarkerLabel | None:
         """The answer with its spots where they lie in the newest picture; None while the spot it names is not seen."""
         if answer.marker not in self._markers:
             return None
 
-        def now_px(place: tuple[float, float]) -> tuple[float, float] | None:
-            found = self._spots.now_px(answer.index, np.array(place))
+        def locate(place: tuple[float, float]) -> tuple[float, float] | None:
+            found = self._recent.locate(answer.frame_index, np.array(place))
             return None if found is None else (float(found[0]), float(found[1]))
 
-        place = None if answer.place_px is None else now_px(answer.place_px)
-        others = tuple(spot for one in answer.not_px if (spot := now_px(one)) is not None)
-        if place is None and (answer.place_px is not None or not others):
+        place = None if answer.pixel is None else locate(answer.pixel)
+        others = tuple(spot for one in answer.rejected_px if (spot := locate(one)) is not None)
+        if place is None and (answer.pixel is not None or not others):
             return None
-        return replace(answer, place_px=place, not_px=others)
+        return replace(answer, pixel=place, rejected_px=others)
 
-    def _add_no_discs(self, said: _Waiting, time_s: float, expected_px: Callable[[], FloatArray]) -> None:
-        answer = said.answer
+    def _add_rejected(self, said: _PendingLabel, time_s: float, expected_px: Callable[[], FloatArray]) -> None:
+        answer = said.label
         marker = self._markers.index(answer.marker)
-        for place in answer.not_px:
+        for place in answer.rejected_px:
             place_px = np.array(place)
             beside_px = place_px - expected_px()[marker]
-            self._no_discs.append(NoDisc(marker, place_px, beside_px, time_s, is_asked_again=said.is_asked_again))
-        self._held[marker] = False
-        if answer.place_px is None:
-            self._taken_up.append(answer)
+            self._rejected.append(RejectedBlob(marker, place_px, beside_px, time_s, is_asked_again=said.is_asked_again))
+        self._is_measured[marker] = False
+        if answer.pixel is None:
+            self._applied.append(answer)
 
-    def _without(self, timestamp_s: float, pixel: FloatArray, expected_px: Callable[[], FloatArray]) -> BoolArray:
+    def _find_rejected(self, timestamp_s: float, pixel: FloatArray, expected_px: Callable[[], FloatArray]) -> BoolArray:
         """Which spots (D, 2) a person said are none of the markers they were asked about."""
         out = np.zeros(len(pixel), dtype=bool)
-        self._no_discs = [one for one in self._no_discs if one.holds(timestamp_s)]
-        for one in self._no_discs:
-            found = one.find(timestamp_s, pixel, expected_px(), self._held)
+        self._rejected = [one for one in self._rejected if one.is_valid(timestamp_s)]
+        for one in self._rejected:
+            found = one.find(timestamp_s, pixel, expected_px(), self._is_measured)
             if found >= 0:
                 out[found] = True
         return out
 
-    def _named(self, heard: SpotAnswer, pixel: FloatArray) -> NamedSpot | None:
+    def _find_labelled(self, heard: MarkerLabel, pixel: FloatArray) -> LabelledBlob | None:
         """The blob (D, 2) that was shown, if it is one of those left."""
-        if heard.place_px is None or not len(pixel):
+        if heard.pixel is None or not len(pixel):
             return None
-        away_px = np.linalg.norm(pixel - heard.place_px, axis=1)
+        away_px = np.linalg.norm(pixel - heard.pixel, axis=1)
         blob = int(away_px.argmin())
-        return NamedSpot(heard, self._markers.index(heard.marker), blob) if away_px[blob] <= SAME_PX else None
+        return (
+            LabelledBlob(heard, self._markers.index(heard.marker), blob) if away_px[blob] <= SAME_POSITION_PX else None
+        )

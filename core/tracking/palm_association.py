@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.tracking import association
 from carpus.core.tracking.association import JointAssociation, associate_jointly, is_jointly_compatible
-from carpus.core.tracking.kernel import ModeMixture, corrected
+from carpus.core.tracking.kernel import ModeMixture, update_mixture
 from carpus.core.tracking.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.types import Detections, FloatArray
 
-SHADE_SHARE, WHOLE_FROM = 0.7, 0.6
+CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE = 0.7, 0.6
 """So far the centre of a partly covered disc may wander, as a share of its radius times what is missing of its area
 below the second."""
 MAX_OUTLIERS = 3
@@ -40,7 +40,8 @@ class Measurements:
 class UpdatedPalm:
     """All modes corrected by the blobs as named.
 
-    ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``measured`` (M, 3) whether each
+    ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``is_measured`` (M, 3) whether
+    each
     component was, and its ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
     given more noise; both 0 where nothing was measured.
     """
@@ -49,12 +50,12 @@ class UpdatedPalm:
     assigned: NDArray[np.int64]
     nis: float
     dof: int
-    measured: NDArray[np.bool_]
+    is_measured: NDArray[np.bool_]
     residual: FloatArray
     raw_residual: FloatArray
 
 
-def measurements_of(
+def measurements_from_blobs(
     blobs: Detections, radius_px: float, settings: TrackerSettings, sensor: DepthSensor
 ) -> Measurements:
     """Blobs with the noise of each: what its picture and its depth are worth.
@@ -65,7 +66,7 @@ def measurements_of(
     noise = settings.noise
     depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
     shown = blobs.area_px / (np.pi * radius_px**2)
-    wander_px = SHADE_SHARE * radius_px * np.maximum(WHOLE_FROM - shown, 0.0)
+    wander_px = CENTRE_SHIFT_SHARE * radius_px * np.maximum(MIN_WHOLE_AREA_SHARE - shown, 0.0)
     value = np.empty((len(blobs), 3))
     value[:, :2], value[:, 2] = blobs.pixel, depth
     known = np.isfinite(depth)
@@ -76,11 +77,11 @@ def measurements_of(
     beyond2 = np.maximum(sd_m**2 - book2, 0.0)
     variance = np.empty((len(blobs), 3))
     variance[:, :2] = (noise.pixel_sd_px**2 + wander_px**2)[:, None]
-    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + sensor.stays_sd_m(at_m) ** 2
+    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + sensor.bias_sd_m(at_m) ** 2
     return Measurements(value, variance)
 
 
-def update(
+def update_palm(
     predicted: PredictedMeasurement,
     blobs: Measurements,
     assigned: NDArray[np.int64],
@@ -96,7 +97,7 @@ def update(
         return UpdatedPalm(predicted.mixture, assigned, float("nan"), 0, used, nothing, nothing)
     value = np.where(used, blobs.value.take(assigned, 0), np.nan)
     variance = blobs.variance.take(assigned, 0) * noise_factor
-    found = corrected(
+    found = update_mixture(
         predicted.mixture,
         predicted.linearised,
         value.reshape(1, -1),
@@ -110,43 +111,46 @@ def update(
 def associate_and_update(
     predicted: PredictedMeasurement,
     blobs: Measurements,
-    enough: int,
+    min_assigned: int,
     resolution_px2: float,
     noise_factor: FloatArray,
     settings: TrackerSettings,
 ) -> UpdatedPalm:
     """Names by (12), each marker judged by itself; where these are not jointly compatible, all jointly.
 
-    Compatible: the joint NIS is credible, and ``enough`` markers are named unless no blob is left that could be one.
+    Compatible: the joint NIS is credible, and ``min_assigned`` markers are named unless no blob is left that could be
+    one.
     """
     mean, covariance = predicted.mean, predicted.covariance
     markers = len(mean)
     if not len(blobs):
         nothing = np.full(markers, -1, dtype=np.int64)
-        return update(predicted, blobs, nothing, nothing > 0, noise_factor)
+        return update_palm(predicted, blobs, nothing, nothing > 0, noise_factor)
     odds = association.log_odds(
         mean,
         covariance,
         blobs.value,
         blobs.variance,
         resolution_px2,
-        association.DEPTH_OUTLIER,
+        association.DEPTH_OUTLIER_PROBABILITY,
         settings.association,
     )
-    assigned = association.resolve(odds.value)
+    assigned = association.assign_blobs(odds.value)
     with_depth = odds.with_depth[np.arange(markers), assigned]
-    assigned = _in_company(assigned, with_depth, blobs, mean[:, 2], settings.association)
-    simple = update(predicted, blobs, assigned, with_depth, noise_factor)
+    assigned = _reject_wrong_depths(assigned, with_depth, blobs, mean[:, 2], settings.association)
+    simple = update_palm(predicted, blobs, assigned, with_depth, noise_factor)
     named = np.count_nonzero(assigned >= 0)
-    if (named >= enough or named == len(blobs)) and is_jointly_compatible(simple.nis, simple.dof, settings.association):
-        return _without_outliers(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
-    found = _by_any_mode(predicted, blobs, resolution_px2, settings)
-    assigned = _in_company(found.assigned, found.with_depth, blobs, mean[:, 2], settings.association)
-    jointly = update(predicted, blobs, assigned, found.with_depth, noise_factor)
-    return _without_outliers(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
+    if (named >= min_assigned or named == len(blobs)) and is_jointly_compatible(
+        simple.nis, simple.dof, settings.association
+    ):
+        return _inflate_outlier_noise(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
+    found = _associate_by_mode(predicted, blobs, resolution_px2, settings)
+    assigned = _reject_wrong_depths(found.assigned, found.with_depth, blobs, mean[:, 2], settings.association)
+    jointly = update_palm(predicted, blobs, assigned, found.with_depth, noise_factor)
+    return _inflate_outlier_noise(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
 
 
-def _in_company(
+def _reject_wrong_depths(
     assigned: NDArray[np.int64],
     with_depth: NDArray[np.bool_],
     blobs: Measurements,
@@ -169,7 +173,7 @@ def _in_company(
     return np.where(elsewhere, -1, assigned)
 
 
-def _by_any_mode(
+def _associate_by_mode(
     predicted: PredictedMeasurement, blobs: Measurements, resolution_px2: float, settings: TrackerSettings
 ) -> JointAssociation:
     """The likeliest joint names over all motion modes.
@@ -183,16 +187,16 @@ def _by_any_mode(
             blobs.value,
             blobs.variance,
             resolution_px2,
-            association.DEPTH_OUTLIER,
+            association.DEPTH_OUTLIER_PROBABILITY,
             settings.association,
         )
-        for mean, covariance in zip(*predicted.by_mode(), strict=True)
+        for mean, covariance in zip(*predicted.mode_predictions(), strict=True)
     ]
     score = [one.log_posterior for one in every] + np.log(predicted.mixture.probability[0])
     return every[int(np.argmax(score))]
 
 
-def _without_outliers(
+def _inflate_outlier_noise(
     named: UpdatedPalm,
     predicted: PredictedMeasurement,
     blobs: Measurements,
@@ -213,5 +217,7 @@ def _without_outliers(
         factor = factor.copy()
         factor[marker, 2:] *= size**2 if axis == 2 else 1.0
         factor[marker, :2] *= 1.0 if axis == 2 else size**2
-        named = replace(update(predicted, blobs, named.assigned, with_depth, factor), raw_residual=named.raw_residual)
+        named = replace(
+            update_palm(predicted, blobs, named.assigned, with_depth, factor), raw_residual=named.raw_residual
+        )
     return named

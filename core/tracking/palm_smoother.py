@@ -18,23 +18,24 @@ import numpy as np
 
 from carpus.core.tracking.kernel import rts_step
 from carpus.core.tracking.motion import PalmMotion, palm_transition
-from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, TURN, PalmEstimate
-from carpus.core.tracking.soft_tissue import NO_DIGITS, DigitSpeeds
+from carpus.core.tracking.palm_state import RIGID_MOTION, SIZE, SOFT_TISSUE, TURN, PalmEstimate
+from carpus.core.tracking.soft_tissue import ZERO_SPEEDS, DigitSpeeds
 from carpus.core.types import FloatArray
 
 Estimate = TypeVar("Estimate")
 
 
 @dataclass(frozen=True, slots=True)
-class Passage:
+class SmootherTransition:
     """From one frame of C chains to the next, about the earlier one's filtered mean: its ``covariance``, the step's
-    ``forward`` and ``noise`` (C, n, n), how far the later smoothed mean lies from the predicted one, ``apart`` (C, n),
+    ``forward`` and ``noise`` (C, n, n), how far the later smoothed mean lies from the predicted one, ``difference``
+    (C, n),
     and the ``later_covariance`` (C, n, n)."""
 
     covariance: FloatArray
     forward: FloatArray
     noise: FloatArray
-    apart: FloatArray
+    difference: FloatArray
     later_covariance: FloatArray
 
 
@@ -43,16 +44,16 @@ class Trajectory(Protocol[Estimate]):
 
     def __len__(self) -> int: ...
 
-    def filtered(self, frame: int) -> Estimate | None:
+    def get_estimate(self, frame: int) -> Estimate | None:
         """What was believed after a frame; None where nothing was known."""
 
-    def seconds_on(self, frame: int) -> float | None:
+    def seconds_to_next(self, frame: int) -> float | None:
         """Time to the next frame; None where that one does not follow from this one."""
 
-    def passage(self, frame: int, now: Estimate, later: Estimate, dt_s: float) -> Passage:
+    def compute_transition(self, frame: int, filtered: Estimate, later: Estimate, dt_s: float) -> SmootherTransition:
         """From the estimate of a frame to the smoothed one of the next."""
 
-    def moved(self, now: Estimate, correction: FloatArray, covariance: FloatArray) -> Estimate:
+    def apply_correction(self, filtered: Estimate, correction: FloatArray, covariance: FloatArray) -> Estimate:
         """An estimate moved by a ``correction`` (C, n), with another ``covariance`` (C, n, n)."""
 
 
@@ -62,41 +63,42 @@ class Smoother(Generic[Estimate]):
     def __init__(self, trajectory: Trajectory[Estimate]) -> None:
         self._trajectory = trajectory
 
-    def backwards(self) -> Iterator[tuple[int, Estimate | None]]:
+    def iterate_backwards(self) -> Iterator[tuple[int, Estimate | None]]:
         """Every frame with its smoothed estimate, None where nothing was known; the last frame first."""
         later: Estimate | None = None
         for frame in reversed(range(len(self._trajectory))):
-            later = self._before(frame, later)
+            later = self._smooth_frame(frame, later)
             yield frame, later
 
-    def _before(self, frame: int, later: Estimate | None) -> Estimate | None:
+    def _smooth_frame(self, frame: int, later: Estimate | None) -> Estimate | None:
         """The smoothed estimate of a frame from that of the next."""
-        now, dt_s = self._trajectory.filtered(frame), self._trajectory.seconds_on(frame)
+        now, dt_s = self._trajectory.get_estimate(frame), self._trajectory.seconds_to_next(frame)
         if now is None or later is None or dt_s is None:
             return now
         if dt_s <= 0.0:
             return later  # the same moment: nothing lies between
-        passage = self._trajectory.passage(frame, now, later, dt_s)
+        passage = self._trajectory.compute_transition(frame, now, later, dt_s)
         correction, covariance = rts_step(
-            passage.covariance, passage.forward, passage.noise, passage.apart, passage.later_covariance
+            passage.covariance, passage.forward, passage.noise, passage.difference, passage.later_covariance
         )
-        return self._trajectory.moved(now, correction, covariance)
+        return self._trajectory.apply_correction(now, correction, covariance)
 
 
 @dataclass(frozen=True, slots=True)
 class FilterStep:
     """One step of the filter: the corrected estimate (None when lost), how it was predicted, when.
 
-    ``probability`` (K,) of the modes after it; ``linked`` False where the track began anew; ``unseen`` (3, 3)
-    turns that nothing had shown before the step; ``digits`` how fast the thumb and fingers moved after it.
+    ``probability`` (K,) of the modes after it; ``is_linked`` False where the track began anew; ``unobserved_turns``
+    (3, 3)
+    turns that nothing had shown before the step; ``digit_speeds`` how fast the thumb and fingers moved after it.
     """
 
     timestamp_s: float
     estimate: PalmEstimate | None
     probability: FloatArray
-    linked: bool
-    unseen: FloatArray | None = None
-    digits: DigitSpeeds = NO_DIGITS
+    is_linked: bool
+    unobserved_turns: FloatArray | None = None
+    digit_speeds: DigitSpeeds = ZERO_SPEEDS
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,18 +108,18 @@ class PalmTrajectory:
     steps: Sequence[FilterStep]
     motion: PalmMotion
 
-    went_over: Sequence[FloatArray | None] = field(init=False, repr=False, compare=False)
+    mode_transitions: Sequence[FloatArray | None] = field(init=False, repr=False, compare=False)
     """Probability (K, K) that each step went from row to column mode, in the light of all that came after."""
 
     def __post_init__(self) -> None:
         out: list[FloatArray | None] = [None] * len(self.steps)
         later: FloatArray | None = None
         for frame in range(len(self.steps) - 1, -1, -1):
-            now, dt_s = self.steps[frame], self.seconds_on(frame)
+            now, dt_s = self.steps[frame], self.seconds_to_next(frame)
             if now.estimate is None or later is None or dt_s is None:
                 later = now.probability
                 continue
-            switch = self.motion.switch(now.estimate.rate_rad_s, max(dt_s, 0.0), now.digits)
+            switch = self.motion.mode_transition_matrix(now.estimate.rate_rad_s, max(dt_s, 0.0), now.digit_speeds)
             joint = now.probability[:, None] * switch
             joint *= later / np.maximum(joint.sum(axis=0), 1e-300)
             out[frame], later = joint, joint.sum(axis=1)
@@ -126,39 +128,44 @@ class PalmTrajectory:
     def __len__(self) -> int:
         return len(self.steps)
 
-    def filtered(self, frame: int) -> PalmEstimate | None:
+    def get_estimate(self, frame: int) -> PalmEstimate | None:
         return self.steps[frame].estimate
 
-    def seconds_on(self, frame: int) -> float | None:
+    def seconds_to_next(self, frame: int) -> float | None:
         after = self.steps[frame + 1] if frame + 1 < len(self.steps) else None
-        return after.timestamp_s - self.steps[frame].timestamp_s if after is not None and after.linked else None
+        return after.timestamp_s - self.steps[frame].timestamp_s if after is not None and after.is_linked else None
 
-    def passage(self, frame: int, now: PalmEstimate, later: PalmEstimate, dt_s: float) -> Passage:
+    def compute_transition(
+        self, frame: int, filtered: PalmEstimate, later: PalmEstimate, dt_s: float
+    ) -> SmootherTransition:
         after = self.steps[frame + 1]
-        digits = self.steps[frame].digits
-        step = palm_transition(now.rate_rad_s, self.motion, dt_s, after.unseen, digits)
-        joint = self.went_over[frame]
+        digits = self.steps[frame].digit_speeds
+        step = palm_transition(filtered.rate_rad_s, self.motion, dt_s, after.unobserved_turns, digits)
+        joint = self.mode_transitions[frame]
         assert joint is not None
         forward, noise = np.eye(SIZE), np.zeros((SIZE, SIZE))
-        forward[MOVING, MOVING] = step.moving
-        noise[MOVING, MOVING] = np.tensordot(joint.sum(axis=0), step.driven, 1)
-        noise[SOFT, SOFT] = self.motion.tissue_noise(joint, step)
-        apart = step.carries(now, dt_s).error_to(later)
-        return Passage(now.covariance[None], forward[None], noise[None], apart[None], later.covariance[None])
+        forward[RIGID_MOTION, RIGID_MOTION] = step.moving
+        noise[RIGID_MOTION, RIGID_MOTION] = np.tensordot(joint.sum(axis=0), step.driven, 1)
+        noise[SOFT_TISSUE, SOFT_TISSUE] = self.motion.tissue_noise(joint, step)
+        apart = step.propagate(filtered, dt_s).compute_error(later)
+        return SmootherTransition(
+            filtered.covariance[None], forward[None], noise[None], apart[None], later.covariance[None]
+        )
 
-    def moved(self, now: PalmEstimate, correction: FloatArray, covariance: FloatArray) -> PalmEstimate:
-        return now.moved(correction[0], covariance[0])
+    def apply_correction(self, filtered: PalmEstimate, correction: FloatArray, covariance: FloatArray) -> PalmEstimate:
+        return filtered.add_error(correction[0], covariance[0])
 
 
-def smoothed_palm(steps: Sequence[FilterStep], motion: PalmMotion) -> list[PalmEstimate | None]:
+def smooth_palm(steps: Sequence[FilterStep], motion: PalmMotion) -> list[PalmEstimate | None]:
     """Smoothed estimate of every step; None where the hand was lost."""
-    smoothed = [estimate for _, estimate in Smoother(PalmTrajectory(steps, motion)).backwards()][::-1]
+    smoothed = [estimate for _, estimate in Smoother(PalmTrajectory(steps, motion)).iterate_backwards()][::-1]
     return [
-        _stated(step.estimate, estimate, motion.tissue.widens) for step, estimate in zip(steps, smoothed, strict=True)
+        _inflate_covariance(step.estimate, estimate, motion.tissue.variance_factor)
+        for step, estimate in zip(steps, smoothed, strict=True)
     ]
 
 
-def _stated(live: PalmEstimate | None, smoothed: PalmEstimate | None, widens: float) -> PalmEstimate | None:
+def _inflate_covariance(live: PalmEstimate | None, smoothed: PalmEstimate | None, widens: float) -> PalmEstimate | None:
     """The smoothed estimate ``widens`` times as unsure, as long as its turn stays surer than the live one's."""
     if live is None or smoothed is None or smoothed is live:
         return smoothed

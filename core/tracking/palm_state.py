@@ -5,7 +5,8 @@ The fixed unit of the hand is capitate, second and third metacarpal (clinical re
 Each disc has a calibrated place on it that goes on being measured (``shape``) and may leave that place as the skin
 glides, the arch closes or a metacarpal flexes (``skin``), for a while. So has the back of the hand as a surface:
 ``back`` is what its calibration was wrong by, as a turn about X and Y and a height, ``relief`` by how much it has come
-to differ since. ``LEARNT``, shape and back, is the calibration's error: constant, and less with every motion.
+to differ since. ``CALIBRATION_ERROR``, shape and back, is the calibration's error: constant, and less with every
+motion.
 
 Symbols of the papers: T position, v velocity, R rotation, omega angular velocity, P covariance. Orientation stays a
 matrix; its error is a turn d in the moving frame, R_true = R Exp(d).
@@ -28,15 +29,15 @@ from carpus.core.compiled.palm import reset_errors
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FloatArray
 
-PALM_DISCS = 6
+N_PALM_DISCS = 6
 POSITION, VELOCITY, TURN, RATE = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 12)
-SHAPE = slice(12, 12 + 3 * PALM_DISCS)
-BACK = slice(SHAPE.stop, SHAPE.stop + 3)
-LEARNT = slice(SHAPE.start, BACK.stop)
-SKIN = slice(BACK.stop, BACK.stop + 3 * PALM_DISCS)
+SHAPE = slice(12, 12 + 3 * N_PALM_DISCS)
+SURFACE = slice(SHAPE.stop, SHAPE.stop + 3)
+CALIBRATION_ERROR = slice(SHAPE.start, SURFACE.stop)
+SKIN = slice(SURFACE.stop, SURFACE.stop + 3 * N_PALM_DISCS)
 RELIEF = slice(SKIN.stop, SKIN.stop + 3)
-SOFT = slice(SKIN.start, RELIEF.stop)
-MOVING = slice(0, 12)
+SOFT_TISSUE = slice(SKIN.start, RELIEF.stop)
+RIGID_MOTION = slice(0, 12)
 SIZE = RELIEF.stop
 POSE = np.r_[POSITION, TURN]
 
@@ -68,27 +69,27 @@ class PalmEstimate:
     @property
     def shape_m(self) -> FloatArray:
         """Corrections (6, 3) to the discs' calibrated places on the fixed unit."""
-        return self.value[SHAPE].reshape(PALM_DISCS, 3)
+        return self.value[SHAPE].reshape(N_PALM_DISCS, 3)
 
     @property
     def skin_m(self) -> FloatArray:
         """How far (6, 3) the discs have left those places for now."""
-        return self.value[SKIN].reshape(PALM_DISCS, 3)
+        return self.value[SKIN].reshape(N_PALM_DISCS, 3)
 
-    def moved(self, error: FloatArray, covariance: FloatArray) -> Self:
+    def add_error(self, error: FloatArray, covariance: FloatArray) -> Self:
         """The estimate with its mean moved by an error vector (n,) and another covariance."""
         value = self.value + error
         value[TURN] = 0.0
         return type(self)(self.rotation_w2_w0 @ so3.exp(error[TURN]), value, covariance)
 
-    def error_to(self, other: PalmEstimate) -> FloatArray:
-        """Error vector (n,) that moves this mean to the other's; inverse of :meth:`moved`."""
+    def compute_error(self, other: PalmEstimate) -> FloatArray:
+        """Error vector (n,) that moves this mean to the other's; inverse of :meth:`add_error`."""
         error = other.value - self.value
         error[TURN] = so3.log(self.rotation_w2_w0.T @ other.rotation_w2_w0)
         return error
 
 
-_HARDLY_M = 1e-5
+_MIN_SD_M = 1e-5
 """Keeps the covariance positive definite where nothing has moved yet."""
 
 
@@ -103,10 +104,10 @@ class InitialSd:
     joint_rates_rad_s: float = 0.3
 
 
-def resting_estimate(sd: InitialSd, learnt_covariance: FloatArray) -> PalmEstimate:
+def initial_estimate(sd: InitialSd, calibration_covariance: FloatArray) -> PalmEstimate:
     """A hand at rest at the neutral pose, its discs where they were calibrated: by definition none has moved yet.
 
-    ``learnt_covariance`` (21, 21) of the calibration's error.
+    ``calibration_covariance`` (21, 21) of the calibration's error.
     """
     covariance = np.zeros((SIZE, SIZE))
     for part, own in (
@@ -116,17 +117,17 @@ def resting_estimate(sd: InitialSd, learnt_covariance: FloatArray) -> PalmEstima
         (RATE, sd.rate_rad_s),
     ):
         covariance[part, part] = own**2 * np.eye(3)
-    covariance[LEARNT, LEARNT] = learnt_covariance
-    covariance[SKIN, SKIN] = _HARDLY_M**2 * np.eye(SKIN.stop - SKIN.start)
-    covariance[RELIEF, RELIEF] = _HARDLY_M**2 * np.eye(3)
+    covariance[CALIBRATION_ERROR, CALIBRATION_ERROR] = calibration_covariance
+    covariance[SKIN, SKIN] = _MIN_SD_M**2 * np.eye(SKIN.stop - SKIN.start)
+    covariance[RELIEF, RELIEF] = _MIN_SD_M**2 * np.eye(3)
     return PalmEstimate(np.eye(3), np.zeros(SIZE), covariance)
 
 
-ABOUT = np.zeros((1, SIZE))
+ZERO_ERROR = np.zeros((1, SIZE))
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class PalmView:
     """A palm of known geometry before a camera of known pose (g_w0c of the wrist paper).
 
     ``palm_m`` (6, 3) calibrated places of the discs on the fixed unit. ``hidden`` (6, 18): by how much each number of
@@ -145,14 +146,16 @@ class View:
         in_w0 = place @ estimate.rotation_w2_w0.T + estimate.position_m
         return np.asarray(in_w0 @ self.rotation_w0_cam.T + self.translation_w0_cam_m)
 
-    def of_palm(self, estimate: PalmEstimate, axes: FloatArray, origin_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def to_camera(
+        self, estimate: PalmEstimate, axes: FloatArray, origin_m: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """From a palm's ``axes`` (3, 3) at ``origin_m`` (3,), both in the tracked body, into camera axes."""
         body_cam = self.rotation_w0_cam @ estimate.rotation_w2_w0
         origin = body_cam @ origin_m + self.rotation_w0_cam @ estimate.position_m + self.translation_w0_cam_m
         return body_cam @ axes, origin
 
 
-def error_reset(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[PalmEstimate, ModeMixture]:
+def reset_error(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[PalmEstimate, ModeMixture]:
     """The nominal estimate moved to the mixture's mean and given its covariance; the mixture as errors from there."""
     rotation, value, covariance, apart = reset_errors(nominal, mixture)
     reset = ModeMixture(apart, mixture.covariance, mixture.probability)

@@ -13,47 +13,47 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.compiled.digit_images import project_discs
-from carpus.core.compiled.palm import see_palm
+from carpus.core.compiled.palm import predict_palm_measurement
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.tracking.digit_filter import DigitPoints, DigitView, bent_weights
-from carpus.core.tracking.hand_geometry import CHAINS, DISCS, PalmInBody
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, partial_update
-from carpus.core.tracking.motion import PalmMotion, palm_ahead
+from carpus.core.tracking.digit_filter import DigitSigmaPoints, DigitView, digit_sigma_weights
+from carpus.core.tracking.hand_geometry import N_DIGITS, N_DISCS, PalmGeometry
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, partial_update_shares
+from carpus.core.tracking.motion import PalmMotion, predict_palm
 from carpus.core.tracking.palm_state import (
-    ABOUT,
-    LEARNT,
+    CALIBRATION_ERROR,
     POSE,
     SIZE,
+    ZERO_ERROR,
     PalmEstimate,
-    View,
+    PalmView,
 )
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.soft_tissue import DigitSpeeds
-from carpus.core.tracking.unscented import Spread, weights_for
+from carpus.core.tracking.unscented import UnscentedParameters, compute_weights
 from carpus.core.types import BoolArray, FloatArray
 
-_FLOOR_M = 1e-5
+_MIN_SD_M = 1e-5
 """Keeps the covariance of a perfectly measured disc positive definite."""
 
 
-DEPTH_LOCKS = 0.6
+LOCKED_DEPTH_SHARE = 0.6
 """Share of a reading's error that stays as long as the hand is still, where depths are rounded to steps."""
-ADAPT_S = 0.5
+NOISE_ADAPTATION_S = 0.5
 """Over which each marker's own noise is judged by its residuals."""
 
 
-SHAPE_NEWS, SHAPE_STALE = 0.2, 0.02
+SHAPE_LEARNING_SHARE, SHAPE_STILL_SHARE = 0.2, 0.02
 """Share of what a frame says of the shape taken for new, of a hand that moves; what is left of it while it is still."""
 
 
-def along_rays(calibration: Calibration, sd_m: FloatArray) -> FloatArray:
+def ray_covariances(calibration: Calibration, sd_m: FloatArray) -> FloatArray:
     """Covariances (M, 3, 3) in W0 of errors along the rays from the camera, ``sd_m`` (M,) in depth."""
-    place = _cam_m(calibration)
+    place = _discs_in_camera(calibration)
     ray = (place / place[:, 2:]) @ calibration.rotation_w0_cam
     return np.asarray(np.broadcast_to(sd_m, len(ray))[:, None, None] ** 2 * ray[:, :, None] * ray[:, None, :])
 
 
-def hidden_by_calibration(calibration: Calibration, share: float) -> FloatArray:
+def depth_bias_matrix(calibration: Calibration, share: float) -> FloatArray:
     """What a shape (3M,) takes from the depths (M,) of every pose: matrix (M, 3M).
 
     Its effect on the calibration's depths times the ``share`` of it that is their error: by that much the discs lie
@@ -66,11 +66,11 @@ def hidden_by_calibration(calibration: Calibration, share: float) -> FloatArray:
     return out.reshape(count, -1)
 
 
-def _cam_m(calibration: Calibration) -> FloatArray:
+def _discs_in_camera(calibration: Calibration) -> FloatArray:
     return calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
 
 
-def fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camera) -> float:
+def compute_fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camera) -> float:
     """How far the depths' errors are other ones than in the picture before, 0 to 1, by how the discs (M, 3), in camera
     axes, have moved meanwhile: across by so much of a matching window, along by so much of a reading's error."""
     across_m, down_m, along_m = (np.add.reduce(np.abs(after_m - before_m)) / len(after_m)).tolist()
@@ -81,22 +81,24 @@ def fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camera) -> fl
 
 def shape_partial_update(news: float) -> FloatArray:
     """Shares (n,) of a correction that the mean takes, what is learnt only ``news`` (0 to 1) of what is told."""
-    return partial_update(SIZE, LEARNT, 1.0 - math.sqrt(1.0 - news))
+    return partial_update_shares(SIZE, CALIBRATION_ERROR, 1.0 - math.sqrt(1.0 - news))
 
 
 def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: MeasurementNoise) -> FloatArray:
     """Covariance (18, 18) of the discs' places as calibrated, with what the scatter of a still hand's depths does not
     show of their error: its ``depth_stays_m``, and the step to which a depth stays rounded while the hand is still."""
-    rounded_m = 0.0 if sensor.averages else DEPTH_LOCKS * sensor.reading_sd_m(_cam_m(calibration)[:, 2])
-    own = calibration.marker_covariance_w0_m2 + along_rays(calibration, np.hypot(noise.depth_stays_m, rounded_m))
-    own = own + _FLOOR_M**2 * np.eye(3)
+    rounded_m = (
+        0.0 if sensor.averages else LOCKED_DEPTH_SHARE * sensor.reading_sd_m(_discs_in_camera(calibration)[:, 2])
+    )
+    own = calibration.marker_covariance_w0_m2 + ray_covariances(calibration, np.hypot(noise.depth_stays_m, rounded_m))
+    own = own + _MIN_SD_M**2 * np.eye(3)
     count = len(own)
     covariance = np.zeros((count, 3, count, 3))
     covariance[np.arange(count), :, np.arange(count), :] = own
     return covariance.reshape(3 * count, -1)
 
 
-BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
+DORSAL_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
 """WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit."""
 
 
@@ -115,14 +117,14 @@ class MarkerOrder:
     def __post_init__(self) -> None:
         source = np.empty(self.palm.size + self.digits.size, dtype=np.int64)
         source[self.palm] = np.arange(self.palm.size)
-        source[self.digits] = self.palm.size + np.arange(CHAINS * DISCS).reshape(CHAINS, DISCS)[self.has_discs]
+        source[self.digits] = self.palm.size + np.arange(N_DIGITS * N_DISCS).reshape(N_DIGITS, N_DISCS)[self.has_discs]
         object.__setattr__(self, "source", source)
 
-    def by_marker(self, palm: NDArray[Any], digits: NDArray[Any] | None) -> NDArray[Any]:
+    def to_protocol_order(self, palm: NDArray[Any], digits: NDArray[Any] | None) -> NDArray[Any]:
         """Rows (M, ...) of the protocol from those of the palm (6, ...) and of the digits' discs (5, 3, ...)."""
         if digits is None:
             return palm
-        every = digits.reshape(CHAINS * DISCS, *palm.shape[1:])
+        every = digits.reshape(N_DIGITS * N_DISCS, *palm.shape[1:])
         return np.asarray(np.concatenate((palm, every)).take(self.source, 0))
 
 
@@ -131,13 +133,15 @@ class PredictedDigits:
     """Thumb and fingers as predicted, and sigma points of them on the ``palm`` as it was known last."""
 
     estimates: ModeMixture
-    points: DigitPoints
-    palm: PalmInBody
+    points: DigitSigmaPoints
+    palm: PalmGeometry
 
-    def image(self, estimate: PalmEstimate, view: View, spread: Spread) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def project(
+        self, estimate: PalmEstimate, view: PalmView, spread: UnscentedParameters
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
-        own_view = DigitView(*view.of_palm(estimate, self.palm.axes, self.palm.origin_m), view.camera)
-        return project_discs(self.points, own_view, bent_weights(spread).scale)
+        own_view = DigitView(*view.to_camera(estimate, self.palm.axes, self.palm.origin_m), view.camera)
+        return project_discs(self.points, own_view, digit_sigma_weights(spread).scale)
 
 
 @dataclass(frozen=True)
@@ -154,18 +158,20 @@ class PredictedMeasurement:
     linearised: Linearisation
     mean: FloatArray
     covariance: FloatArray
-    view: View
-    spread: Spread
+    view: PalmView
+    spread: UnscentedParameters
     partial: FloatArray | None = None
     digits: PredictedDigits | None = None
     order: MarkerOrder | None = None
 
-    def about(self, nominal: PalmEstimate, mixture: ModeMixture, view: View | None = None) -> PredictedMeasurement:
+    def with_estimate(
+        self, nominal: PalmEstimate, mixture: ModeMixture, view: PalmView | None = None
+    ) -> PredictedMeasurement:
         """The same moment, should the palm be there."""
         view = self.view if view is None else view
-        return predicted_measurement(nominal, mixture, view, self.spread, self.partial, self.digits, self.order)
+        return predict_measurement(nominal, mixture, view, self.spread, self.partial, self.digits, self.order)
 
-    def by_mode(self) -> tuple[FloatArray, FloatArray]:
+    def mode_predictions(self) -> tuple[FloatArray, FloatArray]:
         """Of all the palm's discs together, without the measurement noise, in every mode: mean (K, 18) as in (10) and
         covariance (K, 18, 18) as in (11)."""
         slope = self.linearised.slope[0]
@@ -175,33 +181,33 @@ class PredictedMeasurement:
 
     @cached_property
     def _digit_image(self) -> tuple[FloatArray, FloatArray, FloatArray] | None:
-        return None if self.digits is None else self.digits.image(self.nominal, self.view, self.spread)
+        return None if self.digits is None else self.digits.project(self.nominal, self.view, self.spread)
 
-    def _by_marker(self, palm: FloatArray, digits: FloatArray | None) -> FloatArray:
-        return palm if self.order is None else self.order.by_marker(palm, digits)
+    def _to_protocol_order(self, palm: FloatArray, digits: FloatArray | None) -> FloatArray:
+        return palm if self.order is None else self.order.to_protocol_order(palm, digits)
 
     @property
     def pixel(self) -> FloatArray:
         """Where the discs should be (M, 2)."""
         image = self._digit_image
-        return self._by_marker(self.mean[:, :2], None if image is None else image[0])
+        return self._to_protocol_order(self.mean[:, :2], None if image is None else image[0])
 
     @property
     def covariance_px2(self) -> FloatArray:
         """Covariance (M, 2, 2) of that; a digit's goes with the palm wherever that is."""
         own, image = self.covariance[:, :2, :2], self._digit_image
-        return self._by_marker(own, None if image is None else image[1] + own.max(axis=0))
+        return self._to_protocol_order(own, None if image is None else image[1] + own.max(axis=0))
 
     @property
     def depth_m(self) -> FloatArray:
         """Their depths (M,)."""
         image = self._digit_image
-        return self._by_marker(self.mean[:, 2], None if image is None else image[2])
+        return self._to_protocol_order(self.mean[:, 2], None if image is None else image[2])
 
     @property
-    def back_px(self) -> FloatArray:
+    def dorsal_px(self) -> FloatArray:
         """Discs (4, 2) that span the surface of the back of the hand."""
-        return self.mean[BACK_DISCS, :2]
+        return self.mean[DORSAL_DISCS, :2]
 
     @property
     def finger_px(self) -> FloatArray:
@@ -212,28 +218,30 @@ class PredictedMeasurement:
         return np.concatenate((self.mean[KNUCKLES, :2], image[0][1:][self.order.has_discs[1:]].reshape(-1, 2)))
 
 
-def predicted_measurement(
+def predict_measurement(
     nominal: PalmEstimate,
     mixture: ModeMixture,
-    view: View,
-    spread: Spread,
+    view: PalmView,
+    spread: UnscentedParameters,
     partial: FloatArray | None = None,
     digits: PredictedDigits | None = None,
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
     """What to expect of a mixture of errors about ``nominal``, whose covariance is that of the whole mixture."""
-    value, slope, error, mean, own = see_palm(nominal, mixture, view, weights_for(POSE.size, spread))
-    linearised = Linearisation(value, slope, error, ABOUT)
+    value, slope, error, mean, own = predict_palm_measurement(
+        nominal, mixture, view, compute_weights(POSE.size, spread)
+    )
+    linearised = Linearisation(value, slope, error, ZERO_ERROR)
     return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, spread, partial, digits, order)
 
 
-def predicted_ahead(
+def predict_measurement_ahead(
     estimate: PalmEstimate,
     mixture: ModeMixture,
-    view: View,
+    view: PalmView,
     motion: PalmMotion,
     dt_s: float,
-    unseen: FloatArray | None,
+    unobserved_turns: FloatArray | None,
     speeds: DigitSpeeds,
     settings: TrackerSettings,
     digits: PredictedDigits | None = None,
@@ -243,25 +251,25 @@ def predicted_ahead(
     fresh = 0.0
     if dt_s > 0.0:
         before = estimate
-        estimate, mixture = palm_ahead(estimate, mixture, motion, dt_s, unseen, speeds)
-        fresh = fresh_share(view.discs_cam_m(before), view.discs_cam_m(estimate), view.camera)
-    partial = shape_partial_update(SHAPE_NEWS * max(fresh, SHAPE_STALE))
-    return predicted_measurement(estimate, mixture, view, settings.spread, partial, digits, order)
+        estimate, mixture = predict_palm(estimate, mixture, motion, dt_s, unobserved_turns, speeds)
+        fresh = compute_fresh_share(view.discs_cam_m(before), view.discs_cam_m(estimate), view.camera)
+    partial = shape_partial_update(SHAPE_LEARNING_SHARE * max(fresh, SHAPE_STILL_SHARE))
+    return predict_measurement(estimate, mixture, view, settings.spread, partial, digits, order)
 
 
-def adapted_factor(
-    factor: FloatArray, residual: FloatArray, measured: BoolArray, dt_s: float, noise: MeasurementNoise
+def adapt_noise_factor(
+    factor: FloatArray, residual: FloatArray, is_measured: BoolArray, dt_s: float, noise: MeasurementNoise
 ) -> FloatArray:
     """Variance factors (..., 3) of u, v and depth after one more frame with these residuals, in standard deviations;
     pixels u, v of a marker share theirs.
 
-    Squared residuals should average one; the factor moves towards what makes them so over ``ADAPT_S``.
+    Squared residuals should average one; the factor moves towards what makes them so over ``NOISE_ADAPTATION_S``.
     """
     if dt_s <= 0.0:
         return factor
-    weight = 1.0 - math.exp(-dt_s / ADAPT_S)
-    news = np.where(measured, np.minimum(residual * residual, noise.most_adapted), 1.0)
+    weight = 1.0 - math.exp(-dt_s / NOISE_ADAPTATION_S)
+    news = np.where(is_measured, np.minimum(residual * residual, noise.most_adapted), 1.0)
     news[..., :2] = 0.5 * (news[..., :1] + news[..., 1:2])
     news -= 1.0
     grown = factor + weight * factor * news
-    return np.where(measured, np.minimum(np.maximum(grown, noise.least_adapted), noise.most_adapted), factor)
+    return np.where(is_measured, np.minimum(np.maximum(grown, noise.least_adapted), noise.most_adapted), factor)

@@ -12,7 +12,7 @@ from carpus.core.tracking.motion import MotionNoise
 from carpus.core.tracking.palm_state import InitialSd
 from carpus.core.tracking.soft_tissue import SoftTissue
 from carpus.core.tracking.surface_fit import SurfaceSettings
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.typed_value import NOT_IN_FILE
 
 Profile = Literal["slow", "standard", "brisk"]
@@ -26,7 +26,7 @@ class Profiles:
     standard: MotionNoise = field(default_factory=lambda: MotionNoise(2.0, 8.0, 12.0))
     brisk: MotionNoise = field(default_factory=lambda: MotionNoise(6.0, 40.0, 60.0))
 
-    def of(self, profile: Profile) -> MotionNoise:
+    def get(self, profile: Profile) -> MotionNoise:
         return {"slow": self.slow, "standard": self.standard, "brisk": self.brisk}[profile]
 
 
@@ -70,7 +70,7 @@ class TrackerSettings:
     profiles: Profiles = field(default_factory=Profiles, metadata=NOT_IN_FILE)
     shape_hidden: float = field(default=0.3, metadata=NOT_IN_FILE)
     mode_scales: tuple[float, ...] = field(default=(0.5, 4.0), metadata=NOT_IN_FILE)
-    spread: Spread = field(default_factory=Spread, metadata=NOT_IN_FILE)
+    spread: UnscentedParameters = field(default_factory=UnscentedParameters, metadata=NOT_IN_FILE)
     initial: InitialSd = field(default_factory=InitialSd, metadata=NOT_IN_FILE)
     noise: MeasurementNoise = field(default_factory=MeasurementNoise, metadata=NOT_IN_FILE)
     association: AssociationSettings = field(default_factory=AssociationSettings, metadata=NOT_IN_FILE)
@@ -85,4 +85,4 @@ class TrackerSettings:
 
     @property
     def motion_noise(self) -> MotionNoise:
-        return self.profiles.of(self.profile)
+        return self.profiles.get(self.profile)

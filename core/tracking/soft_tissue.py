@@ -21,18 +21,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carpus.core.tracking.palm_state import PALM_DISCS, RELIEF, SIZE, SKIN, SOFT
+from carpus.core.tracking.palm_state import N_PALM_DISCS, RELIEF, SIZE, SKIN, SOFT_TISSUE
 from carpus.core.types import FloatArray
 
-LOOSE = np.array([4, 5])
+CUPPING_DISCS = np.array([4, 5])
 """MCP4 and MCP5, whose metacarpals flex."""
 HOME, STILL, GLIDE, CUP, THUMB, WRIST = range(6)
 """Modes of the tissue: the first two are rest. Where joints say when it moves there is one beside home."""
 _MOVING = np.array([GLIDE, CUP, THUMB, WRIST])
 _WRIST_DISC, _CMC1 = 0, 1
 _KNUCKLES = range(2, 6)
-_SOFT = SOFT.stop - SOFT.start
-_RELIEF = slice(RELIEF.start - SOFT.start, _SOFT)
+_SOFT = SOFT_TISSUE.stop - SOFT_TISSUE.start
+_RELIEF = slice(RELIEF.start - SOFT_TISSUE.start, _SOFT)
 _OF_WRIST, _OF_THUMB, _OF_KNUCKLES = slice(0, 3), slice(3, 6), slice(6, SKIN.stop - SKIN.start)
 _AT_ONCE_S = 1e-9
 
@@ -103,7 +103,7 @@ class DigitSpeeds(NamedTuple):
     fingers: float = 0.0
 
 
-NO_DIGITS = DigitSpeeds()
+ZERO_SPEEDS = DigitSpeeds()
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,8 @@ class TissueModes:
     """What skin and relief (r numbers) may be doing, J modes, the first ``resting`` of them at rest: they settle at
     ``stationary`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going over from row to
     column, that to the wrist's by how fast the hand turns, in ``turning_rad_s``; looking back, resting skin is pushed
-    ``creep`` times as much, and all is ``widens`` times as unsure; ``elsewhere`` is the chance of each mode but home of
+    ``creep`` times as much, and all is ``variance_factor`` times as unsure; ``displaced_probability`` is the chance
+    of each mode but home of
     tissue just calibrated. Where joints are told, each number lasts besides for ``lasts_rad`` of them, and home ends at
     ``leaving_per_rad``."""
 
@@ -121,8 +122,8 @@ class TissueModes:
     resting: int
     turning_rad_s: float
     creep: float = 1.0
-    widens: float = 1.0
-    elsewhere: float = 0.0
+    variance_factor: float = 1.0
+    displaced_probability: float = 0.0
     lasts_rad: float = np.inf
     leaving_per_rad: float = 0.0
 
@@ -135,28 +136,32 @@ class TissueModes:
         return bool(np.isfinite(self.lasts_rad))
 
     @property
-    def at_rest(self) -> FloatArray:
+    def initial_probability(self) -> FloatArray:
         """Probability (J,) of tissue just calibrated."""
-        out = np.full(self.count, self.elsewhere)
-        out[HOME] = 1.0 - self.elsewhere * (self.count - 1)
+        out = np.full(self.count, self.displaced_probability)
+        out[HOME] = 1.0 - self.displaced_probability * (self.count - 1)
         return out
 
 
 @lru_cache(maxsize=8)
-def always_pushed(tissue: SoftTissue) -> TissueModes:
+def single_moving_mode(tissue: SoftTissue) -> TissueModes:
     """One mode, in which all of it moves."""
     return TissueModes(
-        _scatter(tissue)[None], np.full((1, _SOFT), tissue.lasts_s), np.zeros((1, 1)), 1, tissue.turning_rad_s
+        _scatter_covariance(tissue)[None],
+        np.full((1, _SOFT), tissue.lasts_s),
+        np.zeros((1, 1)),
+        1,
+        tissue.turning_rad_s,
     )
 
 
 @lru_cache(maxsize=8)
-def moved_by_joints(tissue: SoftTissue) -> TissueModes:
+def joint_driven_modes(tissue: SoftTissue) -> TissueModes:
     """Two modes, home or not; elsewhere it moves as the joints beneath it do."""
-    stationary = np.repeat(_scatter(tissue)[None], 2, axis=0)
+    stationary = np.repeat(_scatter_covariance(tissue)[None], 2, axis=0)
     lasts_s = np.full((2, _SOFT), tissue.creeps_s)
     lasts_s[1, _RELIEF] = tissue.relief_still_s
-    stationary[HOME], lasts_s[HOME] = _at_home(tissue)
+    stationary[HOME], lasts_s[HOME] = _home_mode(tissue)
     rates = np.array([[0.0, tissue.home_ends_per_s], [tissue.homing_per_s, 0.0]])
     return TissueModes(
         stationary,
@@ -164,18 +169,18 @@ def moved_by_joints(tissue: SoftTissue) -> TissueModes:
         rates,
         2,
         tissue.turning_rad_s,
-        elsewhere=tissue.elsewhere_at_start,
+        displaced_probability=tissue.elsewhere_at_start,
         lasts_rad=tissue.lasts_rad,
         leaving_per_rad=tissue.leaving_per_rad,
     )
 
 
 @lru_cache(maxsize=8)
-def resting_or_moving(tissue: SoftTissue) -> TissueModes:
+def resting_and_moving_modes(tissue: SoftTissue) -> TissueModes:
     """The six modes."""
-    stationary = np.repeat(_scatter(tissue)[None], 6, axis=0)
+    stationary = np.repeat(_scatter_covariance(tissue)[None], 6, axis=0)
     lasts_s = np.full((6, _SOFT), tissue.rests_s)
-    stationary[GLIDE, : _RELIEF.start, : _RELIEF.start] -= _cupping(tissue)
+    stationary[GLIDE, : _RELIEF.start, : _RELIEF.start] -= _cupping_covariance(tissue)
     for modes, numbers in (((GLIDE, CUP), _OF_KNUCKLES), ((THUMB,), _OF_THUMB), ((WRIST,), _OF_WRIST)):
         lasts_s[list(modes), numbers] = tissue.lasts_s
     lasts_s[_MOVING, _RELIEF] = tissue.lasts_s
@@ -183,7 +188,7 @@ def resting_or_moving(tissue: SoftTissue) -> TissueModes:
     for mode in (STILL, THUMB):
         stationary[mode, _RELIEF, _RELIEF] = np.diag(tissue.relief_still) ** 2
         lasts_s[mode, _RELIEF] = tissue.relief_still_s
-    stationary[HOME], lasts_s[HOME] = _at_home(tissue)
+    stationary[HOME], lasts_s[HOME] = _home_mode(tissue)
     rates = np.zeros((6, 6))
     rates[:GLIDE, _MOVING] = tissue.leaving_per_s / len(_MOVING)
     rates[STILL, HOME], rates[HOME, STILL] = tissue.homing_per_s, tissue.home_ends_per_s
@@ -195,7 +200,7 @@ def resting_or_moving(tissue: SoftTissue) -> TissueModes:
     )
 
 
-def _at_home(tissue: SoftTissue) -> tuple[FloatArray, FloatArray]:
+def _home_mode(tissue: SoftTissue) -> tuple[FloatArray, FloatArray]:
     """Covariance (r, r) of what lies as calibrated, and how long it lasts (r,)."""
     stationary, lasts_s = tissue.home_m**2 * np.eye(_SOFT), np.full(_SOFT, _AT_ONCE_S)
     stationary[_RELIEF, _RELIEF], lasts_s[_RELIEF] = np.diag(tissue.relief_home) ** 2, tissue.relief_home_s
@@ -206,33 +211,33 @@ def _at_home(tissue: SoftTissue) -> tuple[FloatArray, FloatArray]:
 def stationary_covariance(tissue: SoftTissue) -> FloatArray:
     """Covariance (n, n) that skin and relief have when nothing was seen for long; zero elsewhere."""
     out = np.zeros((SIZE, SIZE))
-    out[SOFT, SOFT] = _scatter(tissue)
+    out[SOFT_TISSUE, SOFT_TISSUE] = _scatter_covariance(tissue)
     return out
 
 
-def _scatter(tissue: SoftTissue) -> FloatArray:
+def _scatter_covariance(tissue: SoftTissue) -> FloatArray:
     """Covariance (r, r) of skin and relief that may have moved in any way."""
-    sd = np.zeros((PALM_DISCS, 3))
+    sd = np.zeros((N_PALM_DISCS, 3))
     sd[_WRIST_DISC] = tissue.wrist_along_m, tissue.wrist_across_m, tissue.wrist_up_m
     sd[_CMC1] = tissue.thumb_m
     sd[2:] = tissue.knuckle_along_m, tissue.knuckle_across_m, tissue.knuckle_up_m
-    sd[LOOSE, 0], sd[LOOSE, 1] = tissue.loose_along_m, tissue.loose_across_m
-    own = np.zeros((PALM_DISCS, 3, PALM_DISCS, 3))
-    disc, axis = np.meshgrid(np.arange(PALM_DISCS), np.arange(3), indexing="ij")
+    sd[CUPPING_DISCS, 0], sd[CUPPING_DISCS, 1] = tissue.loose_along_m, tissue.loose_across_m
+    own = np.zeros((N_PALM_DISCS, 3, N_PALM_DISCS, 3))
+    disc, axis = np.meshgrid(np.arange(N_PALM_DISCS), np.arange(3), indexing="ij")
     own[disc, axis, disc, axis] = sd**2
     for one in _KNUCKLES:
         for other in _KNUCKLES:
             if one != other:
                 own[one, 0, other, 0] = tissue.glides_together * sd[one, 0] * sd[other, 0]
     out = np.zeros((_SOFT, _SOFT))
-    out[: _RELIEF.start, : _RELIEF.start] = own.reshape(3 * PALM_DISCS, -1) + _cupping(tissue)
+    out[: _RELIEF.start, : _RELIEF.start] = own.reshape(3 * N_PALM_DISCS, -1) + _cupping_covariance(tissue)
     out[_RELIEF, _RELIEF] = np.diag(tissue.relief_moving) ** 2
     return out
 
 
-def _cupping(tissue: SoftTissue) -> FloatArray:
+def _cupping_covariance(tissue: SoftTissue) -> FloatArray:
     """Covariance (18, 18) of the discs' places by the closing arch alone."""
-    out = np.zeros((PALM_DISCS, 3, PALM_DISCS, 3))
+    out = np.zeros((N_PALM_DISCS, 3, N_PALM_DISCS, 3))
     together = tissue.cups_together + (1.0 - tissue.cups_together) * np.eye(2)
-    out[LOOSE[:, None], 2, LOOSE, 2] = np.outer(tissue.cupping_m, tissue.cupping_m) * together
-    return out.reshape(3 * PALM_DISCS, -1)
+    out[CUPPING_DISCS[:, None], 2, CUPPING_DISCS, 2] = np.outer(tissue.cupping_m, tissue.cupping_m) * together
+    return out.reshape(3 * N_PALM_DISCS, -1)

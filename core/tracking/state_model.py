@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from carpus.core.tracking.digit_filter import ANATOMY, JOINTS, RATES
-from carpus.core.tracking.palm_state import BACK, POSITION, RATE, RELIEF, SHAPE, SKIN, TURN, VELOCITY
+from carpus.core.tracking.palm_state import POSITION, RATE, RELIEF, SHAPE, SKIN, SURFACE, TURN, VELOCITY
 
 
 class StatePart(NamedTuple):
@@ -60,7 +60,7 @@ PALM_STATE = (
         ("predicted_measurement.SHAPE_NEWS",),
     ),
     StatePart(
-        "back", BACK, "rad, rad, m", "turn about X and Y and height that the calibrated back of the hand is wrong by",
+        "back", SURFACE, "rad, rad, m", "turn about X and Y and height that the calibrated back of the hand is wrong by",  # noqa: E501
         (), "s", "none; as of the shape", ("surface_fit.calibrated_covariance", "predicted_measurement.SHAPE_NEWS"),
     ),
     StatePart(

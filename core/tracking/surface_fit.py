@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core.compiled.surface import measure_surface
-from carpus.core.hand.back_surface import BackSurface
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected
-from carpus.core.tracking.palm_state import SIZE, PalmEstimate, View, error_reset
+from carpus.core.hand.back_surface import DorsalSurface
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, update_mixture
+from carpus.core.tracking.palm_state import SIZE, PalmEstimate, PalmView, reset_error
 from carpus.core.types import FloatArray, SurfaceSamples
 
 _NO_NOISE = np.full((1, 3), 1e-12)
@@ -54,55 +54,57 @@ class SurfaceMeasurement:
     slope: FloatArray
     count: int
 
-    def linearised(self) -> Linearisation:
+    def to_linearisation(self) -> Linearisation:
         """Linear about the estimate's mean."""
         return Linearisation(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
 
 
-def surface_measurement(
-    estimate: PalmEstimate, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
+def fit_surface(
+    estimate: PalmEstimate, samples: SurfaceSamples, surface: DorsalSurface, view: PalmView, settings: SurfaceSettings
 ) -> SurfaceMeasurement | None:
     """Fit the surface to the readings, from the estimate's pose on; None where too few lie on it."""
     found = measure_surface(estimate, samples, surface, view, settings)
     return None if found is None else SurfaceMeasurement(*found)
 
 
-def calibrated_covariance(surface: BackSurface, view: View, settings: SurfaceSettings) -> FloatArray:
+def surface_calibration_covariance(surface: DorsalSurface, view: PalmView, settings: SurfaceSettings) -> FloatArray:
     """Covariance (3, 3) of the calibrated surface's own turn about X and Y and height: the share ``stays`` of one
     picture's errors, since these come again in every picture of a still hand and no averaging removes them."""
-    node = surface.places_m()
+    node = surface.node_positions_m()
     in_camera = node @ view.rotation_w0_cam.T + view.translation_w0_cam_m
     samples = SurfaceSamples(view.camera.project(in_camera), in_camera[:, 2])
     neutral = PalmEstimate(np.eye(3), np.zeros(SIZE), np.eye(SIZE))
     bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0)
-    found = surface_measurement(neutral, samples, surface, view, bare)
+    found = fit_surface(neutral, samples, surface, view, bare)
     return np.eye(3) if found is None else settings.stays**2 * found.covariance
 
 
-def levelled_mixture(
-    mixture: ModeMixture, found: SurfaceMeasurement, partial: FloatArray | None, settings: SurfaceSettings
+def update_by_surface(
+    mixture: ModeMixture, measurement: SurfaceMeasurement, partial: FloatArray | None, settings: SurfaceSettings
 ) -> ModeMixture | None:
     """The palm's modes corrected by what the surface says, numbers taking their ``partial``; None where it is so far
     from what was believed that it is another surface."""
     # Its noise has no scale of its own: the covariance is all there is.
-    update = corrected(mixture, found.linearised(), found.value[None], _NO_NOISE, partial=partial)
+    update = update_mixture(
+        mixture, measurement.to_linearisation(), measurement.value[None], _NO_NOISE, partial=partial
+    )
     return None if float(update.nis[0]) > settings.most_nis else update.mixture
 
 
-def reset_and_levelled(
+def reset_and_surface_update(
     nominal: PalmEstimate,
     mixture: ModeMixture,
     samples: SurfaceSamples | None,
-    surface: BackSurface | None,
-    view: View,
+    surface: DorsalSurface | None,
+    view: PalmView,
     partial: FloatArray | None,
     settings: SurfaceSettings,
 ) -> tuple[PalmEstimate, ModeMixture, bool]:
-    """The palm after an update by its discs: :func:`error_reset`, then corrected by the surface of the back of the hand
+    """The palm after an update by its discs: :func:`reset_error`, then corrected by the surface of the back of the hand
     and reset once more; and whether the surface said anything."""
-    estimate, mixture = error_reset(nominal, mixture)
+    estimate, mixture = reset_error(nominal, mixture)
     if surface is None or samples is None:
         return estimate, mixture, False
-    found = surface_measurement(estimate, samples, surface, view, settings)
-    after = None if found is None else levelled_mixture(mixture, found, partial, settings)
-    return (estimate, mixture, False) if after is None else (*error_reset(estimate, after), True)
+    found = fit_surface(estimate, samples, surface, view, settings)
+    after = None if found is None else update_by_surface(mixture, found, partial, settings)
+    return (estimate, mixture, False) if after is None else (*reset_error(estimate, after), True)

@@ -11,7 +11,7 @@ from carpus.core.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class UnscentedParameters:
     """How far the points stand from the mean. With kappa 0 and alpha 1 they stand at sqrt(n) sigma."""
 
     alpha: float = 0.25
@@ -20,7 +20,7 @@ class Spread:
 
 
 @dataclass(frozen=True, slots=True)
-class Weights:
+class SigmaWeights:
     """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda). ``numbers`` (5,): of ``mean``
     the centre's and the others', of ``covariance`` likewise, and ``scale``."""
 
@@ -31,7 +31,7 @@ class Weights:
 
 
 @lru_cache(maxsize=64)
-def weights_for(dimension: int, spread: Spread) -> Weights:
+def compute_weights(dimension: int, spread: UnscentedParameters) -> SigmaWeights:
     """Weights of the 2n+1 points of an n-dimensional Gaussian."""
     lam = spread.alpha**2 * (dimension + spread.kappa) - dimension
     total = dimension + lam
@@ -42,10 +42,10 @@ def weights_for(dimension: int, spread: Spread) -> Weights:
     mean.setflags(write=False)
     covariance.setflags(write=False)
     scale = float(np.sqrt(total))
-    return Weights(mean, covariance, scale, np.array([*mean[:2], *covariance[:2], scale]))
+    return SigmaWeights(mean, covariance, scale, np.array([*mean[:2], *covariance[:2], scale]))
 
 
-def deviations(covariance: FloatArray, scale: float) -> FloatArray:
+def sigma_offsets(covariance: FloatArray, scale: float) -> FloatArray:
     """Offsets (..., 2n+1, n) of the sigma points from the mean for covariances (..., n, n).
 
     Raises ``numpy.linalg.LinAlgError`` when a covariance is not positive definite.

@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from carpus.core.about import BundledPart, bundled_parts, licence_texts
+from carpus.core.about import BundledPart, licence_texts, list_bundled_parts
 
 COMMON = Path("/usr/share/common-licenses")
 
@@ -64,7 +64,7 @@ def under(title: str, text: str) -> str:
 
 def main(folder: Path, place: Path) -> int:
     """Write both."""
-    own, *packages = bundled_parts()
+    own, *packages = list_bundled_parts()
     python = BundledPart("Python", platform.python_version(), "PSF-2.0")
     starter = BundledPart("PyInstaller bootloader", "", "GPL-2.0-or-later WITH Bootloader-exception")
     libraries = system_parts(folder)

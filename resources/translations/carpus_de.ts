@@ -6649,7 +6649,7 @@
     </message>
 </context>
 <context>
-    <name>BackingUp</name>
+    <name>BackupController</name>
     <message>
         <source>Plug the disk for back-ups in, and back up.</source>
         <translation>Schließen Sie den Datenträger für Sicherungen an, und sichern Sie.</translation>
@@ -6779,7 +6779,7 @@
     </message>
 </context>
 <context>
-    <name>Bar</name>
+    <name>TopBarController</name>
     <message>
         <source>Exercise</source>
         <translation>Übung</translation>
@@ -6898,14 +6898,14 @@
     </message>
 </context>
 <context>
-    <name>BesideFlow</name>
+    <name>ComparisonFlow</name>
     <message>
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
         <translation>Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
     </message>
 </context>
 <context>
-    <name>BesidePlayer</name>
+    <name>ComparisonPlayer</name>
     <message>
         <source>repetition</source>
         <translation>Wiederholung</translation>
@@ -6916,7 +6916,7 @@
     </message>
 </context>
 <context>
-    <name>BesideScreen</name>
+    <name>ComparisonScreen</name>
     <message>
         <source>Reading both sessions…</source>
         <translation>Beide Sitzungen werden gelesen…</translation>
@@ -6935,7 +6935,7 @@
     </message>
 </context>
 <context>
-    <name>BoardBeginning</name>
+    <name>BoardSetupView</name>
     <message>
         <source>Chessboard</source>
         <translation>Schachbrett</translation>
@@ -6994,7 +6994,7 @@
     </message>
 </context>
 <context>
-    <name>BoardFlow</name>
+    <name>CameraCalibrationFlow</name>
     <message>
         <source>Camera calibration</source>
         <translation>Kamerakalibrierung</translation>
@@ -7020,7 +7020,7 @@
     </message>
 </context>
 <context>
-    <name>BoardShowing</name>
+    <name>BoardCaptureView</name>
     <message>
         <source>Stop</source>
         <translation>Stopp</translation>
@@ -7118,7 +7118,7 @@
     </message>
 </context>
 <context>
-    <name>ByHandFlow</name>
+    <name>ManualMeasurementsFlow</name>
     <message>
         <source>Leave without saving?</source>
         <translation>Ohne Speichern verlassen?</translation>
@@ -7153,7 +7153,7 @@
     </message>
 </context>
 <context>
-    <name>ByHandScreen</name>
+    <name>ManualMeasurementsScreen</name>
     <message>
         <source>Day of measuring</source>
         <translation>Tag der Messung</translation>
@@ -7254,7 +7254,7 @@
     </message>
 </context>
 <context>
-    <name>CameraNameSheet</name>
+    <name>CameraNameDialog</name>
     <message>
         <source>Name of the camera</source>
         <translation>Name der Kamera</translation>
@@ -7384,7 +7384,7 @@
     </message>
 </context>
 <context>
-    <name>CardFlow</name>
+    <name>CheckCardFlow</name>
     <message>
         <source>Check card</source>
         <translation>Prüfkarte</translation>
@@ -7395,7 +7395,7 @@
     </message>
 </context>
 <context>
-    <name>CardScreen</name>
+    <name>CheckCardScreen</name>
     <message>
         <source>Print &amp;card…</source>
         <translation>Karte &amp;drucken…</translation>
@@ -7473,7 +7473,7 @@
     </message>
 </context>
 <context>
-    <name>ChooseSheet</name>
+    <name>ChoiceDialog</name>
     <message>
         <source>Choice</source>
         <translation>Auswahl</translation>
@@ -7484,7 +7484,7 @@
     </message>
 </context>
 <context>
-    <name>Controls</name>
+    <name>RecordingControls</name>
     <message>
         <source>Note</source>
         <translation>Notiz</translation>
@@ -7539,7 +7539,7 @@
     </message>
 </context>
 <context>
-    <name>CorrectScreen</name>
+    <name>CorrectionScreen</name>
     <message>
         <source>Track again although &amp;doubtful</source>
         <translation>Trotz &amp;Zweifel neu verfolgen</translation>
@@ -7666,7 +7666,7 @@
     </message>
 </context>
 <context>
-    <name>CorrectionPicture</name>
+    <name>CorrectionFrameView</name>
     <message>
         <source>Picture to put markers right on</source>
         <translation>Bild zum Berichtigen der Marker</translation>
@@ -7685,14 +7685,14 @@
     </message>
 </context>
 <context>
-    <name>CourseRun</name>
+    <name>CourseRunner</name>
     <message>
         <source>Rest {time}; Space begins at once.</source>
         <translation>Pause {time}; die Leertaste beginnt sofort.</translation>
     </message>
 </context>
 <context>
-    <name>DayBox</name>
+    <name>AppointmentBox</name>
     <message>
         <source>No appointment yet</source>
         <translation>Noch kein Termin</translation>
@@ -7733,7 +7733,7 @@
     </message>
 </context>
 <context>
-    <name>EraseSheet</name>
+    <name>DeleteDialog</name>
     <message>
         <source>Erase for good</source>
         <translation>Endgültig löschen</translation>
@@ -7824,7 +7824,7 @@
     </message>
 </context>
 <context>
-    <name>Erasing</name>
+    <name>DeletionController</name>
     <message>
         <source>The session is erased.</source>
         <translation>Die Sitzung ist gelöscht.</translation>
@@ -7950,7 +7950,7 @@
     </message>
 </context>
 <context>
-    <name>ExportSheet</name>
+    <name>ExportDialog</name>
     <message>
         <source>Tables (CSV): angles, joints, markers, events, measures</source>
         <translation>Tabellen (CSV): Winkel, Gelenke, Marker, Ereignisse, Maße</translation>
@@ -8037,7 +8037,7 @@
     </message>
 </context>
 <context>
-    <name>Exporting</name>
+    <name>ExportController</name>
     <message>
         <source>Export into a folder</source>
         <translation>In einen Ordner exportieren</translation>
@@ -8082,7 +8082,7 @@
     </message>
 </context>
 <context>
-    <name>Guidance</name>
+    <name>GuidancePanel</name>
     <message>
         <source>Picture</source>
         <translation>Bild</translation>
@@ -8200,7 +8200,7 @@ von oben</translation>
     </message>
 </context>
 <context>
-    <name>HandForm</name>
+    <name>ManualForm</name>
     <message>
         <source>Active</source>
         <translation>Aktiv</translation>
@@ -8244,7 +8244,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>HandPictureSheet</name>
+    <name>HandImageDialog</name>
     <message>
         <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
         <translation>Die Hand allein mit ihrem Winkel: Gesicht und Raum sind weggeschnitten, es steht kein Name dabei. Wo die Bewegung nicht in der Bildebene liegt, steht der Winkel nur in Worten da.</translation>
@@ -8271,7 +8271,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>HandValueChart</name>
+    <name>ManualValueChart</name>
     <message>
         <source>{name} over the days</source>
         <translation>{name} über die Tage</translation>
@@ -8341,7 +8341,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>HomeSheet</name>
+    <name>HomeDialog</name>
     <message>
         <source>Sheet for home</source>
         <translation>Blatt für zu Hause</translation>
@@ -8388,14 +8388,14 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>LastPicture</name>
+    <name>PreviousPhoto</name>
     <message>
         <source>Last time, {day}</source>
         <translation>Letztes Mal, {day}</translation>
     </message>
 </context>
 <context>
-    <name>LetterSheet</name>
+    <name>LetterDialog</name>
     <message>
         <source>Letter to the doctor</source>
         <translation>Arztbrief</translation>
@@ -8656,7 +8656,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>LockSheet</name>
+    <name>LockScreen</name>
     <message>
         <source>Locked</source>
         <translation>Gesperrt</translation>
@@ -8711,7 +8711,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>Locking</name>
+    <name>LockController</name>
     <message>
         <source>Too many tries. The next one in {seconds} s.</source>
         <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
@@ -8722,7 +8722,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>LogSheet</name>
+    <name>LogDialog</name>
     <message>
         <source>Log</source>
         <translation>Protokoll</translation>
@@ -8761,7 +8761,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>MarkerPicture</name>
+    <name>MarkerFrameView</name>
     <message>
         <source>Picture to click the markers on</source>
         <translation>Bild zum Anklicken der Marker</translation>
@@ -8983,7 +8983,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>NoteSheet</name>
+    <name>NoteDialog</name>
     <message>
         <source>What happened? No names.</source>
         <translation>Was ist geschehen? Keine Namen.</translation>
@@ -9096,7 +9096,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PainSheet</name>
+    <name>PainDialog</name>
     <message>
         <source>Pain now, 0 (none) to 10 (worst)</source>
         <translation>Schmerz jetzt, 0 (keiner) bis 10 (stärkster)</translation>
@@ -9150,7 +9150,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PathView</name>
+    <name>LivePathChart</name>
     <message>
         <source>Path of the wrist</source>
         <translation>Weg des Handgelenks</translation>
@@ -9479,7 +9479,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PictureView</name>
+    <name>FrameView</name>
     <message>
         <source>Camera picture</source>
         <translation>Kamerabild</translation>
@@ -9494,7 +9494,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PinSheet</name>
+    <name>PinDialog</name>
     <message>
         <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
         <translation>Mindestens vier Zeichen, Ziffern oder Buchstaben. Sie verbirgt Namen und Bilder vor Vorbeigehenden; Dateien bleiben lesbar für alle, die das Konto dieses Computers oder den Datenträger haben.</translation>
@@ -9732,7 +9732,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ReasonSheet</name>
+    <name>ExclusionDialog</name>
     <message>
         <source>pain</source>
         <translation>Schmerz</translation>
@@ -9779,7 +9779,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>RecordLists</name>
+    <name>RecordListsController</name>
     <message>
         <source>Nothing is due: no patient’s last session is so old.</source>
         <translation>Nichts ist fällig: Keine letzte Sitzung ist so alt.</translation>
@@ -10028,7 +10028,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>RecordsSheet</name>
+    <name>RecordsDialog</name>
     <message>
         <source>Done</source>
         <translation>Fertig</translation>
@@ -10248,7 +10248,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ResultChoice</name>
+    <name>VersionChoice</name>
     <message>
         <source>Results of this recording</source>
         <translation>Ergebnisse dieser Aufnahme</translation>
@@ -10278,7 +10278,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ResultsSheet</name>
+    <name>ResultsDialog</name>
     <message>
         <source>How far the tracking is</source>
         <translation>Wie weit die Verfolgung ist</translation>
@@ -10325,7 +10325,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>RetestSheet</name>
+    <name>RetestDialog</name>
     <message>
         <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
         <translation>Von Personen, die mehr als einmal gemessen wurden, dazwischen alle Punkte ab und neu geklebt: Standardmessfehler (SEM) und kleinste nachweisbare Veränderung (MDC95), mit 95-%-Intervallen.</translation>
@@ -10445,7 +10445,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ReviewPicture</name>
+    <name>ReviewFrameView</name>
     <message>
         <source>Put markers right…</source>
         <translation>Marker berichtigen…</translation>
@@ -10499,7 +10499,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>Scrubber</name>
+    <name>TimeSlider</name>
     <message>
         <source>Time in the session</source>
         <translation>Zeit in der Sitzung</translation>
@@ -10532,7 +10532,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>SessionModel</name>
+    <name>SessionListModel</name>
     <message>
         <source>ticked</source>
         <translation>angekreuzt</translation>
@@ -10622,7 +10622,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>SetAsideSheet</name>
+    <name>ExcludeDialog</name>
     <message>
         <source>Set this session aside?</source>
         <translation>Diese Sitzung beiseitelegen?</translation>
@@ -10661,7 +10661,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>SetSheet</name>
+    <name>SetDialog</name>
     <message>
         <source>Set</source>
         <translation>Folge</translation>
@@ -10942,7 +10942,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>Sheet</name>
+    <name>Dialog</name>
     <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
@@ -10957,7 +10957,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>SpotQuestion</name>
+    <name>MarkerQuestion</name>
     <message>
         <source>Is this blue spot the {marker}?</source>
         <translation>Ist diese blaue Stelle: {marker}?</translation>
@@ -10988,7 +10988,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>StartAngleSheet</name>
+    <name>StartAngleDialog</name>
     <message>
         <source>The wrist cannot lie straight</source>
         <translation>Das Handgelenk kann nicht gerade liegen</translation>
@@ -11045,7 +11045,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>Transport</name>
+    <name>PlaybackControls</name>
     <message>
         <source>Previous picture (←)</source>
         <translation>Voriges Bild (←)</translation>
@@ -11102,7 +11102,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>WayButton</name>
+    <name>NavigationButton</name>
     <message>
         <source>{name}, you are here</source>
         <translation>{name}, hier sind Sie</translation>
@@ -11113,14 +11113,14 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>WaysChart</name>
+    <name>PathsChart</name>
     <message>
         <source>Ways in three planes</source>
         <translation>Wege in drei Ebenen</translation>
     </message>
 </context>
 <context>
-    <name>Welcome</name>
+    <name>WelcomeController</name>
     <message>
         <source>Screen</source>
         <translation>Bildschirm</translation>
@@ -11233,7 +11233,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>_Away</name>
+    <name>_OfflineView</name>
     <message>
         <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
         <translation>Die Liste der Patienten kommt von selbst zurück. Um jetzt zu messen, geben Sie oben den erfundenen Namen ein: Die Sitzung bleibt erhalten und steht in der Liste, sobald der Server antwortet.</translation>
@@ -11248,7 +11248,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>_Nobody</name>
+    <name>_EmptyView</name>
     <message>
         <source>No patient “{name}”.</source>
         <translation>Kein Patient „{name}“.</translation>

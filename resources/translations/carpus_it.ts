@@ -6649,7 +6649,7 @@
     </message>
 </context>
 <context>
-    <name>BackingUp</name>
+    <name>BackupController</name>
     <message>
         <source>Plug the disk for back-ups in, and back up.</source>
         <translation>Collegare il disco delle copie e fare la copia.</translation>
@@ -6779,7 +6779,7 @@
     </message>
 </context>
 <context>
-    <name>Bar</name>
+    <name>TopBarController</name>
     <message>
         <source>Exercise</source>
         <translation>Esercizio</translation>
@@ -6898,14 +6898,14 @@
     </message>
 </context>
 <context>
-    <name>BesideFlow</name>
+    <name>ComparisonFlow</name>
     <message>
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
         <translation>Mano simulata: non è di un paziente, e non conta.</translation>
     </message>
 </context>
 <context>
-    <name>BesidePlayer</name>
+    <name>ComparisonPlayer</name>
     <message>
         <source>repetition</source>
         <translation>ripetizione</translation>
@@ -6916,7 +6916,7 @@
     </message>
 </context>
 <context>
-    <name>BesideScreen</name>
+    <name>ComparisonScreen</name>
     <message>
         <source>Reading both sessions…</source>
         <translation>Lettura delle due sedute…</translation>
@@ -6935,7 +6935,7 @@
     </message>
 </context>
 <context>
-    <name>BoardBeginning</name>
+    <name>BoardSetupView</name>
     <message>
         <source>Chessboard</source>
         <translation>Scacchiera</translation>
@@ -6994,7 +6994,7 @@
     </message>
 </context>
 <context>
-    <name>BoardFlow</name>
+    <name>CameraCalibrationFlow</name>
     <message>
         <source>Camera calibration</source>
         <translation>Calibrazione della telecamera</translation>
@@ -7020,7 +7020,7 @@
     </message>
 </context>
 <context>
-    <name>BoardShowing</name>
+    <name>BoardCaptureView</name>
     <message>
         <source>Stop</source>
         <translation>Ferma</translation>
@@ -7118,7 +7118,7 @@
     </message>
 </context>
 <context>
-    <name>ByHandFlow</name>
+    <name>ManualMeasurementsFlow</name>
     <message>
         <source>Leave without saving?</source>
         <translation>Uscire senza salvare?</translation>
@@ -7153,7 +7153,7 @@
     </message>
 </context>
 <context>
-    <name>ByHandScreen</name>
+    <name>ManualMeasurementsScreen</name>
     <message>
         <source>Day of measuring</source>
         <translation>Giorno della misura</translation>
@@ -7254,7 +7254,7 @@
     </message>
 </context>
 <context>
-    <name>CameraNameSheet</name>
+    <name>CameraNameDialog</name>
     <message>
         <source>Name of the camera</source>
         <translation>Nome della telecamera</translation>
@@ -7384,7 +7384,7 @@
     </message>
 </context>
 <context>
-    <name>CardFlow</name>
+    <name>CheckCardFlow</name>
     <message>
         <source>Check card</source>
         <translation>Cartoncino di controllo</translation>
@@ -7395,7 +7395,7 @@
     </message>
 </context>
 <context>
-    <name>CardScreen</name>
+    <name>CheckCardScreen</name>
     <message>
         <source>Print &amp;card…</source>
         <translation>&amp;Stampa…</translation>
@@ -7473,7 +7473,7 @@
     </message>
 </context>
 <context>
-    <name>ChooseSheet</name>
+    <name>ChoiceDialog</name>
     <message>
         <source>Choice</source>
         <translation>Scelta</translation>
@@ -7484,7 +7484,7 @@
     </message>
 </context>
 <context>
-    <name>Controls</name>
+    <name>RecordingControls</name>
     <message>
         <source>Note</source>
         <translation>Nota</translation>
@@ -7539,7 +7539,7 @@
     </message>
 </context>
 <context>
-    <name>CorrectScreen</name>
+    <name>CorrectionScreen</name>
     <message>
         <source>Track again although &amp;doubtful</source>
         <translation>Rifai benché &amp;dubbio</translation>
@@ -7666,7 +7666,7 @@
     </message>
 </context>
 <context>
-    <name>CorrectionPicture</name>
+    <name>CorrectionFrameView</name>
     <message>
         <source>Picture to put markers right on</source>
         <translation>Immagine su cui correggere i marcatori</translation>
@@ -7685,14 +7685,14 @@
     </message>
 </context>
 <context>
-    <name>CourseRun</name>
+    <name>CourseRunner</name>
     <message>
         <source>Rest {time}; Space begins at once.</source>
         <translation>Pausa {time}; la barra spaziatrice inizia subito.</translation>
     </message>
 </context>
 <context>
-    <name>DayBox</name>
+    <name>AppointmentBox</name>
     <message>
         <source>No appointment yet</source>
         <translation>Ancora nessun appuntamento</translation>
@@ -7733,7 +7733,7 @@
     </message>
 </context>
 <context>
-    <name>EraseSheet</name>
+    <name>DeleteDialog</name>
     <message>
         <source>Erase for good</source>
         <translation>Cancella per sempre</translation>
@@ -7824,7 +7824,7 @@
     </message>
 </context>
 <context>
-    <name>Erasing</name>
+    <name>DeletionController</name>
     <message>
         <source>The session is erased.</source>
         <translation>La seduta è cancellata.</translation>
@@ -7950,7 +7950,7 @@
     </message>
 </context>
 <context>
-    <name>ExportSheet</name>
+    <name>ExportDialog</name>
     <message>
         <source>Tables (CSV): angles, joints, markers, events, measures</source>
         <translation>Tabelle (CSV): angoli, articolazioni, marcatori, eventi, misure</translation>
@@ -8037,7 +8037,7 @@
     </message>
 </context>
 <context>
-    <name>Exporting</name>
+    <name>ExportController</name>
     <message>
         <source>Export into a folder</source>
         <translation>Esporta in una cartella</translation>
@@ -8082,7 +8082,7 @@
     </message>
 </context>
 <context>
-    <name>Guidance</name>
+    <name>GuidancePanel</name>
     <message>
         <source>Picture</source>
         <translation>Immagine</translation>
@@ -8200,7 +8200,7 @@ dall’alto</translation>
     </message>
 </context>
 <context>
-    <name>HandForm</name>
+    <name>ManualForm</name>
     <message>
         <source>Active</source>
         <translation>Attivo</translation>
@@ -8244,7 +8244,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>HandPictureSheet</name>
+    <name>HandImageDialog</name>
     <message>
         <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
         <translation>La sola mano con il suo angolo: viso e stanza sono tagliati via, non c’è alcun nome. Dove il movimento non giace nel piano dell’immagine, l’angolo è detto solo a parole.</translation>
@@ -8271,7 +8271,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>HandValueChart</name>
+    <name>ManualValueChart</name>
     <message>
         <source>{name} over the days</source>
         <translation>{name} nei giorni</translation>
@@ -8341,7 +8341,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>HomeSheet</name>
+    <name>HomeDialog</name>
     <message>
         <source>Sheet for home</source>
         <translation>Foglio per casa</translation>
@@ -8388,14 +8388,14 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>LastPicture</name>
+    <name>PreviousPhoto</name>
     <message>
         <source>Last time, {day}</source>
         <translation>Ultima volta, {day}</translation>
     </message>
 </context>
 <context>
-    <name>LetterSheet</name>
+    <name>LetterDialog</name>
     <message>
         <source>Letter to the doctor</source>
         <translation>Lettera al medico</translation>
@@ -8656,7 +8656,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>LockSheet</name>
+    <name>LockScreen</name>
     <message>
         <source>Locked</source>
         <translation>Bloccato</translation>
@@ -8711,7 +8711,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>Locking</name>
+    <name>LockController</name>
     <message>
         <source>Too many tries. The next one in {seconds} s.</source>
         <translation>Troppi tentativi. Il prossimo fra {seconds} s.</translation>
@@ -8722,7 +8722,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>LogSheet</name>
+    <name>LogDialog</name>
     <message>
         <source>Log</source>
         <translation>Registro</translation>
@@ -8761,7 +8761,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>MarkerPicture</name>
+    <name>MarkerFrameView</name>
     <message>
         <source>Picture to click the markers on</source>
         <translation>Immagine su cui fare clic sui marcatori</translation>
@@ -8983,7 +8983,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>NoteSheet</name>
+    <name>NoteDialog</name>
     <message>
         <source>What happened? No names.</source>
         <translation>Che cosa è successo? Niente nomi.</translation>
@@ -9096,7 +9096,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PainSheet</name>
+    <name>PainDialog</name>
     <message>
         <source>Pain now, 0 (none) to 10 (worst)</source>
         <translation>Dolore ora, da 0 (nessuno) a 10 (massimo)</translation>
@@ -9150,7 +9150,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PathView</name>
+    <name>LivePathChart</name>
     <message>
         <source>Path of the wrist</source>
         <translation>Percorso del polso</translation>
@@ -9479,7 +9479,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PictureView</name>
+    <name>FrameView</name>
     <message>
         <source>Camera picture</source>
         <translation>Immagine della telecamera</translation>
@@ -9494,7 +9494,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PinSheet</name>
+    <name>PinDialog</name>
     <message>
         <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
         <translation>Quattro segni o più, cifre o lettere. Nasconde nomi e immagini a chi passa; i file restano leggibili per chi ha l’account o il disco di questo computer.</translation>
@@ -9732,7 +9732,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ReasonSheet</name>
+    <name>ExclusionDialog</name>
     <message>
         <source>pain</source>
         <translation>dolore</translation>
@@ -9779,7 +9779,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>RecordLists</name>
+    <name>RecordListsController</name>
     <message>
         <source>Nothing is due: no patient’s last session is so old.</source>
         <translation>Nessuna scadenza: nessun paziente ha un’ultima seduta così vecchia.</translation>
@@ -10028,7 +10028,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>RecordsSheet</name>
+    <name>RecordsDialog</name>
     <message>
         <source>Done</source>
         <translation>Fine</translation>
@@ -10248,7 +10248,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ResultChoice</name>
+    <name>VersionChoice</name>
     <message>
         <source>Results of this recording</source>
         <translation>Risultati di questa registrazione</translation>
@@ -10278,7 +10278,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ResultsSheet</name>
+    <name>ResultsDialog</name>
     <message>
         <source>How far the tracking is</source>
         <translation>Avanzamento del tracciamento</translation>
@@ -10325,7 +10325,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>RetestSheet</name>
+    <name>RetestDialog</name>
     <message>
         <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
         <translation>Da persone misurate più di una volta, togliendo e rimettendo fra l’una e l’altra tutti i dischetti: errore standard di misura (SEM) e minima differenza rilevabile (MDC95), con intervalli al 95 %.</translation>
@@ -10445,7 +10445,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ReviewPicture</name>
+    <name>ReviewFrameView</name>
     <message>
         <source>Put markers right…</source>
         <translation>Correggi i marcatori…</translation>
@@ -10499,7 +10499,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>Scrubber</name>
+    <name>TimeSlider</name>
     <message>
         <source>Time in the session</source>
         <translation>Tempo nella seduta</translation>
@@ -10532,7 +10532,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>SessionModel</name>
+    <name>SessionListModel</name>
     <message>
         <source>ticked</source>
         <translation>selezionata</translation>
@@ -10622,7 +10622,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>SetAsideSheet</name>
+    <name>ExcludeDialog</name>
     <message>
         <source>Set this session aside?</source>
         <translation>Mettere da parte questa seduta?</translation>
@@ -10661,7 +10661,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>SetSheet</name>
+    <name>SetDialog</name>
     <message>
         <source>Set</source>
         <translation>Sequenza</translation>
@@ -10942,7 +10942,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>Sheet</name>
+    <name>Dialog</name>
     <message>
         <source>Cancel</source>
         <translation>Annulla</translation>
@@ -10957,7 +10957,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>SpotQuestion</name>
+    <name>MarkerQuestion</name>
     <message>
         <source>Is this blue spot the {marker}?</source>
         <translation>Questo punto blu è: {marker}?</translation>
@@ -10988,7 +10988,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>StartAngleSheet</name>
+    <name>StartAngleDialog</name>
     <message>
         <source>The wrist cannot lie straight</source>
         <translation>Il polso non può stare dritto</translation>
@@ -11045,7 +11045,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>Transport</name>
+    <name>PlaybackControls</name>
     <message>
         <source>Previous picture (←)</source>
         <translation>Immagine precedente (←)</translation>
@@ -11102,7 +11102,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>WayButton</name>
+    <name>NavigationButton</name>
     <message>
         <source>{name}, you are here</source>
         <translation>{name}, passo attuale</translation>
@@ -11113,14 +11113,14 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>WaysChart</name>
+    <name>PathsChart</name>
     <message>
         <source>Ways in three planes</source>
         <translation>Percorsi in tre piani</translation>
     </message>
 </context>
 <context>
-    <name>Welcome</name>
+    <name>WelcomeController</name>
     <message>
         <source>Screen</source>
         <translation>Schermo</translation>
@@ -11233,7 +11233,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>_Away</name>
+    <name>_OfflineView</name>
     <message>
         <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
         <translation>L’elenco dei pazienti torna da solo. Per misurare ora, scrivere qui sopra il nome inventato: la seduta resta salvata e compare nell’elenco quando il server risponde.</translation>
@@ -11248,7 +11248,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>_Nobody</name>
+    <name>_EmptyView</name>
     <message>
         <source>No patient “{name}”.</source>
         <translation>Nessun paziente “{name}”.</translation>

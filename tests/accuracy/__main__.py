@@ -11,7 +11,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
-from carpus.core.provenance import revision
+from carpus.core.provenance import source_revision
 from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
@@ -139,7 +139,7 @@ def _hand_tables(runs: Sequence[HandRun], scenarios: Sequence[HandScenario]) -> 
 def _made(seeds: int, pictures: int) -> str:
     """Where the tables of a run of all come from."""
     return (
-        f"The tables below were made by one run of revision {revision()[:12] or 'unknown'}: {pictures} of every row\n"
+        f"The tables below were made by one run of revision {source_revision()[:12] or 'unknown'}: {pictures} of every row\n"  # noqa: E501
         f"that is rendered, {seeds} or more of every row of simulated measurements."
     )
 

@@ -14,9 +14,9 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CarpusFault
-from carpus.core.pipeline.track import TrackSettings, learnt_in, track_recording
+from carpus.core.pipeline.track import TrackSettings, noise_from_json, track_recording
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy.jobs import PICTURE_SECONDS
 from tests.accuracy.pages import ruled
@@ -65,7 +65,7 @@ def run_one(row: str, seed: int) -> BadRun:
     """Track the rendered mixed exercise of a seed from such clicks."""
     scenario = next(one for one in WRIST if one.name == "mixed axes")
     spec = scenario.spec(seed, PICTURE_SECONDS)
-    folder = cached_recording(spec)
+    folder = render_cached(spec)
     truth, verdicts = truth_in(spec, folder), list[Verdict]()
     clicks = clicks_as(row, read_clicks(folder / CLICKS_FILE), seed)
     with tempfile.TemporaryDirectory() as place, threadpool_limits(1):
@@ -81,7 +81,7 @@ def run_one(row: str, seed: int) -> BadRun:
         except CarpusFault as fault:
             return BadRun((*_kinds(verdicts), type(fault).__name__), None, None, 1.0)
         session = read_session(output)
-    learnt = learnt_in(session.header.parameters)
+    learnt = noise_from_json(session.header.parameters)
     assert learnt is not None
     scored = scored_frames(truth, learnt.neutral_ends_s)
     error_deg = degrees_between(session.motion.angles_rad, truth.angles_rad)[scored]

@@ -8,16 +8,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.camera.board import BOARDS, Pattern, board_sheet
+from carpus.core.calibration.camera.board import BOARDS, Pattern, create_board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
-from carpus.core.calibration.camera.views import ASKED_VIEWS, Gathering
+from carpus.core.calibration.camera.views import WANTED_VIEWS, ViewCollector
 from carpus.core.calibration.card.card import CardReading
 from carpus.core.calibration.card.measure import measure_card
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.calibrated import correction_table
+from carpus.core.capture.calibrated import compute_correction_table
 from carpus.core.capture.camera_info import StoredCalibration
 from carpus.core.depth_sensor import AZURE_KINECT, D435
-from carpus.core.errors import BoardViewsAlike
+from carpus.core.errors import BoardViewsTooSimilar
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import FloatArray, Frame
 from tests.accuracy.pages import aligned, ruled
@@ -76,9 +76,9 @@ def run_one(simulated: SimulatedCamera, pattern: Pattern, seed: int) -> CameraRu
     """Calibrate a camera never seen before and check it with the card."""
     studio = Studio(simulated.lens, seed, simulated.depth_share)
     board = BOARDS[pattern]
-    texture = texture_of(board_sheet(board, "a4"))
+    texture = texture_of(create_board_sheet(board, "a4"))
     unknown = replace(DEFAULT_CAMERA, sensor=simulated.lens.sensor)
-    gathering = Gathering(unknown, [board])
+    gathering = ViewCollector(unknown, [board])
     made = _calibrated(gathering, studio, texture, pattern, seed)
     found, lens, depth = made.intrinsics.camera, simulated.lens, made.depth
     assert depth is not None
@@ -97,24 +97,24 @@ def run_one(simulated: SimulatedCamera, pattern: Pattern, seed: int) -> CameraRu
         max(abs(found.cx_px - lens.cx_px), abs(found.cy_px - lens.cy_px)),
         _lens_px(found, lens),
         abs(depth.scale / depth_scale(studio.spec) - 1.0) if depth.offset_m == 0.0 else _at_a_hand(depth, studio),
-        depth.scale_sd, reading, (not off[0].lengths_hold, not off[1].lengths_hold),
+        depth.scale_sd, reading, (not off[0].has_valid_lengths, not off[1].has_valid_lengths),
     )  # fmt: skip
 
 
 def _calibrated(
-    gathering: Gathering, studio: Studio, texture: FloatArray, pattern: Pattern, seed: int
+    gathering: ViewCollector, studio: Studio, texture: FloatArray, pattern: Pattern, seed: int
 ) -> CameraCalibration:
     """As a person does it: as many pictures as are asked for, and more while the program says that it needs them."""
     shown = poses(texture, MOST_POSES, _DISTANCES_M[pattern], seed)
     for k, placed in enumerate(shown, 1):
         gathering.add(studio.frame([placed], k, float(k)))
-        if len(gathering.views) >= ASKED_VIEWS[pattern] or k == len(shown):
+        if len(gathering.views) >= WANTED_VIEWS[pattern] or k == len(shown):
             try:
                 return calibrate_camera(gathering.views, replace(DEFAULT_CAMERA, sensor=studio.camera.sensor), "camera")
-            except BoardViewsAlike:
+            except BoardViewsTooSimilar:
                 if k == len(shown):
                     raise
-    raise BoardViewsAlike("camera", "too few pictures were kept")
+    raise BoardViewsTooSimilar("camera", "too few pictures were kept")
 
 
 def _at_a_hand(depth: object, studio: Studio) -> float:
@@ -127,7 +127,7 @@ def _corrected(frames: Sequence[Frame], stored: StoredCalibration, share: float)
     """Depth put right by the calibration, of a camera whose depth has gone off by a share since."""
     for frame in frames:
         assert frame.depth_raw is not None
-        table: NDArray[np.uint16] = correction_table(stored, frame.depth_unit_m)
+        table: NDArray[np.uint16] = compute_correction_table(stored, frame.depth_unit_m)
         yield replace(frame, depth_raw=table[frame.depth_raw], depth_unit_m=_FINE_M * share)
 
 
@@ -135,7 +135,7 @@ def _lens_px(found: Camera, lens: Camera) -> float:
     """Furthest that a ray of the picture's inner nine tenths lands beside the true one, the camera's turn aside."""
     u, v = np.meshgrid(np.linspace(32, 608, 11), np.linspace(24, 456, 9))
     pixel = np.stack((u.ravel(), v.ravel()), axis=-1)
-    rays = [one.back_project(one.undistort(pixel), np.ones(len(pixel))) for one in (found, lens)]
+    rays = [one.backproject(one.undistort(pixel), np.ones(len(pixel))) for one in (found, lens)]
     turned = rays[0] @ np.linalg.lstsq(rays[0], rays[1], rcond=None)[0]
     return float(np.linalg.norm(turned[:, :2] / turned[:, 2:] - rays[1][:, :2], axis=1).max() * lens.fx_px)
 
@@ -186,7 +186,7 @@ def _verdicts(runs: Sequence[CameraRun]) -> list[str]:
     focal = sum(run.focal <= FOCAL_SHARE for run in runs)
     depth = sum(run.depth <= DEPTH_SHARE for run in runs)
     told = sum(map(sum, (run.told for run in runs)))
-    right = sum(run.card.angles_hold and run.card.lengths_hold for run in runs)
+    right = sum(run.card.has_valid_angles and run.card.has_valid_lengths for run in runs)
     sure = sum(run.focal <= 2.0 * run.focal_sd for run in runs)
     sure_depth = sum(run.depth <= 2.0 * run.depth_sd for run in runs)
     return [

@@ -10,15 +10,22 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.calibrate import MeasuredHand, measure_hand, still_capture
+from carpus.core.calibration.calibrate import MeasuredHand, capture_neutral_pose, measure_hand
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CalibrationImpossible
-from carpus.core.pipeline.track import HandTracker, TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
+from carpus.core.pipeline.track import (
+    HandTracker,
+    TrackSettings,
+    noise_from_json,
+    noise_from_neutral,
+    restart_at_neutral,
+    track_recording,
+)
 from carpus.core.session.reader import read_detections, read_session
-from carpus.core.session.values import Motion, Session, motion_of
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of
+from carpus.core.session.values import Motion, Session, stack_states
+from carpus.core.simulation.recording import CLICKS_FILE, render_cached, sample_clicks
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -35,11 +42,11 @@ from tests.simulation.measurements import MeasurementSequence
 def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) -> tuple[MeasuredHand, float]:
     """The hand as Carpus measures it on the still first frames, and when the last of those was."""
     truth = sequence.truth
-    clicks = clicks_of(truth)
+    clicks = sample_clicks(truth)
     names = true_names(sequence.marker[0], len(clicks.pixel))
-    capture = still_capture(zip(truth.timestamp_s.tolist(), sequence.detections, strict=True), names, settings)
+    capture = capture_neutral_pose(zip(truth.timestamp_s.tolist(), sequence.detections, strict=True), names, settings)
     hand = measure_hand(clicks, capture, truth.camera, settings)
-    return hand, float(truth.timestamp_s[capture.frames - 1])
+    return hand, float(truth.timestamp_s[capture.frame_count - 1])
 
 
 def learnt_tracker(sequence: MeasurementSequence, settings: TrackerSettings | None = None) -> tuple[Tracker, float]:
@@ -49,8 +56,8 @@ def learnt_tracker(sequence: MeasurementSequence, settings: TrackerSettings | No
     hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
     if hand.calibration is None:
         raise CalibrationImpossible(str(sequence.truth.spec.seed))
-    learnt = learnt_from(hand.noise, neutral_ends_s, settings)
-    return Tracker(hand.calibration, sequence.truth.camera, learnt.applied(settings)), neutral_ends_s
+    learnt = noise_from_neutral(hand.noise, neutral_ends_s, settings)
+    return Tracker(hand.calibration, sequence.truth.camera, learnt.adapt_settings(settings)), neutral_ends_s
 
 
 def stepped(
@@ -62,7 +69,7 @@ def stepped(
     times_s, dropped = truth.timestamp_s.tolist(), truth.dropped_before.tolist()
     frames = [
         tracker.step(i, times_s[i], sequence.detections[i], dropped[i])
-        for i in from_neutral(range(len(times_s)), tracker, neutral_ends_s, lambda row: times_s[row])
+        for i in restart_at_neutral(range(len(times_s)), tracker, neutral_ends_s, lambda row: times_s[row])
     ]
     return frames, 1e3 * (time.process_time() - begin) / len(times_s)
 
@@ -87,15 +94,15 @@ def measured_session(folder: Path, settings: TrackSettings | None = None) -> Mea
         track_recording(source, clicks, output, settings or TrackSettings())
         ms = 1e3 * (time.process_time() - begin)
         session, table = read_session(output), read_detections(output)
-    learnt = learnt_in(session.header.parameters)
+    learnt = noise_from_json(session.header.parameters)
     assert learnt is not None
     count = len(session.status)
-    return Measured(session, tuple(table.of_frame(i) for i in range(count)), learnt.neutral_ends_s, ms / count)
+    return Measured(session, tuple(table.get_frame(i) for i in range(count)), learnt.neutral_ends_s, ms / count)
 
 
 def detected_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
     """The blobs that were found in a simulated recording, named by the truth."""
-    labels = (markers_of(b, truth.disc_pixel[i], truth.visible_share[i]) for i, b in enumerate(measured.blobs))
+    labels = (markers_of(b, truth.marker_px[i], truth.visible_share[i]) for i, b in enumerate(measured.blobs))
     return MeasurementSequence(truth, measured.blobs, tuple(labels))
 
 
@@ -107,7 +114,7 @@ def run_on_blobs(
     frames, ms = stepped(tracker, sequence, neutral_ends_s)
     status = np.array([frame.status for frame in frames])
     measured_px = np.array([frame.marker_measured_px for frame in frames])
-    motions = motion_of(frames), motion_of(tracker.smoothed())
+    motions = stack_states(frames), stack_states(tracker.smooth())
     return _scored(
         scenario, "blobs", method, sequence, neutral_ends_s, *motions, measured_px, status, ms
     ), neutral_ends_s
@@ -121,7 +128,7 @@ def run_on_pictures(
     Also the blobs that were found, by their true names, when the neutral pose ended, and the recording's folder.
     """
     spec = scenario.spec(seed, seconds)
-    folder = cached_recording(spec)
+    folder = render_cached(spec)
     found = measured_session(folder, settings)
     sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
     assert session.smoothed is not None

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core.calibration.card.card import CHECK_S, CardReading
-from carpus.core.calibration.card.measure import LOOK_EVERY_S, measure_card
+from carpus.core.calibration.card.measure import SEARCH_INTERVAL_S, measure_card
 from carpus.core.depth_sensor import SENSORS
 from tests.accuracy.cameras import OFF_SHARE, most_of
 from tests.accuracy.pages import aligned, ruled
@@ -42,14 +42,16 @@ def run_one(sensor: str, seed: int, step: int) -> CardRun:
     studio = Studio(camera, seed, depth_scale_error=0.0)
     rng = np.random.default_rng([seed, 1])
     scene = card_scene(float(rng.uniform(0.55, 0.65)), float(rng.uniform(0.0, 8.0)), float(rng.uniform(-20.0, 20.0)))
-    seen = [studio.frame(scene, k, LOOK_EVERY_S * k) for k in range(0, round(CHECK_S / LOOK_EVERY_S) + 1, step)]
+    seen = [
+        studio.frame(scene, k, SEARCH_INTERVAL_S * k) for k in range(0, round(CHECK_S / SEARCH_INTERVAL_S) + 1, step)
+    ]
     right = measure_card(seen, camera, sensor)
     fewer = seen[:: FEWER // step]
     longer, shorter = (
         measure_card([replace(one, depth_unit_m=one.depth_unit_m * share) for one in fewer], camera, sensor)
         for share in (1.0 + OFF_SHARE, 1.0 - OFF_SHARE)
     )
-    return CardRun(right, (not longer.lengths_hold, not shorter.lengths_hold))
+    return CardRun(right, (not longer.has_valid_lengths, not shorter.has_valid_lengths))
 
 
 HEAD = (
@@ -73,7 +75,7 @@ def report(only: str, seeds: int, *, as_markdown: bool) -> str:
 def _row(name: str, runs: Sequence[CardRun]) -> tuple[str, ...]:
     right = [run.right for run in runs]
     limits = [np.mean([getattr(one, field) for one in right]) for field in ("most_angle_deg", "most_length_mm")]
-    out = sum(not (one.angles_hold and one.lengths_hold) for one in right)
+    out = sum(not (one.has_valid_angles and one.has_valid_lengths) for one in right)
     return (
         name, str(len(runs)), f"{limits[0]:.1f} / {limits[1]:.1f}",
         most_of([one.angle_error_deg for one in right], 1), most_of([one.length_error_mm for one in right], 1),

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.session.values import Motion, motion_of
-from carpus.core.simulation.recording import cached_recording
+from carpus.core.session.values import Motion, stack_states
+from carpus.core.simulation.recording import render_cached
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.settings import TrackerSettings
@@ -163,13 +163,13 @@ def run_on_blobs(row: HandScenario, spec: RecordingSpec) -> HandRun:
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     disc_m = np.array([frame.marker_position_cam_m for frame in frames])
     status = np.array([frame.status for frame in frames])
-    motions = motion_of(frames), motion_of(tracker.smoothed())
+    motions = stack_states(frames), stack_states(tracker.smooth())
     return _scored(row, "blobs", sequence, neutral_ends_s, *motions, measured_px, disc_m, status, ms)
 
 
 def run_on_pictures(row: HandScenario, spec: RecordingSpec) -> HandRun:
     """Track a rendered recording through the whole of Carpus, from folder to session file."""
-    folder = cached_recording(spec)
+    folder = render_cached(spec)
     found = measured_session(folder, TrackSettings(tracker=row.tracker))
     sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
     assert session.smoothed is not None
@@ -194,7 +194,7 @@ def _scored(
     truth = sequence.truth
     kept = scored_frames(truth, begin_s)
     names = names_taken(measured_px, sequence.detections, sequence.marker, kept)
-    off_m = disc_m[kept] / depth_scale(truth.spec) - truth.disc_position_cam_m[kept]
+    off_m = disc_m[kept] / depth_scale(truth.spec) - truth.marker_position_cam_m[kept]
     disc_mm = 1e3 * np.linalg.norm(off_m, axis=-1)[names.present]
     joint_true = with_end_joints(truth.joint_angles_rad)
     joint_deg, smoothed_deg = (

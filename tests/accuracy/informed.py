@@ -13,14 +13,14 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.hand import clinical_angles
-from carpus.core.tracking.kernel import ModeMixture, mixed, transitioned
-from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, palm_transition, slowing
-from carpus.core.tracking.palm_association import Measurements, update
-from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
-from carpus.core.tracking.palm_state import SIZE, TURN, PalmEstimate, View, error_reset, resting_estimate
-from carpus.core.tracking.predicted_measurement import predicted_measurement
+from carpus.core.tracking.kernel import ModeMixture, mix_modes, propagate_mixture
+from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, fading_factors, palm_transition
+from carpus.core.tracking.palm_association import Measurements, update_palm
+from carpus.core.tracking.palm_smoother import FilterStep, smooth_palm
+from carpus.core.tracking.palm_state import SIZE, TURN, PalmEstimate, PalmView, initial_estimate, reset_error
+from carpus.core.tracking.predicted_measurement import predict_measurement
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import always_pushed
+from carpus.core.tracking.soft_tissue import single_moving_mode
 from carpus.core.types import FloatArray, Side, TrackStatus
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
@@ -42,13 +42,13 @@ def informed_run(
     measured, error = measured_and_errors(sequence)
     measured = measured - np.nanmean(error, axis=0)
     variance = np.nanmean(np.nanvar(error, axis=0), axis=0)
-    view = View(
+    view = PalmView(
         truth.camera, truth.rotation_w0_cam, truth.translation_w0_cam_m, truth.marker_position_w0_m, np.zeros((6, 18))
     )
     scales = np.array(settings.mode_scales)
-    motion = PalmMotion(settings.motion_noise, always_pushed(RIGID.tissue), scales)
-    estimate = resting_estimate(settings.initial, 1e-14 * np.eye(21))
-    mixture = ModeMixture.alike(np.zeros((1, SIZE)), estimate.covariance[None], scales.size)
+    motion = PalmMotion(settings.motion_noise, single_moving_mode(RIGID.tissue), scales)
+    estimate = initial_estimate(settings.initial, 1e-14 * np.eye(21))
+    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), estimate.covariance[None], scales.size)
     steps: list[FilterStep] = []
     estimates: list[PalmEstimate] = []
     as_stated = np.ones(measured.shape[1:])
@@ -57,16 +57,18 @@ def informed_run(
     for i, seen in enumerate(measured):
         dt_s = float(times[i] - times[i - 1]) if i else 1e-6
         step = palm_transition(estimate.rate_rad_s, motion, dt_s)
-        mixture = transitioned(mixed(mixture, motion.switch(estimate.rate_rad_s, dt_s)), step, estimate.value)
-        ahead_of = replace(step.carries(estimate, dt_s), covariance=mixture.merged()[1][0])
-        ahead = predicted_measurement(ahead_of, mixture, view, settings.spread)
+        mixture = propagate_mixture(
+            mix_modes(mixture, motion.mode_transition_matrix(estimate.rate_rad_s, dt_s)), step, estimate.value
+        )
+        ahead_of = replace(step.propagate(estimate, dt_s), covariance=mixture.merge()[1][0])
+        ahead = predict_measurement(ahead_of, mixture, view, settings.spread)
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)
         blobs = Measurements(seen, np.broadcast_to(variance, seen.shape))
-        estimate, mixture = error_reset(
-            ahead_of, update(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).mixture
+        estimate, mixture = reset_error(
+            ahead_of, update_palm(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).mixture
         )
         if np.count_nonzero(names >= 0) < LEAST_DISCS:
-            kept = slowing(float(np.exp(-dt_s / RATE_MEMORY_S)))
+            kept = fading_factors(float(np.exp(-dt_s / RATE_MEMORY_S)))
             estimate = replace(
                 estimate, value=estimate.value * kept, covariance=estimate.covariance * np.outer(kept, kept)
             )
@@ -75,7 +77,7 @@ def informed_run(
         steps.append(FilterStep(float(times[i]), estimate, mixture.probability[0], True))
     ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, begin_s)
-    smoothed = [estimate for estimate in smoothed_palm(steps, motion) if estimate is not None]
+    smoothed = [estimate for estimate in smooth_palm(steps, motion) if estimate is not None]
     true_rad = truth.angles_rad[scored]
     return Run(
         scenario.name,

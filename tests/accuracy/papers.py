@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.research.papers.chain import PalmModel, PaperSettings, as_written
+from carpus.core.research.papers.chain import PalmModel, PaperSettings, calibrate_as_written
 from carpus.core.research.papers.tracker import PaperTracker
-from carpus.core.session.values import motion_of
+from carpus.core.session.values import stack_states
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy.carpus import measured_hand, stepped
@@ -84,9 +84,9 @@ def _run(row: str, sequence: MeasurementSequence, palm: PalmModel) -> PaperRun:
     hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
     assert hand.calibration is not None
     settings = PaperSettings(palm=palm)
-    tracker = PaperTracker(as_written(hand.calibration, truth.camera, palm), truth.camera, settings)
+    tracker = PaperTracker(calibrate_as_written(hand.calibration, truth.camera, palm), truth.camera, settings)
     frames, ms = stepped(tracker, sequence, neutral_ends_s)
-    kept, motion = scored_frames(truth, neutral_ends_s), motion_of(frames)
+    kept, motion = scored_frames(truth, neutral_ends_s), stack_states(frames)
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     names = names_taken(measured_px, sequence.detections, sequence.marker, kept)
     status = np.array([frame.status for frame in frames])

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.simulation.motions import motion_of
+from carpus.core.simulation.motions import create_motion
 from carpus.core.simulation.truth import Truth
 from carpus.core.types import FloatArray
 
@@ -104,7 +104,7 @@ def strokes_of(truth: Truth, time_s: FloatArray) -> tuple[list[slice], FloatArra
 
 
 def _moves_rad(truth: Truth, time_s: FloatArray) -> FloatArray:
-    motion = motion_of(truth.spec)
+    motion = create_motion(truth.spec)
     return np.hstack((motion.wrist_angles_rad(time_s), motion.joint_angles_rad(time_s)))
 
 

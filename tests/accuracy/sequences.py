@@ -50,7 +50,7 @@ def enough_inside(palm_px: FloatArray, camera: Camera) -> NDArray[np.bool_]:
 
 def scored_frames(truth: Truth, begin_s: float) -> NDArray[np.bool_]:
     """Frames (N,) after ``begin_s`` in which something can be known."""
-    palm_px = truth.disc_pixel[:, list(truth.spec.marker_protocol.palm)]
+    palm_px = truth.marker_px[:, list(truth.spec.marker_protocol.palm)]
     return np.asarray((truth.timestamp_s > begin_s) & enough_inside(palm_px, truth.camera))
 
 
@@ -69,7 +69,7 @@ def longest_untracked_s(sequence: MeasurementSequence, tracked: NDArray[np.bool_
 def without_false(sequence: MeasurementSequence) -> MeasurementSequence:
     """The blobs of true markers only."""
     kept = [labels >= 0 for labels in sequence.marker]
-    blobs = tuple(b.only(rows) for b, rows in zip(sequence.detections, kept, strict=True))
+    blobs = tuple(b.subset(rows) for b, rows in zip(sequence.detections, kept, strict=True))
     names = tuple(labels[rows] for labels, rows in zip(sequence.marker, kept, strict=True))
     return MeasurementSequence(sequence.truth, blobs, names)
 
@@ -77,7 +77,7 @@ def without_false(sequence: MeasurementSequence) -> MeasurementSequence:
 def measured_and_errors(sequence: MeasurementSequence) -> tuple[FloatArray, FloatArray]:
     """Measured pixels and depths (N, M, 3) by true name, NaN where not seen, and their errors."""
     truth = sequence.truth
-    true = np.concatenate((truth.disc_pixel, truth.disc_position_cam_m[..., 2:]), axis=-1)
+    true = np.concatenate((truth.marker_px, truth.marker_position_cam_m[..., 2:]), axis=-1)
     measured = np.full(true.shape, np.nan)
     for i, (blobs, labels) in enumerate(zip(sequence.detections, sequence.marker, strict=True)):
         names = true_names(labels, true.shape[1])

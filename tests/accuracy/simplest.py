@@ -18,8 +18,8 @@ from scipy.optimize import linear_sum_assignment
 from carpus.core.camera import Camera
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.clinical_angles import angles_from_rotation, wrist_axes
-from carpus.core.simulation.recording import clicks_of
-from carpus.core.so3 import nearest_rotation
+from carpus.core.simulation.recording import sample_clicks
+from carpus.core.so3 import project_to_rotation
 from carpus.core.types import FloatArray, Frame, TrackStatus
 from tests.accuracy.runs import SIMPLEST, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
@@ -64,7 +64,7 @@ def nearest_points(frames: Iterable[Spots], start_px: FloatArray, camera: Camera
             marker, spot = linear_sum_assignment(np.minimum(gap, REACH_PX))
             near = gap[marker, spot] < REACH_PX
             marker, spot = marker[near], spot[near]
-            pixel[marker], point[marker] = spot_px[spot], camera.back_project(spot_px[spot], depth_m[spot])
+            pixel[marker], point[marker] = spot_px[spot], camera.backproject(spot_px[spot], depth_m[spot])
             last_px[marker] = spot_px[spot]
         pixels.append(pixel)
         points.append(point)
@@ -84,7 +84,7 @@ def turns(neutral_m: FloatArray, points_m: FloatArray) -> FloatArray:
         if known.sum() >= 3:
             model, seen = neutral_m[:6][known], points[known]
             cross = (seen - seen.mean(axis=0)).T @ (model - model.mean(axis=0))
-            last = axes.T @ nearest_rotation(cross) @ axes
+            last = axes.T @ project_to_rotation(cross) @ axes
         out[i] = last
     return out
 
@@ -104,7 +104,7 @@ def simplest_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
         yield from spots
 
     begin = time.process_time()
-    pixel, points = nearest_points(seen(), clicks_of(truth).pixel, truth.camera)
+    pixel, points = nearest_points(seen(), sample_clicks(truth).pixel, truth.camera)
     still = points[times <= begin_s]
     count = np.isfinite(still).sum(axis=0)
     neutral = np.where(count > 0, np.nansum(still, axis=0) / np.maximum(count, 1), np.nan)
@@ -115,7 +115,7 @@ def simplest_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
     error = degrees_between(angles_from_rotation(rotation, truth.spec.hand), truth.angles_rad)[scored]
     wrong = np.zeros(pixel.shape[:2], dtype=bool)
     for i, marker in np.argwhere(np.isfinite(pixel[..., 0])):
-        gap = np.linalg.norm(truth.disc_pixel[i] - pixel[i, marker], axis=-1)
+        gap = np.linalg.norm(truth.marker_px[i] - pixel[i, marker], axis=-1)
         wrong[i, marker] = gap.argmin() != marker or gap.min() > OWN_PX
     seen_enough = np.isfinite(points[..., 2]).sum(axis=1) >= 3
     return Run(

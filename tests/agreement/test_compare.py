@@ -14,15 +14,15 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
-from carpus.core.agreement.clocks import ClockCurves, Shift, best_shift, with_drift
-from carpus.core.agreement.compare import LEAST_MATCH, _check_match, compare, remarks_of
-from carpus.core.agreement.compared_files import lines
+from carpus.core.agreement.clocks import AlignmentCurves, ClockShift, find_shift, with_residual_drift
+from carpus.core.agreement.compare import MIN_MATCH, _check_match, compare_session, comparison_remarks
+from carpus.core.agreement.compared_files import format_comparison
 from carpus.core.agreement.reference import GoniometerReading, Reference, read_reference
 from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats import c3d_write, mot, trc
 from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.session.values import Session
 from tests.commands import Command
 from tests.formats.takes import stored, take_of
@@ -63,9 +63,9 @@ def test_a_shift_and_an_offset_are_found(session: Session, later: int) -> None:
     elif later < 0:
         angles = {name: v[-later:] for name, v in angles.items()}
     times_s = np.arange(len(angles["flexion"])) / 100.0 + 100.0
-    found = compare(session, replace(reference, time_s=times_s, angles_rad=angles))
-    assert found.shift.reference_later_s == pytest.approx(later / 100, abs=0.004)
-    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
+    found = compare_session(session, replace(reference, time_s=times_s, angles_rad=angles))
+    assert found.shift.lag_s == pytest.approx(later / 100, abs=0.004)
+    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
     assert flexion.bias == pytest.approx(3.0, abs=0.05)
     assert flexion.sd < 0.5
     assert flexion.correlation > 0.999
@@ -74,49 +74,51 @@ def test_a_shift_and_an_offset_are_found(session: Session, later: int) -> None:
 def test_a_turned_sign_is_said_and_not_shifted_away(session: Session) -> None:
     right = other(session, 0.0)
     turned = replace(right, angles_rad=dict(right.angles_rad) | {"flexion": -right.angles_rad["flexion"]})
-    found = compare(session, turned)
-    assert found.shift.reference_later_s == pytest.approx(0.0, abs=0.01)
-    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
+    found = compare_session(session, turned)
+    assert found.shift.lag_s == pytest.approx(0.0, abs=0.01)
+    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
     assert flexion.correlation < -0.99
     assert flexion.icc < 0.0, "not flattered"
     assert any(remark.startswith("flexion: ") and "opposite sign" in remark for remark in found.remarks)
-    assert "opposite sign" in lines(found)[0]
-    assert [remark for remark in found.remarks_on("flexion") if "opposite" in remark]
-    assert not [remark for remark in found.remarks_on("deviation") if "opposite" in remark]
-    assert not any("opposite" in remark for remark in compare(session, right).remarks)
+    assert "opposite sign" in format_comparison(found)[0]
+    assert [remark for remark in found.angle_remarks("flexion") if "opposite" in remark]
+    assert not [remark for remark in found.angle_remarks("deviation") if "opposite" in remark]
+    assert not any("opposite" in remark for remark in compare_session(session, right).remarks)
 
 
 @pytest.mark.parametrize("factor", [math.pi / 180.0, 180.0 / math.pi])
 def test_a_wrong_unit_is_said_and_its_error_not_folded(session: Session, factor: float) -> None:
     right = other(session, 0.0)
-    found = compare(session, replace(right, angles_rad={name: factor * v for name, v in right.angles_rad.items()}))
+    found = compare_session(
+        session, replace(right, angles_rad={name: factor * v for name, v in right.angles_rad.items()})
+    )
     assert any(remark.startswith("flexion: the reference moves") for remark in found.remarks)
     flexion = next(one for one in found.pairs if one.name == "flexion")
     assert np.ptp(flexion.reference_rad) == pytest.approx(factor * np.ptp(flexion.measured_rad), rel=0.02)
-    assert not any("as far as Carpus" in remark for remark in compare(session, right).remarks)
+    assert not any("as far as Carpus" in remark for remark in compare_session(session, right).remarks)
 
 
 def test_a_reference_of_whole_turns_more_agrees(session: Session) -> None:
     right = other(session, 0.0)
     wrapped = {name: np.mod(v, 2.0 * math.pi) for name, v in right.angles_rad.items()}
     for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
-        found = compare(session, replace(right, angles_rad=angles), lag_s=0.0)
-        assert all(one.figures_deg.largest < 2.0 for one in found.pairs)
+        found = compare_session(session, replace(right, angles_rad=angles), lag_s=0.0)
+        assert all(one.agreement_deg.largest_difference < 2.0 for one in found.pairs)
 
 
 def test_a_lag_that_is_known_is_taken(session: Session) -> None:
-    found = compare(session, other(session, 0.0), lag_s=0.4)
-    assert found.shift.was_given
-    assert found.shift.reference_later_s == 0.4
-    assert next(one for one in found.pairs if one.name == "flexion").figures_deg.sd > 5.0
+    found = compare_session(session, other(session, 0.0), lag_s=0.4)
+    assert found.shift.is_given
+    assert found.shift.lag_s == 0.4
+    assert next(one for one in found.pairs if one.name == "flexion").agreement_deg.sd > 5.0
 
 
 def test_the_session_agrees_with_its_own_exports(session: Session, tmp_path: Path) -> None:
     take = take_of(replace(session, path=tmp_path / "s.h5"), "s")
     mot.write(take, tmp_path)
-    found = compare(session, read_reference(tmp_path / "s.mot"))
+    found = compare_session(session, read_reference(tmp_path / "s.mot"))
     assert [one.name for one in found.pairs] == list(WRIST_ANGLES)
-    assert max(one.figures_deg.rmse for one in found.pairs) < 0.05
+    assert max(one.agreement_deg.rmse for one in found.pairs) < 0.05
     assert min(len(one.time_s) for one in found.pairs) >= len(session) - 2
 
 
@@ -136,9 +138,9 @@ def test_points_are_turned_onto_the_session_as_one_body(session: Session, kind: 
     )
     writer = c3d_write if kind == "c3d" else trc
     writer.write(take_of(theirs, "s"), tmp_path)
-    found = compare(rigid, read_reference(tmp_path / f"s.{kind}"))
+    found = compare_session(rigid, read_reference(tmp_path / f"s.{kind}"))
     assert found.alignment.residual_m < 5e-4
-    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
+    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
     assert abs(flexion.bias) < 2.5, "the neutral pose is where the first half second is"
     assert flexion.sd < 0.7
     assert flexion.correlation > 0.999
@@ -152,11 +154,11 @@ def test_a_table_with_a_column_map(session: Session, tmp_path: Path) -> None:
         table.writerow(["Zeit", "FlexExt", "other"])
         for t, angle in zip(time_s, np.degrees(session.motion.angles_rad[:, 1]), strict=True):
             table.writerow([f"{t:.4f}".replace(".", ","), f"{-angle:.4f}".replace(".", ","), "1"])
-    found = compare(session, read_reference(path, {"time": "Zeit", "flexion": "-FlexExt"}))
+    found = compare_session(session, read_reference(path, {"time": "Zeit", "flexion": "-FlexExt"}))
     (flexion,) = found.pairs
-    assert flexion.figures_deg.rmse < 0.02
-    assert any("other" in reason for reason in found.not_used)
-    assert any("deviation" in reason for reason in found.not_used)
+    assert flexion.agreement_deg.rmse < 0.02
+    assert any("other" in reason for reason in found.unused)
+    assert any("deviation" in reason for reason in found.unused)
     with pytest.raises(ReferenceUnreadable, match="NoSuch"):
         read_reference(path, {"time": "Zeit", "flexion": "NoSuch"})
 
@@ -169,15 +171,15 @@ def test_readings_of_a_goniometer(session: Session, tmp_path: Path) -> None:
     path = tmp_path / "goniometer.csv"
     rows = [f"{'flexion' if k else 'extension'},{10 * k - 2},{2 * k + 1}" for k in range(6)]
     path.write_text("angle,reading_deg,time_s\n" + "\n".join([*rows, "flexion,20,6.0", "toe,3,1"]), encoding="utf-8")
-    found = compare(still, read_reference(path), figures=session_figures(still))
+    found = compare_session(still, read_reference(path), figures=compute_session_results(still))
     (flexion,) = found.pairs
-    assert flexion.figures_deg.count == 6
+    assert flexion.agreement_deg.count == 6
     assert flexion.measured_rad[1:] == pytest.approx(np.radians([10.0, 20, 30, 40, 50]), abs=1e-3)
     # Five readings 2 degrees low, and an extension of -2 read as flexion of 2: all by their sign.
     assert np.degrees(flexion.measured_rad - flexion.reference_rad).round(2).tolist() == [-2.0, 2.0, 2.0, 2.0, 2.0, 2.0]
-    assert found.left_out == 1
-    assert any("not still" in reason for reason in found.not_used)
-    assert any("toe" in reason for reason in found.not_used)
+    assert found.excluded_count == 1
+    assert any("not still" in reason for reason in found.unused)
+    assert any("toe" in reason for reason in found.unused)
     assert found.shift is None
 
 
@@ -189,19 +191,19 @@ def test_a_goniometer_on_the_forearm_is_read_from_thumb_up(session: Session, tmp
     path = tmp_path / "goniometer.csv"
     rows = [f"pronation,{90 - 30 * k},{4 * k + 2}" for k in range(3)]
     path.write_text("angle,reading_deg,time_s\n" + "\n".join(rows), encoding="utf-8")
-    (turned,) = compare(still, read_reference(path), figures=session_figures(still)).pairs
+    (turned,) = compare_session(still, read_reference(path), figures=compute_session_results(still)).pairs
     assert np.degrees(turned.measured_rad - turned.reference_rad) == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
     assert np.degrees(turned.reference_rad) == pytest.approx([0.0, 30.0, 60.0]), "a pair has the angle of the files"
 
 
 def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
-    figures = session_figures(session)
+    figures = compute_session_results(session)
     row = figures.find("flexion", "flexion")
     readings = tuple(
         GoniometerReading("flexion", "flexion", math.radians(row.mean + d), math.nan) for d in (1.0, 2.0, 3.0)
     )
-    found = compare(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
-    assert found.pairs[0].figures_deg.bias == pytest.approx(-2.0)
+    found = compare_session(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
+    assert found.pairs[0].agreement_deg.bias == pytest.approx(-2.0)
 
 
 @pytest.mark.filterwarnings("error")
@@ -209,16 +211,18 @@ def test_a_reference_that_holds_nothing_is_refused_in_one_sentence(session: Sess
     unknown = {"flexion": np.full(900, np.nan)}
     for times_s, angles in ((np.empty(0), {"flexion": np.empty(0)}), (np.arange(900) / 30.0, unknown)):
         with pytest.raises(ReferenceUnsuited, match="in common"):
-            compare(session, Reference(Path("x.mot"), "angles", times_s, angles))
+            compare_session(session, Reference(Path("x.mot"), "angles", times_s, angles))
 
 
 def test_another_movement_is_not_compared(session: Session) -> None:
     rng = np.random.default_rng(2)
     noise = {"flexion": np.cumsum(rng.normal(size=3000)) * 0.01}
     with pytest.raises(ReferenceUnsuited):
-        compare(session, Reference(Path("x.mot"), "angles", np.arange(3000) / 100.0, noise), most_shift_s=0.2)
+        compare_session(session, Reference(Path("x.mot"), "angles", np.arange(3000) / 100.0, noise), max_shift_s=0.2)
     with pytest.raises(ReferenceUnsuited, match="discs"):
-        compare(session, Reference(Path("x.c3d"), "points", np.arange(9.0), points_m={"WRIST": np.zeros((9, 3))}))
+        compare_session(
+            session, Reference(Path("x.c3d"), "points", np.arange(9.0), points_m={"WRIST": np.zeros((9, 3))})
+        )
 
 
 def test_the_command_writes_tables_and_plots(tmp_path: Path, command: Command) -> None:
@@ -255,9 +259,9 @@ def test_six_encodings_of_one_trial_read_alike() -> None:
     tracks = [read_c3d(path) for path in sorted((DATA / "c3d").glob("c3dorg_sample01_*.c3d"))]
     assert len(tracks) == 6
     for track in tracks:
-        assert track.place_m.shape == (450, 26, 3)
+        assert track.position_m.shape == (450, 26, 3)
         assert track.names[0] == "RFT1"
-        assert np.allclose(track.place_m, tracks[0].place_m, atol=1e-7, equal_nan=True)
+        assert np.allclose(track.position_m, tracks[0].position_m, atol=1e-7, equal_nan=True)
 
 
 @needs_data
@@ -282,26 +286,30 @@ def test_drift_over_minutes_is_no_other_movement() -> None:
     time_s = np.arange(0.0, 140.0, 1 / 30)
     mine = np.sin(np.pi * time_s)
     there_s = np.arange(0.0, 140.0, 0.01)
-    curves = ClockCurves(time_s, mine[:, None], there_s, np.sin(np.pi * there_s / 0.99)[:, None], either_sign=True)
-    shift = best_shift(curves, 10.0)
-    assert abs(shift.match) < LEAST_MATCH
-    _check_match(Reference(Path("x.mot"), "angles"), curves, with_drift(curves, shift))
-    noise = replace(curves, other=np.random.default_rng(0).normal(size=curves.other.shape))
+    curves = AlignmentCurves(time_s, mine[:, None], there_s, np.sin(np.pi * there_s / 0.99)[:, None], ignores_sign=True)
+    shift = find_shift(curves, 10.0)
+    assert abs(shift.match) < MIN_MATCH
+    _check_match(Reference(Path("x.mot"), "angles"), curves, with_residual_drift(curves, shift))
+    noise = replace(curves, other=np.random.default_rng(0).normal(size=curves.reference_values.shape))
     with pytest.raises(ReferenceUnsuited):
-        _check_match(Reference(Path("x.mot"), "angles"), noise, with_drift(noise, best_shift(noise, 10.0)))
+        _check_match(Reference(Path("x.mot"), "angles"), noise, with_residual_drift(noise, find_shift(noise, 10.0)))
 
 
 @pytest.mark.parametrize(("match", "suits"), [(0.51, True), (-0.51, True), (0.49, False)])
 def test_curves_that_match_by_less_than_a_half_are_no_same_movement(match: float, suits: bool) -> None:
     time_s = np.arange(0.0, 10.0, 0.1)
-    curves = ClockCurves(time_s, time_s[:, None], time_s, time_s[:, None], either_sign=True)
+    curves = AlignmentCurves(time_s, time_s[:, None], time_s, time_s[:, None], ignores_sign=True)
     with nullcontext() if suits else pytest.raises(ReferenceUnsuited):
-        _check_match(Reference(Path("x.mot"), "angles"), curves, Shift(0.0, match))
+        _check_match(Reference(Path("x.mot"), "angles"), curves, ClockShift(0.0, match))
 
 
 def test_against_each_other_may_be_a_shift_beyond_the_search() -> None:
-    against = Shift(-0.5, -0.98, ((1.0, 0.97),), more_rivals=True, upright=(1.0, 0.97), most_s=10.0)
-    said = remarks_of((), against)
+    against = ClockShift(
+        -0.5, -0.98, ((1.0, 0.97),), has_more_rivals=True, same_sign_shift=(1.0, 0.97), max_shift_s=10.0
+    )
+    said = comparison_remarks((), against)
     assert any("beyond 10 s" in remark and "+1.00 s (0.970)" in remark for remark in said)
     assert any(remark.endswith("…") for remark in said)
-    assert not any("beyond" in remark for remark in remarks_of((), replace(against, match=0.98, upright=None)))
+    assert not any(
+        "beyond" in remark for remark in comparison_remarks((), replace(against, match=0.98, same_sign_shift=None))
+    )

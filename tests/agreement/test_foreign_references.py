@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.agreement.compare import FAR_APART_M, compare
-from carpus.core.agreement.compared_files import lines
+from carpus.core.agreement.compare import MAX_RESIDUAL_M, compare_session
+from carpus.core.agreement.compared_files import format_comparison
 from carpus.core.agreement.reference import Reference, read_reference
 from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats.table_read import parse_number, read_table
 from carpus.core.hand.protocols import PALM_MARKERS
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.types import FloatArray
 from tests.ui.fakes import session
 
@@ -139,7 +139,7 @@ def test_two_hands_in_one_file_and_gaps_of_zeros(tmp_path: Path) -> None:
     path = write_trc(tmp_path / "r.trc", time_s, both)
     found = read_reference(path, hand="right")
     assert np.isnan(found.points_m["MCP2"]).all(axis=1).nonzero()[0].tolist() == [40]
-    compared = compare(made, found)
+    compared = compare_session(made, found)
     assert compared.alignment is not None
     assert compared.alignment.residual_m < 1e-4
     assert "R:WRIST" in compared.remarks[0]
@@ -159,9 +159,9 @@ def test_markers_that_stay_apart_are_said(tmp_path: Path) -> None:
     own = {name: 1e3 * made.markers.position_cam_m[:, k] for k, name in enumerate(PALM_MARKERS)}
     own["MCP2"], own["MCP5"] = own["MCP5"], own["MCP2"]
     path = write_trc(tmp_path / "r.trc", made.timestamp_s - made.timestamp_s[0], own)
-    compared = compare(made, read_reference(path), lag_s=0.0)
+    compared = compare_session(made, read_reference(path), lag_s=0.0)
     assert compared.alignment is not None
-    assert compared.alignment.residual_m > FAR_APART_M
+    assert compared.alignment.residual_m > MAX_RESIDUAL_M
     assert any("mm apart" in remark for remark in compared.remarks)
 
 
@@ -169,8 +169,8 @@ def test_markers_that_stay_apart_are_said(tmp_path: Path) -> None:
 def test_one_or_two_readings_print_their_pairs(count: int, tmp_path: Path) -> None:
     made = session()
     text = "movement;reading (°)\n" + "flexion;47,5\nextension;49\n".splitlines(keepends=True)[0] * count
-    compared = compare(made, read(tmp_path, text), figures=session_figures(made))
-    said = "\n".join(lines(compared))
+    compared = compare_session(made, read(tmp_path, text), figures=compute_session_results(made))
+    said = "\n".join(format_comparison(compared))
     assert said.count("47.50") == count
     assert "nan" not in said.lower()
     assert "fewer than 3 pairs" in said
@@ -178,7 +178,7 @@ def test_one_or_two_readings_print_their_pairs(count: int, tmp_path: Path) -> No
 
 def test_what_is_there_is_listed_when_no_angle_fits(tmp_path: Path) -> None:
     with pytest.raises(ReferenceUnsuited, match="it has Knie, Hüfte"):
-        compare(session(), read(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
+        compare_session(session(), read(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
 
 
 @pytest.mark.parametrize("text", ["", "a", "1.2.3", "1_000", "inf", "12:30", "=1+1"])

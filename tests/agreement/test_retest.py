@@ -21,12 +21,12 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
 from carpus.core import so3
-from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, store_limits
-from carpus.core.agreement.retest import retest, studies
+from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, save_limits
+from carpus.core.agreement.retest import analyse_retests, compute_retest
 from carpus.core.errors import SettingsInvalid
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.progress import compare
+from carpus.core.results.figures import SessionResults, compute_session_results
+from carpus.core.results.progress import compare_ranges
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.types import TrackStatus
@@ -48,24 +48,24 @@ def readings(rng: np.random.Generator, people: int, times: int, error: float, ra
 
 
 def test_the_error_that_was_put_in_is_found() -> None:
-    found = retest(readings(np.random.default_rng(1), 4000, 3, 2.5).tolist())
+    found = compute_retest(readings(np.random.default_rng(1), 4000, 3, 2.5).tolist())
     assert found.sem == pytest.approx(2.5, abs=0.05)
     assert found.mdc95 == pytest.approx(1.96 * math.sqrt(2.0) * found.sem)
     assert found.icc == pytest.approx(64.0 / (64.0 + 2.5**2), abs=0.01)
-    assert abs(found.step) < 0.2
+    assert abs(found.systematic_change) < 0.2
 
 
 def test_two_times_are_the_differences_of_the_reference() -> None:
     pairs = readings(np.random.default_rng(2), 11, 2, 3.0)
     difference = pairs[:, 1] - pairs[:, 0]
-    assert retest(pairs.tolist()).sem == pytest.approx(math.sqrt(float((difference**2).mean()) / 2.0))
+    assert compute_retest(pairs.tolist()).sem == pytest.approx(math.sqrt(float((difference**2).mean()) / 2.0))
 
 
 @pytest.mark.parametrize(("times", "rater"), [(2, 0.0), (3, 0.0), (4, 2.0)])
 def test_the_interval_holds_the_truth_as_often_as_it_says(times: int, rater: float) -> None:
     rng = np.random.default_rng(times)
     true = math.hypot(2.0, rater)
-    found = [retest(readings(rng, 12, times, 2.0, rater).tolist()) for _ in range(600)]
+    found = [compute_retest(readings(rng, 12, times, 2.0, rater).tolist()) for _ in range(600)]
     held = float(np.mean([one.sem_interval[0] <= true <= one.sem_interval[1] for one in found]))
     # With four raters who differ the few means decide, and Satterthwaite's interval is an approximation.
     assert (0.93 if rater == 0.0 else 0.85) <= held <= 0.975
@@ -79,23 +79,23 @@ def test_raters_who_differ_are_in_the_error_and_apart_from_it() -> None:
         who = ["MK", "MK", "JS", "JS"]
         values.append([truth + offset[one] + rng.normal(0.0, 1.5) for one in who])
         names.append(who)
-    found = retest(values, names)
-    assert found.sem_same_rater == pytest.approx(1.5, abs=0.1)
+    found = compute_retest(values, names)
+    assert found.intra_rater_sem == pytest.approx(1.5, abs=0.1)
     assert found.sem > 2.4
 
 
 def test_without_raters_nothing_is_said_of_one() -> None:
     values = [[60.0, 62.0, 61.0], [71.0, 70.0, 73.0], [55.0, 58.0, 54.0]]
-    assert math.isnan(retest(values).sem_same_rater), "it would be the overall SEM under another name"
-    assert math.isnan(retest(values, [["MK"] * 3] * 3).sem_same_rater)
+    assert math.isnan(compute_retest(values).intra_rater_sem), "it would be the overall SEM under another name"
+    assert math.isnan(compute_retest(values, [["MK"] * 3] * 3).intra_rater_sem)
     mixed = [["MK", "MK", ""], ["JS", "JS", "MK"], ["", "", ""]]
-    assert retest(values, mixed).sem_same_rater == pytest.approx(math.sqrt((2.0 + 0.5) / 2))
+    assert compute_retest(values, mixed).intra_rater_sem == pytest.approx(math.sqrt((2.0 + 0.5) / 2))
 
 
 def test_people_measured_once_and_unknown_values_take_no_part() -> None:
-    found = retest([[60.0, 62.0], [71.0], [55.0, math.nan], [64.0, 66.0, 65.0], [70.0, 71.0]])
+    found = compute_retest([[60.0, 62.0], [71.0], [55.0, math.nan], [64.0, 66.0, 65.0], [70.0, 71.0]])
     assert (found.people, found.readings) == (3, 7)
-    assert math.isnan(retest([[60.0, 61.0]]).sem)
+    assert math.isnan(compute_retest([[60.0, 61.0]]).sem)
 
 
 def written(folder: Path, person: int, time: int, when: datetime, reach_deg: float) -> Path:
@@ -136,21 +136,21 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def measured(folder: Path) -> list[SessionFigures]:
-    return [session_figures(read_session(path)) for path in sorted(folder.glob("*.h5"))]
+def measured(folder: Path) -> list[SessionResults]:
+    return [compute_session_results(read_session(path)) for path in sorted(folder.glob("*.h5"))]
 
 
-def test_sessions_make_a_study(measured: list[SessionFigures]) -> None:
-    (one,) = studies(measured)
+def test_sessions_make_a_study(measured: list[SessionResults]) -> None:
+    (one,) = analyse_retests(measured)
     assert (one.people, one.sessions) == (10, 20)
-    assert sorted(left.reason for left in one.left_out) == ["once", "too_late"]
+    assert sorted(left.reason for left in one.excluded) == ["once", "too_late"]
     by_hand: dict[str, list[float]] = {}
     for figures in measured:
         row = figures.find("flexion", "flexion")
         by_hand.setdefault(figures.subject_id, []).append(row.mean)
     pairs = np.array([values[:2] for values in by_hand.values() if len(values) > 1])
     expected = math.sqrt(float(((pairs[:, 1] - pairs[:, 0]) ** 2).mean()) / 2.0)
-    assert one.found[("flexion", "flexion")].sem == pytest.approx(expected)
+    assert one.results[("flexion", "flexion")].sem == pytest.approx(expected)
 
 
 def test_the_command_stores_limits_that_reports_name(
@@ -193,13 +193,13 @@ def limits(mdc_deg: float, people: int = 12) -> ErrorLimits:
     return ErrorLimits((RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", people, 2 * people, 2, (one,)),))
 
 
-def test_a_change_is_judged_by_the_clinics_limit(measured: list[SessionFigures]) -> None:
+def test_a_change_is_judged_by_the_clinics_limit(measured: list[SessionResults]) -> None:
     before = measured[0]
     after = with_ranges(before, lambda row: {"mean": row.mean + 9.0})
     after = replace(after, when=before.when + timedelta(days=1), recording_id="other")
 
     def arc(measured: ErrorLimits) -> tuple[str, float]:
-        found = {item.after.what: item for item in compare(before, replace(after, error_limits=measured))}
+        found = {item.after.quantity: item for item in compare_ranges(before, replace(after, error_limits=measured))}
         assert found["flexion"].limit_deg == pytest.approx(10.0), "what the study has not keeps the default"
         return found["arc"].verdict, round(found["arc"].limit_deg, 1)
 
@@ -215,15 +215,15 @@ def test_limits_are_read_as_stored_and_a_new_study_takes_the_place_of_its_like(t
     assert read_limits(tmp_path) == ErrorLimits()
     old, new = limits(6.6).studies[0], limits(5.0).studies[0]
     other = replace(old, exercise="WRIST_RU")
-    store_limits(tmp_path, [old, other])
+    save_limits(tmp_path, [old, other])
     assert read_limits(tmp_path).studies == (old, other)
-    store_limits(tmp_path, [new])
+    save_limits(tmp_path, [new])
     assert read_limits(tmp_path).studies == (other, new)
     assert [path.name for path in tmp_path.iterdir()] == [LIMITS_FILE]
 
 
 def test_a_damaged_file_is_told(tmp_path: Path) -> None:
-    store_limits(tmp_path, limits(6.6).studies)
+    save_limits(tmp_path, limits(6.6).studies)
     negative = json.loads((tmp_path / LIMITS_FILE).read_text())
     negative["studies"][0]["limits"][0]["mdc95_deg"] = -3
     nothing = '{"format": "carpus-error-limits", "format_version": 1, "studies": [{}]}'
@@ -244,31 +244,31 @@ def test_the_settings_compute_limits_from_a_folder_and_put_them_into_force(
     shutil.copytree(folder, study)
     (study / "damaged.h5").write_bytes(b"no session")
     desktop = open_desktop(today=date(2026, 11, 27))
-    desktop.journey.way.show("settings", "measuring")
-    settings = cast("SettingsFlow", desktop.journey.way.flow("settings"))
+    desktop.controller.navigator.open_screen("settings", "measuring")
+    settings = cast("SettingsFlow", desktop.controller.navigator.flow("settings"))
     answers = iter(["", str(study)])
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", staticmethod(lambda *_: next(answers)))
-    settings.screen.retest.click()
-    assert settings.screen.retest.isEnabled(), "the person thought better of it"
-    settings.screen.retest.click()
-    assert not settings.screen.retest.isEnabled()
-    qtbot.waitUntil(settings.retest.isVisible)
-    said = words_of(settings.retest)
+    settings.screen.retest_button.click()
+    assert settings.screen.retest_button.isEnabled(), "the person thought better of it"
+    settings.screen.retest_button.click()
+    assert not settings.screen.retest_button.isEnabled()
+    qtbot.waitUntil(settings.retest_dialog.isVisible)
+    said = words_of(settings.retest_dialog)
     for piece in (
         "People: 10, sessions: 20.", "1 (measured once)", "1 (more than 14 days later)", "cannot be read: 1",
     ):  # fmt: skip
         assert piece in said
     assert read_limits(tmp_path / "data").studies == ()
-    settings.retest.take.click()
+    settings.retest_dialog.accept_button.click()
     qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies))
     (stored,) = read_limits(tmp_path / "data").studies
     assert (stored.people, stored.made) == (10, "2026-11-27")
     qtbot.waitUntil(lambda: "On 27 Nov 2026 with 10 people in 20 sessions" in words_of(settings.screen))
 
 
-def test_few_and_simulated_people_give_no_limits(measured: list[SessionFigures]) -> None:
+def test_few_and_simulated_people_give_no_limits(measured: list[SessionResults]) -> None:
     people = [one for one in measured if one.subject_id != "P11"]
-    assert [one.is_usable for one in studies(people)] == [True]
-    assert [one.is_usable for one in studies([one for one in people if one.subject_id != "P10"])] == [False]
-    assert [one.is_usable for one in studies([replace(one, simulated=True) for one in people])] == [False]
-    assert [one.is_usable for one in studies(people[:1])] == [False]
+    assert [one.is_usable for one in analyse_retests(people)] == [True]
+    assert [one.is_usable for one in analyse_retests([one for one in people if one.subject_id != "P10"])] == [False]
+    assert [one.is_usable for one in analyse_retests([replace(one, simulated=True) for one in people])] == [False]
+    assert [one.is_usable for one in analyse_retests(people[:1])] == [False]

@@ -10,18 +10,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from carpus.core.agreement.statistics import agreement, agreement_of_people, cmc, icc_2_1, icc_3_1, independent_count
+from carpus.core.agreement.statistics import (
+    cmc,
+    compute_agreement,
+    compute_pooled_agreement,
+    effective_sample_size,
+    icc_2_1,
+    icc_3_1,
+)
 
 
 def test_known_differences_give_known_figures() -> None:
     reference = np.array([10.0, 20.0, 30.0, 40.0, 50.0])
     difference = np.array([1.0, 3.0, 2.0, 4.0, 0.0])
-    found = agreement(reference + difference, reference, waveform=False)
+    found = compute_agreement(reference + difference, reference, waveform=False)
     assert found.bias == pytest.approx(2.0)
     assert found.sd == pytest.approx(math.sqrt(2.5))
     assert found.limits == pytest.approx((2.0 - 1.96 * math.sqrt(2.5), 2.0 + 1.96 * math.sqrt(2.5)))
     assert found.rmse == pytest.approx(math.sqrt(6.0))
-    assert found.largest == 4.0
+    assert found.largest_difference == 4.0
     assert found.count == 5
     # t(4) = 2.776: the textbook interval of a mean.
     assert found.bias_interval[1] - 2.0 == pytest.approx(2.776 * math.sqrt(2.5 / 5), rel=1e-3)
@@ -30,14 +37,14 @@ def test_known_differences_give_known_figures() -> None:
 
 def test_what_is_not_known_is_left_out_in_pairs() -> None:
     a, b = np.array([1.0, np.nan, 3.0, 4.0, 6.0]), np.array([1.0, 2.0, np.nan, 4.0, 5.0])
-    assert agreement(a, b, waveform=False).count == 3
-    assert math.isnan(agreement(a[:2], b[:2]).bias)
+    assert compute_agreement(a, b, waveform=False).count == 3
+    assert math.isnan(compute_agreement(a[:2], b[:2]).bias)
 
 
 @given(st.floats(-20, 20), st.integers(0, 1000))
 def test_a_constant_offset_is_bias_and_nothing_else(offset: float, seed: int) -> None:
     wave = 30.0 * np.sin(np.linspace(0, 20, 300)) + np.random.default_rng(seed).normal(size=300)
-    found = agreement(wave + offset, wave)
+    found = compute_agreement(wave + offset, wave)
     assert found.bias == pytest.approx(offset, abs=1e-9)
     assert found.sd == pytest.approx(0.0, abs=1e-6)
     assert found.correlation == pytest.approx(1.0)
@@ -48,9 +55,9 @@ def test_a_constant_offset_is_bias_and_nothing_else(offset: float, seed: int) ->
 def test_neighbours_in_time_count_for_less() -> None:
     rng = np.random.default_rng(3)
     noise = rng.normal(size=4000)
-    assert independent_count(noise) > 2500
+    assert effective_sample_size(noise) > 2500
     slow = np.convolve(noise, np.ones(20) / 20, "valid")
-    assert len(slow) / 40 < independent_count(slow) < len(slow) / 10
+    assert len(slow) / 40 < effective_sample_size(slow) < len(slow) / 10
 
 
 def test_the_interval_of_an_icc_holds_the_true_one() -> None:
@@ -107,12 +114,12 @@ def test_the_interval_of_a_negative_icc_lies_about_it_and_holds_the_true_one(cor
 def test_curves_that_run_against_each_other_are_called_so() -> None:
     wave = 30.0 * np.sin(np.linspace(0.0, 60.0, 1800))
     noise = np.random.default_rng(1).normal(0.0, 2.0, 1800)
-    turned = agreement(-wave + noise, wave)
+    turned = compute_agreement(-wave + noise, wave)
     assert turned.correlation < -0.99
     assert turned.is_opposite
     low, high = turned.icc_interval
     assert -1.0 <= low <= turned.icc <= high <= 1.0
-    assert not agreement(wave + noise, wave).is_opposite
+    assert not compute_agreement(wave + noise, wave).is_opposite
 
 
 def test_people_whose_true_value_varies_have_both_variances_in_their_limits() -> None:
@@ -121,7 +128,7 @@ def test_people_whose_true_value_varies_have_both_variances_in_their_limits() ->
     people, each = 12, 5
     difference = 2.0 + rng.normal(0.0, 1.5, (people, 1)) + rng.normal(0.0, 1.0, (people, each))
     truth = rng.normal(60.0, 10.0, (people, each))
-    found, between = agreement_of_people(list(truth + difference), list(truth), waveform=False)
+    found, between = compute_pooled_agreement(list(truth + difference), list(truth), waveform=False)
     of_people = each * difference.mean(axis=1).var(ddof=1)
     within = difference.var(axis=1, ddof=1).mean()
     sd = math.sqrt(within + (of_people - within) / each)
@@ -131,7 +138,7 @@ def test_people_whose_true_value_varies_have_both_variances_in_their_limits() ->
     assert between.sd_within == pytest.approx(math.sqrt(within))
     assert between.sd_between == pytest.approx(math.sqrt((of_people - within) / each))
     # Taking the pairs for independent ones is too sure of the mean.
-    pooled = agreement((truth + difference).ravel(), truth.ravel(), waveform=False)
+    pooled = compute_agreement((truth + difference).ravel(), truth.ravel(), waveform=False)
     assert np.ptp(found.bias_interval) > 1.5 * np.ptp(pooled.bias_interval)
 
 
@@ -142,7 +149,7 @@ def test_intervals_of_peoples_limits_hold_the_truth_as_often_as_they_say() -> No
     for _ in range(300):
         truth = [rng.normal(60.0, 10.0, int(rng.integers(3, 12))) for _ in range(10)]
         theirs = [one + rng.normal(0.0, 1.5) + rng.normal(0.0, 1.0, len(one)) for one in truth]
-        found, _ = agreement_of_people(theirs, truth, waveform=False)
+        found, _ = compute_pooled_agreement(theirs, truth, waveform=False)
         held[0] += found.bias_interval[0] <= 0.0 <= found.bias_interval[1]
         held[1] += found.lower_interval[0] <= -true <= found.lower_interval[1]
         held[2] += found.upper_interval[0] <= true <= found.upper_interval[1]
@@ -151,7 +158,7 @@ def test_intervals_of_peoples_limits_hold_the_truth_as_often_as_they_say() -> No
 
 def test_few_people_say_nothing() -> None:
     one = np.arange(5.0)
-    found, between = agreement_of_people([one, one + 1.0], [one, one])
+    found, between = compute_pooled_agreement([one, one + 1.0], [one, one])
     assert math.isnan(found.bias)
     assert between.people == 2
 
@@ -161,9 +168,9 @@ def test_people_with_one_or_two_readings_count(each: int) -> None:
     rng = np.random.default_rng(0)
     truth = rng.normal(50.0, 10.0, (30, each))
     theirs = truth + rng.normal(1.0, 2.0, (30, each))
-    found, between = agreement_of_people(list(theirs), list(truth), waveform=False)
+    found, between = compute_pooled_agreement(list(theirs), list(truth), waveform=False)
     assert (found.count, between.people) == (30 * each, 30)
-    plain = agreement(theirs.mean(axis=1), truth.mean(axis=1), waveform=False)
+    plain = compute_agreement(theirs.mean(axis=1), truth.mean(axis=1), waveform=False)
     assert found.bias_interval == pytest.approx(plain.bias_interval)
     assert found.lower_interval[0] < found.limits[0] < found.lower_interval[1]
     if each == 1:
@@ -173,11 +180,11 @@ def test_people_with_one_or_two_readings_count(each: int) -> None:
     else:
         assert between.sd_within == pytest.approx((theirs - truth).std(axis=1, ddof=1).mean(), rel=0.5)
     few = [one[: 1 + k // 10] for k, one in enumerate(np.hstack((theirs, theirs, theirs))[:, :3])]
-    assert agreement_of_people(few, [one - 1.0 for one in few], waveform=False)[1].people == 30
+    assert compute_pooled_agreement(few, [one - 1.0 for one in few], waveform=False)[1].people == 30
 
 
 def test_two_that_stand_still_have_no_icc() -> None:
-    found = agreement(np.zeros(50), np.ones(50))
+    found = compute_agreement(np.zeros(50), np.ones(50))
     assert math.isnan(found.icc)
     assert math.isnan(found.icc_3_1)
     assert found.bias == -1.0

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.agreement.compare import Pairs
+from carpus.core.agreement.compare import AnglePairs
 from carpus.core.agreement.compared_files import compare_files
-from carpus.core.agreement.statistics import NOTHING, Between
-from carpus.core.agreement.study import OfPeople, _few
+from carpus.core.agreement.statistics import NO_AGREEMENT, VarianceComponents
+from carpus.core.agreement.study import PooledAngle, _pooled_remarks
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from tests.commands import Command
@@ -133,7 +133,7 @@ def test_what_is_no_table_of_a_study_is_said(tmp_path: Path, command: Command) -
 
 
 def test_who_is_not_in_the_figures_of_all_is_named() -> None:
-    nothing = Pairs("flexion", np.zeros(0), np.zeros(0), np.zeros(0), NOTHING)
-    few = OfPeople(nothing, Between(2, math.nan, math.nan), 3, ("anna", "bert"), 3)
-    assert "anna, bert" in _few(few)[0]
-    assert "too few" in _few(few)[1]
+    nothing = AnglePairs("flexion", np.zeros(0), np.zeros(0), np.zeros(0), NO_AGREEMENT)
+    few = PooledAngle(nothing, VarianceComponents(2, math.nan, math.nan), 3, ("anna", "bert"), 3)
+    assert "anna, bert" in _pooled_remarks(few)[0]
+    assert "too few" in _pooled_remarks(few)[1]

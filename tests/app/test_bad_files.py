@@ -15,12 +15,18 @@ from pathlib import Path
 import h5py
 import pytest
 
-from carpus.core.errors import CarpusFault, FilesSetApart, RegisterMissing, RegisterSetAside, SessionUnreadable
+from carpus.core.errors import (
+    CarpusFault,
+    PatientListMissing,
+    PatientListRebuilt,
+    SessionFilesIgnored,
+    SessionUnreadable,
+)
 from carpus.core.records import new_sessions, session_list
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import recover
-from carpus.core.records.session_list import remembered
+from carpus.core.records.new_sessions import recover_sessions
+from carpus.core.records.session_list import read_file_states
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import opened as opened_store
@@ -45,8 +51,8 @@ def stored(path: Path, subject: str = "Linden 42", *, finished: bool = True) -> 
 def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
     """The program's start on a folder: patients, and what it tells of its files."""
     with closing(Library(folder)) as library:
-        faults = [one for one in recover(library)[1] if not isinstance(one, RegisterMissing)]
-        return [record.pseudonym for record in library.patients.listed()], faults
+        faults = [one for one in recover_sessions(library)[1] if not isinstance(one, PatientListMissing)]
+        return [record.pseudonym for record in library.patients.search()], faults
 
 
 BAD: dict[str, Callable[[h5py.File], object]] = {
@@ -60,7 +66,7 @@ BAD: dict[str, Callable[[h5py.File], object]] = {
 
 
 def test_bad_files_do_not_keep_the_program_from_starting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(new_sessions, "MOST_TOLD", 100)
+    monkeypatch.setattr(new_sessions, "MAX_LISTED_FILES", 100)
     sessions = tmp_path / "sessions"
     stored(sessions / "Heron-17" / "good.h5", "Heron 17")
     bad: dict[Path, str] = {}
@@ -89,7 +95,7 @@ def test_a_file_set_apart_is_read_again_when_it_has_changed(tmp_path: Path) -> N
     path.write_bytes(good)
     assert started(tmp_path) == (["Linden 42"], [])
     with opened_store(tmp_path) as house:
-        assert [one.reason for one in remembered(house.store).values()] == [""]
+        assert [one.reason for one in read_file_states(house.store).values()] == [""]
 
 
 def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,18 +113,18 @@ def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytes
 def test_a_copied_session_counts_once(tmp_path: Path) -> None:
     first = stored(tmp_path / "sessions" / "b.h5")
     with opened_store(tmp_path) as house:
-        house.files.take_in()
-        (patient,) = house.patients.listed()
+        house.files.scan()
+        (patient,) = house.patients.search()
         shutil.copy(first, tmp_path / "sessions" / "a.h5")
-        assert house.files.take_in().sessions == 0
-        assert [entry.path.name for entry in house.index.of_patient(patient.patient_id)] == ["b.h5"]
-        assert house.patients.one(patient.patient_id).session_count == 1
-        assert [path.name for path in house.files.copies_of("b.h5")] == ["a.h5"]
+        assert house.files.scan().session_count == 0
+        assert [entry.path.name for entry in house.index.patient_sessions(patient.patient_id)] == ["b.h5"]
+        assert house.patients.get(patient.patient_id).session_count == 1
+        assert [path.name for path in house.files.duplicate_files("b.h5")] == ["a.h5"]
         first.unlink()
-        house.files.take_in()
-        assert [entry.path.name for entry in house.index.of_patient(patient.patient_id)] == ["a.h5"]
+        house.files.scan()
+        assert [entry.path.name for entry in house.index.patient_sessions(patient.patient_id)] == ["a.h5"]
     with opened_store(tmp_path) as house:
-        assert house.patients.one(patient.patient_id).session_count == 1
+        assert house.patients.get(patient.patient_id).session_count == 1
 
 
 def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
@@ -133,7 +139,7 @@ def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
     patients, faults = started(tmp_path)
     assert patients == ["Linden 42"]
     assert len(faults) == 1
-    assert isinstance(faults[0], FilesSetApart)
+    assert isinstance(faults[0], SessionFilesIgnored)
     assert faults[0].detail == "5 files"
 
 
@@ -192,12 +198,12 @@ def test_a_damaged_register_does_not_keep_the_program_from_starting(
     patients, faults = started(tmp_path)
     assert len(patients) == 1
     for fault in faults:
-        assert isinstance(fault, RegisterSetAside)
+        assert isinstance(fault, PatientListRebuilt)
         assert Path(fault.subject).exists()
     with opened_store(tmp_path) as house:
-        (patient,) = house.patients.listed()
+        (patient,) = house.patients.search()
         assert patient.session_count == 1
-        assert len(house.index.of_patient(patient.patient_id)) == 1
+        assert len(house.index.patient_sessions(patient.patient_id)) == 1
     assert started(tmp_path) == (patients, [])
 
 
@@ -214,7 +220,7 @@ def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
 
 
 def test_nothing_told_is_lost_between_two_calls(tmp_path: Path) -> None:
-    assert new_sessions.MOST_TOLD >= 1
+    assert new_sessions.MAX_LISTED_FILES >= 1
     for number in range(6):
         stored(tmp_path / "sessions" / f"{number}.h5").write_bytes(b"x" * 100)
     (fault,) = started(tmp_path)[1]

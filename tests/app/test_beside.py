@@ -30,14 +30,14 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 def desktop(open_desktop: Callable[..., Desktop], recorded: tuple[Path, Path], tmp_path: Path) -> Desktop:
     patient = kept(tmp_path / "data", LINDEN, (recorded[0], NOW, ""), (recorded[1], EARLIER, ""))
     opened = open_desktop(today=date(2026, 11, 20))
-    opened.journey.sessions.show(patient)
+    opened.controller.sessions.open(patient)
     return opened
 
 
 def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop) -> None:
-    journey, screen = desktop.journey, desktop.journey.beside.screen
+    journey, screen = desktop.controller, desktop.controller.beside.screen
     shown_list = journey.sessions.screen.list
-    qtbot.waitUntil(lambda: all(line.figure for line in shown_list.rows.lines))
+    qtbot.waitUntil(lambda: all(line.main_value for line in shown_list.session_model.lines))
     assert not journey.sessions.screen.pair_button.isEnabled()
     qtbot.keyClick(shown_list, Qt.Key.Key_Space)
     qtbot.keyClick(shown_list, Qt.Key.Key_Down)
@@ -45,11 +45,11 @@ def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop)
     assert "Compare the 2 ticked" in journey.sessions.screen.pair_button.text()
     qtbot.keyClick(shown_list, Qt.Key.Key_C)
     assert journey.place == "beside"
-    qtbot.waitUntil(lambda: screen.both is not None)
+    qtbot.waitUntil(lambda: screen.comparison is not None)
     assert screen.answer.text() == "The whole arc has improved by 30° since 13 Nov."
     assert [row[-1].text for row in screen.differences.table.rows][:3] == ["improved, beyond error"] * 3
 
-    start, starts = screen.playing.time_s, screen.together.step.starts_s
+    start, starts = screen.playing.time_s, screen.alignment.step.starts_s
     assert start == starts[0]
     for key, expected in ((Qt.Key.Key_BracketRight, starts[1]), (Qt.Key.Key_BracketLeft, start)):
         qtbot.keyClick(screen, key)
@@ -60,43 +60,43 @@ def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop)
     playing_from = screen.playing.time_s
     qtbot.waitUntil(lambda: screen.playing.time_s > playing_from)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
-    journey.way.back()
+    journey.navigator.navigate_back()
     assert journey.place == "sessions"
-    assert len(journey.sessions.screen.list.rows.ticked) == 2, "they stay ticked"
-    deeds = [entry.did for entry in read_log(desktop.library.store)]
+    assert len(journey.sessions.screen.list.session_model.ticked) == 2, "they stay ticked"
+    deeds = [entry.action for entry in read_log(desktop.library.store)]
     assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 0, 0]
 
 
 def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Desktop) -> None:
-    journey, screen = desktop.journey, desktop.journey.beside.screen
-    newest, older = (line.entry.session_id for line in journey.sessions.screen.list.rows.lines)
-    journey.review.show(newest)
-    qtbot.waitUntil(lambda: journey.review.screen.shown)
-    assert journey.review.screen.card.beside_button.isEnabled()
+    journey, screen = desktop.controller, desktop.controller.beside.screen
+    newest, older = (line.entry.session_id for line in journey.sessions.screen.list.session_model.lines)
+    journey.review.open(newest)
+    qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
+    assert journey.review.screen.card.compare_button.isEnabled()
     qtbot.keyClick(journey.review.screen, Qt.Key.Key_B)
     assert journey.place == "beside"
-    qtbot.waitUntil(lambda: screen.both is not None)
-    assert screen.ids == (newest, older)
+    qtbot.waitUntil(lambda: screen.comparison is not None)
+    assert screen.session_ids == (newest, older)
     qtbot.keyClick(desktop.shell, Qt.Key.Key_F1)
     assert journey.place == "help"
-    journey.way.back()
+    journey.navigator.navigate_back()
     assert journey.place == "beside", "as it was left"
-    assert screen.both is not None
-    opened = [entry.did for entry in read_log(desktop.library.store)].count("opened")
+    assert screen.comparison is not None
+    opened = [entry.action for entry in read_log(desktop.library.store)].count("opened")
     assert opened == 3, "the review's one, and the two once"
-    journey.way.back()
+    journey.navigator.navigate_back()
     assert journey.place == "review"
-    qtbot.waitUntil(lambda: journey.review.screen.shown)
-    bar = desktop.shell.bar.camera
+    qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
+    bar = desktop.shell.top_bar.camera
     assert bar.text().startswith("Saved")
-    journey.review.show(older)
+    journey.review.open(older)
     assert not bar.text().startswith("Saved"), "nothing is said of the one before"
-    qtbot.waitUntil(lambda: journey.review.screen.shown)
+    qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
     assert bar.text().startswith("Saved")
     desktop.library.entry(older).path.unlink()
     told: list[Exception] = []
-    screen.told.connect(told.append)
-    journey.beside.show(newest, older)
+    screen.fault_raised.connect(told.append)
+    journey.beside.open(newest, older)
     qtbot.waitUntil(lambda: len(told) == 1)
-    assert screen.both is None
+    assert screen.comparison is None
     assert "could not be read" in screen.answer.text()

@@ -175,10 +175,10 @@ def test_what_could_not_be_said_on_a_full_disk_comes_once_there_is_room(
         before = resource.getrlimit(resource.RLIMIT_FSIZE)
         resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))
         try:
-            command_line.say("no room for this")
+            command_line.print_message("no room for this")
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, before)
-        command_line.say("here is room")
+        command_line.print_message("here is room")
     assert (tmp_path / "said").read_text() == "carpus: no room for this\ncarpus: here is room\n"
 
 
@@ -339,7 +339,7 @@ def test_damaged_pictures_are_a_fault_or_left_out_and_told(recording: Path, tmp_
     session = read_session(output)
     assert len(session) == len(color) - 2
     assert session.quality.dropped_before.sum() == 2
-    assert session.header.simulated
+    assert session.header.is_simulated
 
 
 def test_a_session_is_exported_in_every_format_and_nothing_is_overwritten(
@@ -373,7 +373,7 @@ def test_long_work_without_a_terminal_says_one_line_at_its_end(
 ) -> None:
     clock_s = [0.0]
     monkeypatch.setattr(command_line.time, "monotonic", lambda: clock_s[0])
-    with command_line.bar("tracking") as show:
+    with command_line.progress_bar("tracking") as show:
         for done in range(1, 31):
             clock_s[0] += step_s
             show(done, 40)
@@ -389,7 +389,7 @@ class ATerminal(io.StringIO):
 def test_a_terminal_sees_how_far_how_fast_and_how_long_yet(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tqdm.tqdm", partial(tqdm, mininterval=0.0))
     monkeypatch.setattr(sys, "stderr", ATerminal())
-    with command_line.bar("tracking") as show:
+    with command_line.progress_bar("tracking") as show:
         for done in (1, 2, 3):
             show(done, 4, "7 frames a second")
         drawn = sys.stderr.getvalue().rpartition("\r")[2]

@@ -20,38 +20,38 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import (
-    ChangedMeanwhile,
+    ConcurrentChange,
     DiskFull,
     FolderMissing,
     OutputNotWritable,
-    RegisterBusy,
-    ServerGone,
+    PatientListBusy,
+    ServerUnavailable,
     SessionUnreadable,
 )
-from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
-from carpus.core.records.backup import gather
-from carpus.core.records.changes import dropped
-from carpus.core.records.corrections import Corrections, Waiting, _found_again, difference
-from carpus.core.records.keeping import Records
+from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
+from carpus.core.records.backup import collect_sources
+from carpus.core.records.changes import delete_row
+from carpus.core.records.corrections import Corrections, PendingResult, _match_exclusions, compare_results
+from carpus.core.records.keeping import RecordRetention
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import recover
+from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.schema import SESSION
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.session.disk import publish
 from carpus.core.session.reader import read_session
-from carpus.core.session.rewriting import write_anew
+from carpus.core.session.rewriting import rewrite_session
 from carpus.core.session.values import RepetitionRow, Repetitions
 from carpus.ui.background import Background
-from carpus.ui.correct.flow import CorrectFlow
+from carpus.ui.correct.flow import CorrectionFlow
 from carpus.ui.flow import ScreenContext
-from carpus.ui.now_open import NowOpen
+from carpus.ui.now_open import CurrentSelection
 from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.sessions.stored import StoredSessions
-from carpus.ui.shell import Shell
+from carpus.ui.sessions.stored import SessionStore
+from carpus.ui.shell import MainWindow
 from carpus.ui.theme import Theme
 from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, wrongly_tracked
 from tests.ui.contexts import Told, a_context
@@ -66,7 +66,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
 def corrected(stored: Stored) -> Path:
     """The new result of it."""
     path = stored.path.with_name("corrected.h5")
-    correct(task_of(stored.path, path, (put_right(stored),)))
+    correct(load_task(stored.path, path, (put_right(stored),)))
     return path
 
 
@@ -93,21 +93,21 @@ class Kept:
 
     @property
     def listed(self) -> list[str]:
-        return [entry.session_id for entry in self.library.index.of_patient(self.patient)]
+        return [entry.session_id for entry in self.library.session_list.patient_sessions(self.patient)]
 
     def trial(self, **said: str) -> Path:
         """It was tracked again: one more result that nobody has decided about."""
-        trial = self.corrections.trial_path(self.session_id)
-        write_anew(self.corrected, trial, {"session_id": str(uuid4()), **said})
+        trial = self.corrections.new_pending_path(self.session_id)
+        rewrite_session(self.corrected, trial, {"session_id": str(uuid4()), **said})
         return trial
 
 
 def entered(library: Library, stored: Stored, corrected: Path) -> Kept:
     patient = library.patients.add(Patient("Linden 42", "right"))
     when = datetime(2026, 11, 20, 11, 36).astimezone()
-    path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
+    path = library.session_list.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
     shutil.copyfile(stored.path, path)
-    return Kept(library, patient, library.index.enter(path, patient).session_id, corrected)
+    return Kept(library, patient, library.session_list.add(path, patient).session_id, corrected)
 
 
 @pytest.fixture
@@ -116,23 +116,23 @@ def kept(tmp_path: Path, stored: Stored, corrected: Path) -> Iterator[Kept]:
         yield entered(library, stored, corrected)
 
 
-Correcting = Callable[[Told], tuple[CorrectFlow, ScreenContext]]
+Correcting = Callable[[Told], tuple[CorrectionFlow, ScreenContext]]
 
 
 @pytest.fixture
 def correcting(qtbot: QtBot, kept: Kept) -> Iterator[Correcting]:
     """Puts the flow together with a window around it, and closes it."""
-    made: list[CorrectFlow] = []
+    made: list[CorrectionFlow] = []
 
-    def put_together(told: Told) -> tuple[CorrectFlow, ScreenContext]:
+    def put_together(told: Told) -> tuple[CorrectionFlow, ScreenContext]:
         theme = Theme("light")
-        shell = Shell(theme)
+        shell = MainWindow(theme)
         qtbot.addWidget(shell)
         shell.resize(1280, 744)
         shell.show()
-        now = NowOpen(session_id=kept.session_id)
+        now = CurrentSelection(session_id=kept.session_id)
         context = a_context(theme, shell, told, Background(), library=kept.library, now=now)
-        made.append(CorrectFlow(context))
+        made.append(CorrectionFlow(context))
         return made[-1], context
 
     yield put_together
@@ -153,7 +153,7 @@ def killed_once_listed(kept: Kept, monkeypatch: pytest.MonkeyPatch, trial: Path)
     with monkeypatch.context() as patched:
         patched.setattr("carpus.core.records.corrections.publish", killed)
         with pytest.raises(Killed):
-            kept.corrections.use(kept.session_id, trial)
+            kept.corrections.accept(kept.session_id, trial)
 
 
 def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -173,23 +173,25 @@ def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(kept: Kept) -> None:
     corrections, trial = kept.corrections, kept.trial()
-    recover(kept.library)
+    recover_sessions(kept.library)
     assert kept.listed == [kept.session_id]
-    old, new = corrections.both(kept.session_id, trial)
-    found = difference(old, new)
-    assert found.common > 100
-    assert math.degrees(found.most_rad) < 10.0
-    assert found.live, "the old result was not looked back at"
-    assert difference(new, new).live is False
+    old, new = corrections.read_both(kept.session_id, trial)
+    found = compare_results(old, new)
+    assert found.compared_frames > 100
+    assert math.degrees(found.max_difference_rad) < 10.0
+    assert found.is_live, "the old result was not looked back at"
+    assert compare_results(new, new).is_live is False
     behind = replace(new, motion=replace(new.motion, angles_rad=new.motion.angles_rad + 1.0))
-    assert difference(old, behind).changed == len(old), "what the camera showed at the time, not what looking back made"
+    assert compare_results(old, behind).changed_frames == len(old), (
+        "what the camera showed at the time, not what looking back made"
+    )
     trial.with_suffix(".12345678.part").write_bytes(b"x")  # the program was killed in the midst of another one
     later = kept.corrections
-    later.clear_unfinished()
-    assert later.waiting() == [Waiting(kept.session_id, trial)]
+    later.delete_unfinished()
+    assert later.list_pending() == [PendingResult(kept.session_id, trial)]
     assert list(trial.parent.iterdir()) == [trial]
-    corrections.drop(trial)
-    assert later.waiting() == []
+    corrections.discard(trial)
+    assert later.list_pending() == []
 
 
 @pytest.mark.parametrize("kind", ["session", "patient"])
@@ -208,10 +210,10 @@ def test_what_waits_is_erased_with_its_session_also_what_is_damaged_or_not_finis
     nobodys.write_bytes(b"no session")
     copy = other.with_name(f".{other.stem}.12345678.h5.new")  # the program was killed while it took one
     copy.write_bytes(b"x")
-    records = Records(kept.library)
+    records = RecordRetention(kept.library)
     plan = records.plan_session(kept.session_id) if kind == "session" else records.plan_patient(kept.patient)
     assert {*trials, copy} <= {*plan.files}
-    assert set(plan.outside) == ({nobodys} if kind == "patient" else set()), "nobody can tell whose it is"
+    assert set(plan.unassigned_files) == ({nobodys} if kind == "patient" else set()), "nobody can tell whose it is"
     records.erase(plan)
     assert [trial for trial in trials if trial.exists()] == []
     assert not copy.exists()
@@ -233,53 +235,55 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
     monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
     told = Told("settings", behind="correct")  # what comes of it comes behind them
     flow, context = correcting(told)
-    sheet, said = flow.sheet, list[tuple[int, int]]()
-    flow.changed.connect(lambda percent, count: said.append((percent, count)))
+    sheet, said = flow.dialog, list[tuple[int, int]]()
+    flow.progress_changed.connect(lambda percent, count: said.append((percent, count)))
     flow.start(kept.session_id, (put_right(stored),))
     qtbot.waitUntil(lambda: said[-1:] == [(-1, 1)])
     assert (25, 0) in said
     assert not sheet.isVisible()
     for key in (Qt.Key.Key_Return, Qt.Key.Key_Space, Qt.Key.Key_Escape):
-        flow.open_sheet()
-        qtbot.waitUntil(lambda: sheet.both is not None)
-        assert sheet.use.isVisible()
-        qtbot.keyClick(context.shell.stage.focusWidget(), key)
+        flow.open_dialog()
+        qtbot.waitUntil(lambda: sheet.results is not None)
+        assert sheet.use_button.isVisible()
+        qtbot.keyClick(context.window.screen_stack.focusWidget(), key)
         assert not sheet.isVisible()
-    assert [one.session_id for one in flow.waiting] == kept.counting == [kept.session_id]
-    flow.open_sheet()
-    qtbot.waitUntil(lambda: sheet.both is not None)
+    assert [one.session_id for one in flow.pending] == kept.counting == [kept.session_id]
+    flow.open_dialog()
+    qtbot.waitUntil(lambda: sheet.results is not None)
     assert "Not held" not in sheet.words.text()
-    sheet.use.click()
+    sheet.use_button.click()
     qtbot.waitUntil(lambda: bool(told.shown))
     (new,) = kept.counting
     assert told.shown == [("review", new)]
     assert said[-1] == (-1, 0)
-    line = StoredSessions(kept.library).with_figures(StoredSessions(kept.library).lines(kept.patient)[0])
-    assert line.corrected.startswith("Corrected on ")
-    assert line.corrected.endswith(", from 00:02.0, by MK.")
+    line = SessionStore(kept.library).with_figures(SessionStore(kept.library).list_sessions(kept.patient)[0])
+    assert line.correction.startswith("Corrected on ")
+    assert line.correction.endswith(", from 00:02.0, by MK.")
     assert not told.faults
     flow.start(new, (put_right(stored),))
-    flow.open_sheet()
-    assert sheet.stop.isVisible()
-    sheet.stop.click()
-    qtbot.waitUntil(lambda: flow.running == "")
+    flow.open_dialog()
+    assert sheet.stop_button.isVisible()
+    sheet.stop_button.click()
+    qtbot.waitUntil(lambda: flow.running_session_id == "")
     assert not sheet.isVisible()
-    assert flow.waiting == []
+    assert flow.pending == []
 
 
 def test_a_wanted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
     library, session_id, old = kept.library, kept.session_id, kept.path
     old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
-    library.keep_choices(session_id, RepetitionChoices({0: "pain"}, not_counted=True, not_counted_reason="discs lost"))
-    library.index.rename_exercise(session_id, "WRIST_RUD")
-    new = kept.corrections.use(session_id, kept.trial())
+    library.save_choices(
+        session_id, RepetitionChoices({0: "pain"}, is_session_excluded=True, session_exclusion_reason="discs lost")
+    )
+    library.session_list.set_exercise(session_id, "WRIST_RUD")
+    new = kept.corrections.accept(session_id, kept.trial())
     assert kept.counting == [new]
     for one in (new, session_id):
-        assert [entry.session_id for entry in library.results_of(one)] == [session_id, new]
+        assert [entry.session_id for entry in library.result_versions(one)] == [session_id, new]
     assert old.exists()
     assert library.entry(new).exercise == "WRIST_RUD"
     assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"
-    assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="discs lost")
+    assert library.choices(new) == RepetitionChoices(is_session_excluded=True, session_exclusion_reason="discs lost")
 
 
 @pytest.mark.parametrize(
@@ -289,20 +293,20 @@ def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
     kept: Kept, monkeypatch: pytest.MonkeyPatch, step: str, is_listed: bool
 ) -> None:
     library, session_id = kept.library, kept.session_id
-    choices = RepetitionChoices(not_counted=True, not_counted_reason="pain")
-    library.keep_choices(session_id, choices)
+    choices = RepetitionChoices(is_session_excluded=True, session_exclusion_reason="pain")
+    library.save_choices(session_id, choices)
     trial = kept.trial()
     with monkeypatch.context() as patched:
         patched.setattr(f"carpus.{step}", killed)
         with pytest.raises(Killed):
-            kept.corrections.use(session_id, trial)
-    recover(library)
+            kept.corrections.accept(session_id, trial)
+    recover_sessions(library)
     listed, later = kept.listed, kept.corrections
     if not is_listed:
         assert listed == [session_id]
-        assert later.waiting() == [Waiting(session_id, trial)]
-        later.use(session_id, trial)
-    assert later.waiting() == []
+        assert later.list_pending() == [PendingResult(session_id, trial)]
+        later.accept(session_id, trial)
+    assert later.list_pending() == []
     assert not trial.exists()
     (new,) = kept.counting
     assert new != session_id
@@ -313,29 +317,29 @@ def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
 
 def test_an_older_result_counts_again_with_its_choices_until_the_other_one_does(kept: Kept) -> None:
     library, old, corrections = kept.library, kept.session_id, kept.corrections
-    new = corrections.use(old, kept.trial())
+    new = corrections.accept(old, kept.trial())
     said = RepetitionChoices({0: "pain"}, {1: (1.0, 2.0)})
-    library.keep_choices(old, said)
-    again = corrections.use_again(old)
+    library.save_choices(old, said)
+    again = corrections.restore_version(old)
     assert kept.counting == [again]
-    assert [entry.session_id for entry in library.results_of(old)][-1] == again
+    assert [entry.session_id for entry in library.result_versions(old)][-1] == again
     assert library.choices(again) == said
     assert np.array_equal(library.session(again).motion.angles_rad, library.session(old).motion.angles_rad)
     assert not np.array_equal(library.session(again).motion.angles_rad, library.session(new).motion.angles_rad)
-    last = corrections.use_again(new)
+    last = corrections.restore_version(new)
     assert kept.counting == [last]
 
 
 def test_a_new_result_goes_to_a_share_on_another_disk(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     library, trial = kept.library, kept.trial()
     on_another_disk(monkeypatch)
-    new = kept.corrections.use(kept.session_id, trial)
+    new = kept.corrections.accept(kept.session_id, trial)
     place = library.entry(new).path
     assert read_session(place).header.session_id == new
     assert not trial.exists()
-    assert {*place.parent.iterdir()} == {entry.path for entry in library.results_of(new)}
+    assert {*place.parent.iterdir()} == {entry.path for entry in library.result_versions(new)}
     shutil.copyfile(place, trial)  # a program was killed before it could delete what it had copied
-    assert kept.corrections.waiting() == []
+    assert kept.corrections.list_pending() == []
     assert not trial.exists()
     assert library.entry(new).path == place
 
@@ -354,17 +358,17 @@ def test_what_a_killed_program_had_copied_goes_at_the_next_look_and_is_in_no_bac
         on_another_disk(patched)
         patched.setattr(os, "fsync", killed_after_copying)
         with pytest.raises(Killed):
-            corrections.use(kept.session_id, trial)
+            corrections.accept(kept.session_id, trial)
     ((copy, content),) = copies.items()
     copy.write_bytes(content)
     data = kept.library.folder
-    names = {path for _, path, _ in gather(data, data.with_name("place"), None).files}
+    names = {path for _, path, _ in collect_sources(data, data.with_name("place"), None).files}
     assert kept.path in names
     assert copy not in names
-    assert corrections.waiting() == [Waiting(kept.session_id, trial)]
+    assert corrections.list_pending() == [PendingResult(kept.session_id, trial)]
     assert not copy.exists()
     copy.write_bytes(content)
-    corrections.use(kept.session_id, trial)
+    corrections.accept(kept.session_id, trial)
     assert list(folder.glob(".*")) == []
 
 
@@ -373,7 +377,7 @@ def test_a_result_that_did_not_get_its_name_is_in_no_list_and_waits(
     kept: Kept, monkeypatch: pytest.MonkeyPatch, number: int
 ) -> None:
     library, session_id, corrections = kept.library, kept.session_id, kept.corrections
-    library.keep_choices(session_id, RepetitionChoices({0: "pain"}))
+    library.save_choices(session_id, RepetitionChoices({0: "pain"}))
     kept.path.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
     before = sorted(kept.path.parent.iterdir())
     trial = kept.trial()
@@ -387,13 +391,13 @@ def test_a_result_that_did_not_get_its_name_is_in_no_list_and_waits(
         on_another_disk(patched)
         patched.setattr(shutil, "copyfile", copied)
         with pytest.raises(DiskFull if number == errno.ENOSPC else OutputNotWritable):
-            corrections.use(session_id, trial)
+            corrections.accept(session_id, trial)
     assert kept.listed == [session_id]
     assert len(library.history(kept.patient)) == 1
     assert sorted(kept.path.parent.iterdir()) == before
-    assert corrections.waiting() == [Waiting(session_id, trial)]
-    new = corrections.use(session_id, trial)
-    assert library.choices(new).left_out
+    assert corrections.list_pending() == [PendingResult(session_id, trial)]
+    new = corrections.accept(session_id, trial)
+    assert library.choices(new).excluded
     assert len(library.session(new)) == len(library.session(session_id))
 
 
@@ -401,7 +405,7 @@ def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_
     kept: Kept, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     library, trial = kept.library, kept.trial()
-    real, taken = library.index.enter, list[Path]()
+    real, taken = library.session_list.add, list[Path]()
 
     def enter(path: Path, *told: object) -> object:
         path.write_bytes(b"another one's")
@@ -409,8 +413,8 @@ def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_
         return real(path, *told)  # type: ignore[arg-type]
 
     with monkeypatch.context() as patched:
-        patched.setattr(library.index, "enter", enter)
-        new = kept.corrections.use(kept.session_id, trial)
+        patched.setattr(library.session_list, "enter", enter)
+        new = kept.corrections.accept(kept.session_id, trial)
     assert taken[0].read_bytes() == b"another one's"
     assert library.entry(new).path != taken[0]
     assert len(library.session(new)) == len(library.session(kept.session_id))
@@ -424,11 +428,11 @@ def test_a_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch
 
     def with_a_look(part: Path, target: Path) -> None:
         monkeypatch.undo()
-        kept.corrections.waiting()
+        kept.corrections.list_pending()
         publish(part, target)
 
     monkeypatch.setattr("carpus.core.records.corrections.publish", with_a_look)
-    new = kept.corrections.use(kept.session_id, trial)
+    new = kept.corrections.accept(kept.session_id, trial)
     assert set(kept.path.parent.iterdir()) == {kept.path, library.entry(new).path}
     assert len(library.session(new)) == len(library.session(kept.session_id))
     assert not trial.exists()
@@ -446,19 +450,19 @@ def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_wait
         raise SessionUnreadable(path, "damaged: reading it does not end")
 
     killed_once_listed(kept, monkeypatch, trial)
-    with pytest.raises(ChangedMeanwhile):
-        corrections.drop(trial)
+    with pytest.raises(ConcurrentChange):
+        corrections.discard(trial)
     with monkeypatch.context() as patched:
         patched.setattr("carpus.core.records.corrections.read_outline", slow)
-        assert corrections.waiting() == []
+        assert corrections.list_pending() == []
     assert trial.exists()
     assert other.exists()
     with monkeypatch.context() as patched:
         patched.setattr(os, "link", full)
         patched.setattr(os, "rename", full)
-        assert corrections.waiting() == [Waiting(kept.session_id, other)]
+        assert corrections.list_pending() == [PendingResult(kept.session_id, other)]
     assert trial.exists()
-    assert corrections.waiting() == [Waiting(kept.session_id, other)]
+    assert corrections.list_pending() == [PendingResult(kept.session_id, other)]
     assert not trial.exists()
 
 
@@ -468,9 +472,9 @@ def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
     trial, told = kept.trial(), Told("correct")
     killed_once_listed(kept, monkeypatch, trial)
     flow, _ = correcting(told)
-    flow.waiting = [Waiting(kept.session_id, trial)]
-    flow.open_sheet()
-    flow.sheet.keep.click()
+    flow.pending = [PendingResult(kept.session_id, trial)]
+    flow.open_dialog()
+    flow.dialog.keep_button.click()
     qtbot.waitUntil(lambda: bool(told.faults) and not trial.exists())
     (new,) = kept.library.history(kept.patient)
     assert new.session_id != kept.session_id
@@ -481,19 +485,19 @@ def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
 ) -> None:
     trials, told = [kept.trial() for _ in range(2)], Told("settings", behind="review")
     flow, context = correcting(told)
-    for trial, decided in zip(trials, (flow.sheet.keep, flow.sheet.use), strict=True):
-        flow.waiting = [Waiting(kept.session_id, trial)]
-        flow.open_sheet()
-        flow.look_for_waiting()
+    for trial, decided in zip(trials, (flow.dialog.keep_button, flow.dialog.use_button), strict=True):
+        flow.pending = [PendingResult(kept.session_id, trial)]
+        flow.open_dialog()
+        flow.refresh_pending()
         decided.click()
-        qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.busy)  # type: ignore[misc]
-        assert trial not in [one.trial for one in flow.waiting]
-    assert flow.waiting == []
+        qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.is_busy)  # type: ignore[misc]
+        assert trial not in [one.path for one in flow.pending]
+    assert flow.pending == []
     ((_, new),) = told.shown
-    context.now.session_id = str(new)
-    ReviewFlow(context)._use_again(str(new))
+    context.current.session_id = str(new)
+    ReviewFlow(context)._restore_version(str(new))
     qtbot.waitUntil(lambda: len(told.shown) == 2)
-    assert [one.session_id for one in kept.library.results_of(str(new))][1:] == [new, told.shown[1][1]]
+    assert [one.session_id for one in kept.library.result_versions(str(new))][1:] == [new, told.shown[1][1]]
     assert told.asked == ["This result counts from now on."]
 
 
@@ -506,7 +510,7 @@ def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
     def beside(task: CorrectionTask, *_: object) -> bool:
         if is_answered == "after the end":
             ends.wait(30.0)
-        write_anew(kept.corrected, task.output, {})
+        rewrite_session(kept.corrected, task.output, {})
         written.set()
         return ends.wait(30.0)
 
@@ -515,54 +519,54 @@ def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
     flow.start(kept.session_id, (put_right(stored),))
     if is_answered == "before the end":
         qtbot.waitUntil(written.is_set)
-        flow.look_for_waiting()
-        qtbot.waitUntil(lambda: len(flow.waiting) == 1)
+        flow.refresh_pending()
+        qtbot.waitUntil(lambda: len(flow.pending) == 1)
         ends.set()
     else:
-        look = flow._stored.waiting
+        look = flow._corrections.list_pending
 
-        def slow() -> Sequence[Waiting]:
+        def slow() -> Sequence[PendingResult]:
             found = look()
             answers.wait(30.0)
             return found
 
         with monkeypatch.context() as patched:
-            patched.setattr(flow._stored, "waiting", slow)
-            flow.look_for_waiting()
+            patched.setattr(flow._corrections, "waiting", slow)
+            flow.refresh_pending()
         ends.set()
-        qtbot.waitUntil(lambda: len(flow.waiting) == 1)
+        qtbot.waitUntil(lambda: len(flow.pending) == 1)
         answers.set()
-    qtbot.waitUntil(lambda: not (flow.running or flow._tracking.busy or flow._background.busy))
-    assert [one.session_id for one in flow.waiting] == [kept.session_id]
+    qtbot.waitUntil(lambda: not (flow.running_session_id or flow._tracking.is_busy or flow._background.is_busy))
+    assert [one.session_id for one in flow.pending] == [kept.session_id]
 
 
 def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
     kept: Kept, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     corrections, trial, store = kept.corrections, kept.trial(), kept.library.store
-    store.do([dropped(SESSION, kept.session_id)])
+    store.apply([delete_row(SESSION, kept.session_id)])
     with monkeypatch.context() as patched:
 
         def away(_: str) -> None:
-            raise ServerGone("records", "no answer")
+            raise ServerUnavailable("records", "no answer")
 
-        patched.setattr(kept.library.index, "one", away)
-        assert corrections.waiting() == []
+        patched.setattr(kept.library.session_list, "one", away)
+        assert corrections.list_pending() == []
     assert trial.exists()
-    assert corrections.waiting() == []
+    assert corrections.list_pending() == []
     assert not trial.exists()
 
 
 def test_a_share_that_is_away_is_told_before_anything_is_done(tmp_path: Path, stored: Stored, corrected: Path) -> None:
     share = tmp_path / "share"
     share.mkdir()
-    with closing(Library(tmp_path / "data", sessions=share)) as library:
+    with closing(Library(tmp_path / "data", sessions_folder=share)) as library:
         kept = entered(library, stored, corrected)
         trial = kept.trial()
         share.rename(tmp_path / "away")
         with pytest.raises(FolderMissing):
-            kept.corrections.use(kept.session_id, trial)
-        assert kept.corrections.waiting() == [Waiting(kept.session_id, trial)]
+            kept.corrections.accept(kept.session_id, trial)
+        assert kept.corrections.list_pending() == [PendingResult(kept.session_id, trial)]
         assert kept.listed == [kept.session_id]
 
 
@@ -571,35 +575,35 @@ def test_a_copy_that_counts_again_is_the_newest_by_any_clock_and_says_no_other_o
 ) -> None:
     library, session_id, corrections = kept.library, kept.session_id, kept.corrections
     ahead = kept.trial(created=(datetime.now().astimezone() + timedelta(hours=3)).isoformat())
-    fast = corrections.use(session_id, ahead)
-    again = corrections.use_again(session_id)
+    fast = corrections.accept(session_id, ahead)
+    again = corrections.restore_version(session_id)
     assert kept.counting == [again]
     assert [one.session_id for one in library.history(kept.patient)] == [again]
     assert library.session(again).header.origin == library.session(session_id).header.origin == ""
-    assert library.session(corrections.use_again(fast)).header.origin == session_id
-    before = [entry.session_id for entry in library.results_of(session_id)]
+    assert library.session(corrections.restore_version(fast)).header.origin == session_id
+    before = [entry.session_id for entry in library.result_versions(session_id)]
 
     def busy(*_: object) -> None:
-        raise RegisterBusy
+        raise PatientListBusy
 
     monkeypatch.setattr(Store, "do", busy)
-    with pytest.raises(RegisterBusy):
-        corrections.use_again(session_id)
+    with pytest.raises(PatientListBusy):
+        corrections.restore_version(session_id)
     assert list(ahead.parent.iterdir()) == []
-    assert [entry.session_id for entry in library.results_of(session_id)] == before
+    assert [entry.session_id for entry in library.result_versions(session_id)] == before
 
 
 @pytest.mark.parametrize("why", ["pain", PASSIVE])
 def test_what_was_said_of_a_repetition_is_as_true_of_the_new_result(kept: Kept, why: str) -> None:
     """Left out, or moved by another."""
     library = kept.library
-    figures = session_figures(library.session(kept.session_id))
-    number = next(number for number, one in enumerate(figures.repetitions) if one.counts)
-    library.keep_choices(kept.session_id, RepetitionChoices({number: why}))
-    new = kept.corrections.use(kept.session_id, kept.trial())
-    again = session_figures(library.session(new), library.choices(new))
-    (said,) = [one for one in again.repetitions if (one.helped if why == PASSIVE else not one.counts)]
-    assert why == PASSIVE or said.reason == why
+    figures = compute_session_results(library.session(kept.session_id))
+    number = next(number for number, one in enumerate(figures.repetitions) if one.is_counted)
+    library.save_choices(kept.session_id, RepetitionChoices({number: why}))
+    new = kept.corrections.accept(kept.session_id, kept.trial())
+    again = compute_session_results(library.session(new), library.choices(new))
+    (said,) = [one for one in again.repetitions if (one.is_passive if why == PASSIVE else not one.is_counted)]
+    assert why == PASSIVE or said.exclusion_reason == why
     assert said.start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
     assert again.has_passive == (why == PASSIVE)
 
@@ -622,11 +626,11 @@ def test_what_was_left_out_is_found_by_its_moments(
         unknown = dict.fromkeys(one.name for one in fields(RepetitionRow))
         return Repetitions("", tuple(RepetitionRow(**{**unknown, "start_s": a, "end_s": b}) for a, b in times_s))  # type: ignore[arg-type]
 
-    monkeypatch.setattr("carpus.core.records.corrections.repetitions_of", found)
-    assert set(_found_again(dict.fromkeys(range(len(before)), "pain"), before, after)) == left_out  # type: ignore[arg-type]
+    monkeypatch.setattr("carpus.core.records.corrections.compute_repetitions", found)
+    assert set(_match_exclusions(dict.fromkeys(range(len(before)), "pain"), before, after)) == left_out  # type: ignore[arg-type]
 
 
 def test_a_moment_is_the_spots_where_no_picture_was_kept(kept: Kept) -> None:
-    picture, spots = kept.corrections.moment(kept.session_id, WRONG_FROM)
+    picture, spots = kept.corrections.read_frame(kept.session_id, WRONG_FROM)
     assert picture is None
     assert len(spots) == 7

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtWidgets import QAbstractButton, QLabel
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.care_cameras import CareCameras
+from carpus.app.desktop.care_cameras import MaintenanceCameras
 from carpus.app.desktop.window import Desktop
 from carpus.core.records.library import Library
 from carpus.ui.settings.camera_card import CameraCard
@@ -18,7 +18,7 @@ from tests.records.samples import HERON, LINDEN, T0, record
 
 @pytest.fixture
 def demo(open_desktop: Callable[..., Desktop], monkeypatch: pytest.MonkeyPatch) -> Callable[[], Desktop]:
-    monkeypatch.setattr(CareCameras, "name", lambda _: None)
+    monkeypatch.setattr(MaintenanceCameras, "name", lambda _: None)
     return lambda: open_desktop(is_demo=True)
 
 
@@ -26,14 +26,14 @@ def _said(desktop: Desktop) -> str:
     """Everything that stands in the window now."""
     widgets = [*desktop.shell.findChildren(QLabel), *desktop.shell.findChildren(QAbstractButton)]
     words = [f"{one.text()} {one.accessibleDescription()}" for one in widgets if one.isVisible()]
-    return " ".join([*words, desktop.shell.bar.camera.text()]).lower()
+    return " ".join([*words, desktop.shell.top_bar.camera.text()]).lower()
 
 
 def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -> None:
     desktop = demo()
-    journey, panel = desktop.journey, desktop.welcome.panel
-    qtbot.waitUntil(lambda: bool(panel.checks), timeout=60_000)
-    assert not [row.check.name for row in panel.checks if "camera" in row.check.name.lower()]
+    journey, panel = desktop.controller, desktop.welcome.panel
+    qtbot.waitUntil(lambda: bool(panel.check_rows), timeout=60_000)
+    assert not [row.check.name for row in panel.check_rows if "camera" in row.check.name.lower()]
 
     def looks_well() -> None:
         said = _said(desktop)
@@ -44,17 +44,17 @@ def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], De
     looks_well()
     linden = desktop.library.patients.add(LINDEN)
     desktop.library.patients.add(HERON)
-    journey.patients.show(linden)
+    journey.patients.open(linden)
     looks_well()
     assert "file" not in journey.patients.screen.card.start_button.text()
-    journey.exercise.show(linden)
+    journey.exercise.open(linden)
     looks_well()
-    journey.exercise.screen.primary.click()
+    journey.exercise.screen.primary_button.click()
     assert journey.place == "camera"
     assert journey.camera.screen.sources.value() == "practice"
-    assert journey.camera.screen.primary.isEnabled()
+    assert journey.camera.screen.primary_button.isEnabled()
     looks_well()
-    journey.way.show("settings")
+    journey.navigator.open_screen("settings")
     card = desktop.shell.findChild(CameraCard)
     assert not card.check_button.isVisible()
     assert not card.calibrate_button.isVisible()
@@ -64,10 +64,10 @@ def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], De
 def test_who_was_measured_last_is_chosen_at_the_next_start(demo: Callable[[], Desktop], tmp_path: Path) -> None:
     library = Library(tmp_path / "data")
     linden = library.patients.add(LINDEN)
-    path = library.index.new_path(linden, LINDEN.pseudonym, "WRIST_FE", "right", T0)
-    library.index.enter(record(path, LINDEN.pseudonym, T0, simulated=True), linden)
+    path = library.session_list.new_path(linden, LINDEN.pseudonym, "WRIST_FE", "right", T0)
+    library.session_list.add(record(path, LINDEN.pseudonym, T0, simulated=True), linden)
     library.patients.add(HERON)
     library.close()
-    patients = demo().journey.patients.screen
-    assert patients.list.rows.find(linden) > 0, "what is simulated counts nowhere, also not for the order"
-    assert patients.list.currentIndex().row() == patients.list.rows.find(linden)
+    patients = demo().controller.patients.screen
+    assert patients.list.patient_model.find_row(linden) > 0, "what is simulated counts nowhere, also not for the order"
+    assert patients.list.currentIndex().row() == patients.list.patient_model.find_row(linden)

@@ -13,17 +13,17 @@ from carpus.core.errors import (
     CarpusFault,
     DiskFull,
     FolderMissing,
-    NothingRecorded,
-    RecordingReturned,
-    RecordingWaits,
-    ShareEmpty,
-    WaitingErased,
+    RecordingTooShort,
+    SessionShareEmpty,
+    SessionSpooled,
+    SpooledSessionErased,
+    SpooledSessionMoved,
 )
 from carpus.core.records import new_sessions
 from carpus.core.records.erasure import erase, plan_patient
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import NewSessions, recover
-from carpus.core.records.recordings import recordings_folder
+from carpus.core.records.new_sessions import SessionIntake, recover_sessions
+from carpus.core.records.recordings import spool_folder
 from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
 from tests.records.samples import record
@@ -32,7 +32,7 @@ from tests.session.samples import CREATED, stored_journal
 
 def recorded(library: Library, patient_id: str, pseudonym: str = "Linden 42") -> Path:
     """A session that has just been recorded, and has not been entered."""
-    return record(NewSessions(library).new_path(set_up(patient_id, pseudonym)), pseudonym, CREATED, "left")
+    return record(SessionIntake(library).new_path(set_up(patient_id, pseudonym)), pseudonym, CREATED, "left")
 
 
 @pytest.fixture
@@ -44,22 +44,22 @@ def library(tmp_path: Path) -> Iterator[Library]:
 def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, library: Library) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
-    library.log_fault = told.append
+    library.on_fault = told.append
     path = recorded(library, key)
-    assert path.parent == recordings_folder(tmp_path / "data") / key
+    assert path.parent == spool_folder(tmp_path / "data") / key
     assert path.parent.stat().st_mode & 0o777 == 0o700
     (tmp_path / "data").rename(tmp_path / "unplugged")
-    session_id = NewSessions(library).entered(set_up(key, "Linden 42"), path)
-    assert [type(fault) for fault in told] == [RecordingWaits]
+    session_id = SessionIntake(library).register(set_up(key, "Linden 42"), path)
+    assert [type(fault) for fault in told] == [SessionSpooled]
     assert not (tmp_path / "data").exists(), "what is made in the place of a disk would hide under it"
     assert len(library.session(session_id)) > 0  # it can be reviewed although the register is gone
     library.close()
     (tmp_path / "unplugged").rename(tmp_path / "data")
     with closing(Library(tmp_path / "data")) as again:
-        assert [type(fault) for fault in recover(again)[1]] == [RecordingReturned]
+        assert [type(fault) for fault in recover_sessions(again)[1]] == [SpooledSessionMoved]
         (entry,) = again.sessions(key)
         assert again.session(entry.session_id).header.session_id == session_id
-        assert list(recordings_folder(tmp_path / "data").iterdir()) == []
+        assert list(spool_folder(tmp_path / "data").iterdir()) == []
 
 
 def test_session_that_is_being_published_is_not_brought_home_as_well(
@@ -70,11 +70,11 @@ def test_session_that_is_being_published_is_not_brought_home_as_well(
     copy = new_sessions.copy_session
 
     def copied(path: Path, folder: Path) -> Path:
-        found.append(recover(library))  # the server is back at this moment
+        found.append(recover_sessions(library))  # the server is back at this moment
         return copy(path, folder)
 
     monkeypatch.setattr(new_sessions, "copy_session", copied)
-    NewSessions(library).entered(set_up(key, "Linden 42"), recorded(library, key))
+    SessionIntake(library).register(set_up(key, "Linden 42"), recorded(library, key))
     assert found == [([], [])]
     assert len(library.sessions(key)) == 1
 
@@ -82,8 +82,8 @@ def test_session_that_is_being_published_is_not_brought_home_as_well(
 def test_share_that_hangs_is_not_waited_for(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
-    library.log_fault = told.append
-    monkeypatch.setattr(new_sessions, "PUBLISHED_WITHIN_S", 0.1)
+    library.on_fault = told.append
+    monkeypatch.setattr(new_sessions, "PUBLISH_TIMEOUT_S", 0.1)
     answers, copy = threading.Event(), new_sessions.copy_session
 
     def hang(path: Path, folder: Path) -> Path:
@@ -92,14 +92,14 @@ def test_share_that_hangs_is_not_waited_for(library: Library, monkeypatch: pytes
 
     monkeypatch.setattr(new_sessions, "copy_session", hang)
     path = recorded(library, key)
-    session_id = NewSessions(library).entered(set_up(key, "Linden 42"), path)
-    assert [type(fault) for fault in told] == [RecordingWaits]
+    session_id = SessionIntake(library).register(set_up(key, "Linden 42"), path)
+    assert [type(fault) for fault in told] == [SessionSpooled]
     assert len(library.session(session_id)) > 0
     answers.set()
     for thread in threading.enumerate():
         if thread.name == "publishing":
             thread.join()
-    assert [type(fault) for fault in recover(library)[1]] == [RecordingReturned]
+    assert [type(fault) for fault in recover_sessions(library)[1]] == [SpooledSessionMoved]
     assert [entry.session_id for entry in library.sessions(key)] == [session_id]
     assert not path.exists()
 
@@ -112,44 +112,44 @@ def test_full_data_folder_keeps_the_session_here_until_there_is_room(
 
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
-    library.log_fault = told.append
+    library.on_fault = told.append
     with monkeypatch.context() as patched:
         patched.setattr(new_sessions, "copy_session", full)
-        NewSessions(library).entered(set_up(key, "Linden 42"), recorded(library, key))
-    assert [type(fault) for fault in told] == [RecordingWaits]
-    NewSessions(library).cut_short()  # as when the list of patients is shown
+        SessionIntake(library).register(set_up(key, "Linden 42"), recorded(library, key))
+    assert [type(fault) for fault in told] == [SessionSpooled]
+    SessionIntake(library).recover_interrupted()  # as when the list of patients is shown
     assert len(library.sessions(key)) == 1
 
 
 def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(library: Library) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
-    path = NewSessions(library).new_path(set_up(key, "Linden 42"))
+    path = SessionIntake(library).new_path(set_up(key, "Linden 42"))
     stored_journal(path.with_suffix(".journal"), 40)
     stored_journal(path.with_name("first second.journal"), 0)
-    found, faults = recover(library)
-    assert [(one.patient_id, round(one.kept_s, 1)) for one in found] == [(key, 1.3)]
-    assert [type(fault) for fault in faults] == [NothingRecorded]
+    found, faults = recover_sessions(library)
+    assert [(one.patient_id, round(one.duration_s, 1)) for one in found] == [(key, 1.3)]
+    assert [type(fault) for fault in faults] == [RecordingTooShort]
     assert [entry.session_id for entry in library.sessions(key)] == [found[0].session_id]
-    assert recover(library) == ([], [])
+    assert recover_sessions(library) == ([], [])
 
 
 def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: Path) -> None:
     """Nothing is made where the share belongs, which would hide under it once it is mounted."""
     data, share = tmp_path / "data", tmp_path / "share"
-    with closing(Library(data, sessions=share)) as library:
-        assert [type(fault) for fault in recover(library)[1]] == [FolderMissing]
+    with closing(Library(data, sessions_folder=share)) as library:
+        assert [type(fault) for fault in recover_sessions(library)[1]] == [FolderMissing]
         told: list[CarpusFault] = []
-        library.log_fault = told.append
+        library.on_fault = told.append
         linden = library.patients.add(Patient("Linden 42", "left"))
         path = recorded(library, linden)
-        NewSessions(library).entered(set_up(linden, "Linden 42"), path)
-        assert [type(fault) for fault in told] == [RecordingWaits]
-        recover(library)
+        SessionIntake(library).register(set_up(linden, "Linden 42"), path)
+        assert [type(fault) for fault in told] == [SessionSpooled]
+        recover_sessions(library)
         assert path.exists()
         assert not share.exists()
     share.mkdir()
-    with closing(Library(data, sessions=share)) as library:
-        assert [type(fault) for fault in recover(library)[1]] == [RecordingReturned]
+    with closing(Library(data, sessions_folder=share)) as library:
+        assert [type(fault) for fault in recover_sessions(library)[1]] == [SpooledSessionMoved]
         assert [one.path.parent for one in library.sessions(linden)] == [share / linden]
 
 
@@ -158,17 +158,17 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
     share = tmp_path / "share"
     share.mkdir(0o770)
     share.chmod(0o770)
-    with closing(Library(tmp_path / "data", sessions=share)) as library:
+    with closing(Library(tmp_path / "data", sessions_folder=share)) as library:
         assert share.stat().st_mode & 0o777 == 0o770
         linden = library.patients.add(Patient("Linden 42", "left"))
-        NewSessions(library).entered(set_up(linden, "Linden 42"), recorded(library, linden))
+        SessionIntake(library).register(set_up(linden, "Linden 42"), recorded(library, linden))
     assert share.stat().st_mode & 0o777 == 0o770
     assert (share / linden).stat().st_mode & 0o777 == 0o700
 
 
 def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
-    with closing(Library(data, sessions=share)) as library:
+    with closing(Library(data, sessions_folder=share)) as library:
         linden = library.patients.add(Patient("Linden 42", "left"))
         path = recorded(library, linden)
         path.with_name("damaged.h5").write_bytes(b"of a kill")
@@ -177,29 +177,29 @@ def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back
         heron = library.patients.add(Patient("Heron 17", "left"))
         recorded(library, heron, "Heron 17")
         library.patients.change(Patient("Heron 18", "left", patient_id=heron))
-        erase(library.store, plan_patient(library.store, linden), library.log)
+        erase(library.store, plan_patient(library.store, linden), library.log_writer)
         share.mkdir()
-        told = [type(fault) for fault in recover(library)[1]]
-        assert (told.count(WaitingErased), told.count(RecordingReturned)) == (1, 1)
+        told = [type(fault) for fault in recover_sessions(library)[1]]
+        assert (told.count(SpooledSessionErased), told.count(SpooledSessionMoved)) == (1, 1)
         assert not path.parent.exists(), "also what cannot be read"
-        assert [one.pseudonym for one in library.patients.listed()] == ["Heron 18"], "by identity, not by name"
+        assert [one.pseudonym for one in library.patients.search()] == ["Heron 18"], "by identity, not by name"
         assert len(library.sessions(heron)) == 1
 
 
 def test_the_empty_place_of_a_share_is_not_taken_for_the_share(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     share.mkdir()
-    with closing(Library(data, sessions=share)) as library:
-        assert recover(library) == ([], []), "a new one is empty"
+    with closing(Library(data, sessions_folder=share)) as library:
+        assert recover_sessions(library) == ([], []), "a new one is empty"
         linden = library.patients.add(Patient("Linden 42", "left"))
-        choice, places = set_up(linden, "Linden 42"), NewSessions(library)
-        places.entered(choice, recorded(library, linden))
+        choice, places = set_up(linden, "Linden 42"), SessionIntake(library)
+        places.register(choice, recorded(library, linden))
         share.rename(tmp_path / "unplugged")
         share.mkdir()
-        assert [type(fault) for fault in recover(library)[1]] == [ShareEmpty]
-        places.entered(choice, recorded(library, linden))
+        assert [type(fault) for fault in recover_sessions(library)[1]] == [SessionShareEmpty]
+        places.register(choice, recorded(library, linden))
         assert list(share.iterdir()) == [], "under the share it would be hidden"
         share.rmdir()
         (tmp_path / "unplugged").rename(share)
-        assert [type(fault) for fault in recover(library)[1]] == [RecordingWaits, RecordingReturned]
+        assert [type(fault) for fault in recover_sessions(library)[1]] == [SessionSpooled, SpooledSessionMoved]
         assert len(library.sessions(linden)) == 2

@@ -15,12 +15,12 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, kind_of
+from carpus.core.capture.devices.cameras import CAMERAS, load_camera_kind, parse_kind
 from carpus.core.formats.formats import FORMATS
-from carpus.core.hand.exercises import EXERCISES, exercise_named, exercises_of
+from carpus.core.hand.exercises import EXERCISES, exercises_for_protocol, get_exercise
 from carpus.core.hand.protocols import PALM_MARKERS, PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.simulation.motions import MOTIONS
-from carpus.ui.export.sheet import NAMES
+from carpus.ui.export.sheet import FORMAT_NAMES
 from tests.sources import ROOT, nodes
 
 GIVEN = {"uri", "camera", "patience_s", "notice"}
@@ -110,21 +110,23 @@ def test_every_registered_line_leads_to_its_file() -> None:
     for name, form in FORMATS.items():
         assert callable(import_module(f"carpus.core.formats.{form.module}").write), name
     for name in CAMERAS:
-        kind = camera_kind(name)
+        kind = load_camera_kind(name)
         taken = signature(kind.open).parameters
         assert set(taken) >= GIVEN, name
         assert {key for key, one in taken.items() if one.default is one.empty} <= GIVEN, f"{name} needs what none gives"
         assert all(len(vendor) == len(product) == 4 for vendor, product in kind.models), name
-        assert all((kind.title, kind.rules, kind.port)), name
-        assert kind_of(f"{name}:1") == name
-    assert kind_of("") == kind_of("1d27/0601@1/2") == next(iter(CAMERAS)), "what an older settings file says"
+        assert all((kind.title, kind.udev_rules, kind.port_advice)), name
+        assert parse_kind(f"{name}:1") == name
+    assert parse_kind("") == parse_kind("1d27/0601@1/2") == next(iter(CAMERAS)), "what an older settings file says"
     assert len(set(protocol_names())) == len(PROTOCOLS)
     for protocol in PROTOCOLS:
-        assert exercises_of(protocol), protocol.name
-    assert {one.id for protocol in PROTOCOLS for one in exercises_of(protocol)} == {one.id for one in EXERCISES}
+        assert exercises_for_protocol(protocol), protocol.name
+    assert {one.id for protocol in PROTOCOLS for one in exercises_for_protocol(protocol)} == {
+        one.id for one in EXERCISES
+    }
     assert len({one.id for one in EXERCISES}) == len(EXERCISES)
-    assert exercise_named("one of old").id == "FREE", "the last of them"
-    assert {one.motion for one in EXERCISES} - set(MOTIONS) == set(), (
+    assert get_exercise("one of old").id == "FREE", "the last of them"
+    assert {one.simulated_motion for one in EXERCISES} - set(MOTIONS) == set(), (
         "movements that the simulated patient does not know"
     )
     joints = {one.id: one.joint for one in EXERCISES if one.joint and one.joint not in one.protocol.joint_names()}
@@ -135,7 +137,7 @@ def test_the_pages_name_every_format_and_camera() -> None:
     page = (ROOT / "resources" / "formats.md").read_text(encoding="utf-8")
     assert [name for name in FORMATS if f"| `{name}` |" not in page] == []
     assert f"--format {','.join(FORMATS)} " in page
-    assert set(NAMES) == set(FORMATS), "the window's words for them"
+    assert set(FORMAT_NAMES) == set(FORMATS), "the window's words for them"
     page = (ROOT / "resources" / "camera.md").read_text(encoding="utf-8")
     assert [name for name in CAMERAS if f"`{name}`" not in page] == []
 

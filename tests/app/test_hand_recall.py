@@ -8,35 +8,35 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from carpus.app.unattended import lines_of
-from carpus.core.hand.exercises import exercise_named
+from carpus.app.unattended import format_results
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import Patient
-from carpus.core.results.figures import session_figures
-from carpus.ui.patients.stored import _results
+from carpus.core.results.figures import compute_session_results
+from carpus.ui.patients.stored import _compare_results
 from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
 
 def test_the_card_of_the_hand_has_every_fingers_total_with_its_change_and_at_least() -> None:
     sessions = FakeHandSessions(pictures=False)
-    first, last = (session_figures(sessions.session(key)) for key in ("hand-3", "hand-7"))
-    lines = _results(first, last)
-    assert [line.of for line, _ in lines] == [f"TAM{k}" for k in (2, 3, 4, 5)]
-    assert all(line is last.find(line.of, "arc") for line, _ in lines)
-    assert any(line.at_least for line, _ in lines)
+    first, last = (compute_session_results(sessions.session(key)) for key in ("hand-3", "hand-7"))
+    lines = _compare_results(first, last)
+    assert [line.subject for line, _ in lines] == [f"TAM{k}" for k in (2, 3, 4, 5)]
+    assert all(line is last.find(line.subject, "arc") for line, _ in lines)
+    assert any(line.is_lower_bound for line, _ in lines)
     assert any(change.verdict == "improved" for _, change in lines)
 
 
 def test_the_card_of_a_hook_fist_has_the_middle_joints() -> None:
-    lines = _results(None, session_figures(hand_session(exercise="FIST_HOOK", motion="hook")))
-    assert {line.of for line, _ in lines} <= {f"PIP{k}_flexion" for k in (2, 3, 4, 5)} | {"CMC1_abduction"}
+    lines = _compare_results(None, compute_session_results(hand_session(exercise="FIST_HOOK", motion="hook")))
+    assert {line.subject for line, _ in lines} <= {f"PIP{k}_flexion" for k in (2, 3, 4, 5)} | {"CMC1_abduction"}
     assert len(lines) >= 4
 
 
 def test_plain_lines_have_every_joint() -> None:
-    lines = lines_of(session_figures(hand_session()))
+    lines = format_results(compute_session_results(hand_session()))
     assert any(line.startswith("Ring finger, TAM: at least ") for line in lines)
     assert any(line.startswith("Index finger, knuckle: ") for line in lines)
 
@@ -48,11 +48,11 @@ def test_the_markers_shown_are_those_of_the_same_hand_with_the_same_discs(tmp_pa
         wanted = set_up(linden, "Linden 42")
         path = library.entry(store(library, wanted)).path
         cv2.imwrite(str(path.with_suffix(MARKERS_SUFFIX)), np.full((40, 60, 3), 90, np.uint8))
-        assert library.marker_picture(linden, wanted) is not None
-        assert library.marker_picture(linden) is not None
-        assert library.marker_picture(linden, replace(wanted, side="left")) is None
-        whole_hand = replace(wanted, exercise=exercise_named("FIST_COMPOSITE"))
-        assert library.marker_picture(linden, whole_hand) is None
-        assert library.sessions_alike(linden, replace(wanted, exercise=exercise_named("WRIST_FE")))
+        assert library.read_marker_photo(linden, wanted) is not None
+        assert library.read_marker_photo(linden) is not None
+        assert library.read_marker_photo(linden, replace(wanted, side="left")) is None
+        whole_hand = replace(wanted, exercise=get_exercise("FIST_COMPOSITE"))
+        assert library.read_marker_photo(linden, whole_hand) is None
+        assert library.matching_sessions(linden, replace(wanted, exercise=get_exercise("WRIST_FE")))
     finally:
         library.close()

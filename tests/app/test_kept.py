@@ -18,10 +18,10 @@ import carpus
 from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
-from carpus.core.records.changes import changed
+from carpus.core.records.changes import update_row
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.keeping import Records
-from carpus.core.records.kept_sets import last_set_up
+from carpus.core.records.keeping import RecordRetention
+from carpus.core.records.kept_sets import read_last_setup
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION
@@ -29,7 +29,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.sessions.stored import StoredSessions
+from carpus.ui.sessions.stored import SessionStore
 from tests.app.test_library import set_up, store
 from tests.commands import Command
 from tests.formats.takes import stored
@@ -41,37 +41,37 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture
 def library(tmp_path: Path) -> Iterator[Library]:
     opened = Library(tmp_path / "data")
-    opened.who = lambda: "AB"
+    opened.get_initials = lambda: "AB"
     yield opened
     opened.close()
 
 
 def deeds(folder: Path) -> list[tuple[str, str, str]]:
     with Store(folder) as opened:
-        return [(entry.did, entry.by, entry.who) for entry in read_log(opened)]
+        return [(entry.action, entry.source, entry.initials) for entry in read_log(opened)]
 
 
 def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
-    stored = StoredSessions(library)
+    stored = SessionStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
     library.patients.change(Patient("Linden 43", "right", "right", patient_id=linden))
     session = store(library, set_up(linden, "Linden 43"))
     store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
-    stored.set_aside(session, "pain")
-    stored.set_aside(session, "")
-    library.keep_choices(session, RepetitionChoices({1: "pain"}))
+    stored.exclude(session, "pain")
+    stored.exclude(session, "")
+    library.save_choices(session, RepetitionChoices({1: "pain"}))
     stored.rename_exercise(session, "FOREARM_PS")
     out = tmp_path / "out"
     out.mkdir()
     library.export(session, str(out))
-    records = Records(library)
+    records = RecordRetention(library)
     records.archive_session(session)
-    assert [one.pseudonym for one in records.archived()] == ["Linden 43"]
-    records.bring_back(records.archived()[0].identity)
+    assert [one.pseudonym for one in records.list_archived()] == ["Linden 43"]
+    records.unarchive(records.list_archived()[0].item_id)
     records.archive_patient(linden)
-    assert [(one.pseudonym, one.recorded) for one in records.archived()] == [("Linden 43", None)]
-    records.bring_back(linden)
-    assert records.archived() == []
+    assert [(one.pseudonym, one.recorded) for one in records.list_archived()] == [("Linden 43", None)]
+    records.unarchive(linden)
+    assert records.list_archived() == []
     assert [did for did, _, _ in deeds(library.folder)] == [
         "added", "changed", "recorded", "set_aside", "taken_back", "changed", "renamed", "exported", "archived",
         "brought_back", "archived", "brought_back",
@@ -80,8 +80,8 @@ def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path
     content = repr(read_log(library.store))
     assert not any(word in content for word in ("Linden", "Erika", "pain", "a note", linden, session))
     plan = records.plan_patient(linden)
-    assert {path.parent for path in plan.made} == {out}
-    assert last_set_up(library.store, linden) is not None
+    assert {path.parent for path in plan.output_files} == {out}
+    assert read_last_setup(library.store, linden) is not None
     records.erase(plan)
     assert list(out.iterdir()) != [], "no file outside of the data folder is touched"
     assert traces(library.folder, "Linden", "Erika", linden, session) == []
@@ -117,11 +117,11 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
     linden, heron = (library.patients.add(Patient(name, "right", "right")) for name in ("Linden 42", "Heron 17"))
     sessions, whole = [str(uuid.uuid4()) for _ in range(2)], stored(tmp_path, frames=120, moving=True)
     for session_id in sessions:
-        path = library.index.new_path(linden, "Linden 42", "WRIST_FE", "left", datetime.now(UTC))
+        path = library.session_list.new_path(linden, "Linden 42", "WRIST_FE", "left", datetime.now(UTC))
         shutil.copy(whole, path)
         with h5py.File(path, "r+") as file:
             file.attrs.update(subject_id="", session_id=session_id, recording_id=session_id)
-        library.index.enter(path, linden)
+        library.session_list.add(path, linden)
     store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
     monkeypatch.setenv("CARPUS_DATA", str(library.folder))
 
@@ -132,13 +132,13 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
         return {row["session_id"] for row in rows}, {row["subject_id"] for row in rows}
 
     assert counted("linden 42") == counted("all") == (set(sessions), {"Linden 42"})
-    Records(library).archive_session(sessions[0])
+    RecordRetention(library).archive_session(sessions[0])
     expected = {sessions[1]}, {"Linden 42"}
     assert counted("Linden 42") == counted("all", "--sessions", library.folder) == expected
     assert counted("all", "--sessions", library.entry(sessions[0]).path)[0] == {sessions[0]}
     assert "There is no session" in command("progress", "Heron 17").err
     assert "did you mean “Heron 17”" in command("progress", "Heron 16").err
-    Records(library).archive_patient(linden)
+    RecordRetention(library).archive_patient(linden)
     assert counted("Linden 42") == expected
     assert command("progress", "all").code == 1
     assert library.sessions(heron) == []
@@ -150,13 +150,13 @@ def test_a_folder_that_can_only_be_read_is_backed_up_and_reported(
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     path = library.entry(session).path
-    library.keep_comment(session, "went well")
+    library.save_comment(session, "went well")
     library.close()
 
     def refuses(folder: Path) -> None:
         raise OutputNotWritable(folder, "Read-only file system")
 
-    monkeypatch.setattr("carpus.core.records.store.make_private", refuses)
+    monkeypatch.setattr("carpus.core.records.store.make_private_folder", refuses)
     before = (library.folder / STORE_FILE).read_bytes()
     for words in (
         ("report", path, "--output", tmp_path / "r.pdf"),
@@ -174,11 +174,11 @@ def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_re
 ) -> None:
     share = tmp_path / "share"
     share.mkdir()
-    library = Library(tmp_path / "data", sessions=share)
+    library = Library(tmp_path / "data", sessions_folder=share)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    path = library.index.new_path(linden, "Linden 42", "WRIST_FE", "right", datetime.now(UTC))
+    path = library.session_list.new_path(linden, "Linden 42", "WRIST_FE", "right", datetime.now(UTC))
     shutil.copy(stored(tmp_path, frames=120, moving=True), path)
-    session = library.index.enter(path, linden).session_id
+    session = library.session_list.add(path, linden).session_id
     library.close()
 
     def refuses(folder: Path) -> None:
@@ -187,7 +187,7 @@ def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_re
     monkeypatch.setenv("CARPUS_DATA", str(library.folder))
     monkeypatch.setattr("carpus.app.of_file.sessions_folder", lambda _: share)
     if is_read_only:
-        monkeypatch.setattr("carpus.core.records.store.make_private", refuses)
+        monkeypatch.setattr("carpus.core.records.store.make_private_folder", refuses)
     done = command("progress", "linden 42")
     assert (done.code, session in done.out, done.err) == (0, True, "")
 
@@ -197,10 +197,10 @@ def test_an_erasing_that_was_cut_short_is_told_as_finished(library: Library, com
     kept, other = (store(library, set_up(linden, "Linden 42"), after=timedelta(hours=hours)) for hours in range(2))
     paths = [library.entry(one).path for one in (kept, other)]
     for path, cut in (
-        (paths[0], changed(SESSION, kept, erasing=1)),
-        ("linden 42", changed(PATIENT, linden, erasing=1)),
+        (paths[0], update_row(SESSION, kept, erasing=1)),
+        ("linden 42", update_row(PATIENT, linden, erasing=1)),
     ):
-        library.store.do([cut])
+        library.store.apply([cut])
         done = command("erase", path, "--data-folder", library.folder)
         assert (done.code, "begun before is finished" in done.out, done.err) == (0, True, "")
         assert (paths[0].exists(), paths[1].exists()) == (False, path == paths[0])
@@ -221,22 +221,22 @@ def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -
     carpus.export(path, tmp_path / "nobody", "json", deidentified=True)
     did = [(did, by) for did, by, _ in deeds(library.folder)[before:]]
     assert did == [("opened", "command"), ("exported", "command"), ("exported", "command")]
-    plan = Records(library).plan_session(session)
-    assert {path.parent for path in plan.made} == {tmp_path / "out"}, "what was made is named"
+    plan = RecordRetention(library).plan_session(session)
+    assert {path.parent for path in plan.output_files} == {tmp_path / "out"}, "what was made is named"
 
 
 def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
     library: Library, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[Exception] = []
-    library.log_fault = told.append
+    library.on_fault = told.append
 
     def full(*_: object, **__: object) -> None:
         raise OutputNotWritable(library.folder)
 
-    monkeypatch.setattr(library.log, "note", full)
+    monkeypatch.setattr(library.log_writer, "note", full)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    assert library.patients.one(linden).pseudonym == "Linden 42"
+    assert library.patients.get(linden).pseudonym == "Linden 42"
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
 
 
@@ -253,13 +253,13 @@ def test_a_back_up_by_command_comes_back_elsewhere(library: Library, tmp_path: P
     assert (told.code, "Sessions added: 0, changed: 0, taken away: 1." in told.out) == (0, True)
     assert [command("restore", place, "--into", new).code for _ in range(2)] == [0, 1]
     with closing(Library(new)) as restored:
-        assert [len(restored.sessions(one.patient_id)) for one in restored.patients.listed()] == [1]
+        assert [len(restored.sessions(one.patient_id)) for one in restored.patients.search()] == [1]
     assert [did for did, _, _ in deeds(new)] == ["added", "recorded", "backed_up", "recorded", "restored"]
     assert command("erase", "Linden 42", "--data-folder", library.folder, "--for-good", "linden 42").code == 0
     later = command("restore", place, "--into", tmp_path / "later")
     assert "erased again: 1 patients" in later.out
     with closing(Library(tmp_path / "later")) as restored:
-        assert restored.patients.listed() == []
+        assert restored.patients.search() == []
 
 
 def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
@@ -271,14 +271,14 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
     settings = settings_folder() / "settings.toml"
     settings.parent.mkdir(parents=True, exist_ok=True)
     settings.write_text(f'[records]\nsessions = "{share}"\n')
-    with closing(Library(data, sessions=share)) as library:
+    with closing(Library(data, sessions_folder=share)) as library:
         linden = library.patients.add(Patient("Linden 42", "right", "right"))
         session = store(library, set_up(linden, "Linden 42"))
-        library.keep_comment(session, "Less swelling.")
-        library.keep_choices(session, RepetitionChoices({0: "pain"}))
+        library.save_comment(session, "Less swelling.")
+        library.save_choices(session, RepetitionChoices({0: "pain"}))
         path = library.entry(session).path
     assert path.is_relative_to(share)
-    assert (read_comment(path), read_choices(path).left_out) == ("Less swelling.", {0: "pain"})
+    assert (read_comment(path), read_choices(path).excluded) == ("Less swelling.", {0: "pain"})
     assert command("backup", tmp_path / "disk").code == 0
     assert command("erase", path, "--for-good", "Linden 42").code == 0
     assert not path.exists()

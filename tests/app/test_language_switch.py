@@ -17,26 +17,26 @@ from carpus.ui.controls.text import Text
 @pytest.fixture
 def desktop(open_desktop: Callable[..., Desktop]) -> Iterator[Desktop]:
     yield open_desktop(Settings(screen=ScreenSettings("light", language="en")))
-    language.speak("en")
+    language.set_window_language("en")
 
 
 def texts(desktop: Desktop) -> set[str]:
-    return {text.text() for text in desktop.keeper.screen.findChildren(Text)}
+    return {text.text() for text in desktop.preferences.screen.findChildren(Text)}
 
 
 def test_language_changes_only_while_nothing_is_at_work(qtbot: QtBot, desktop: Desktop, tmp_path: Path) -> None:
     at_work = [True]
-    desktop.keeper.keeps_language = lambda: "Not now." if at_work[0] else ""
-    desktop.journey.way.show("settings")
-    german = desktop.keeper.screen.chosen["language"].buttons()[list(language.LANGUAGES).index("de")]
+    desktop.preferences.find_language_obstacle = lambda: "Not now." if at_work[0] else ""
+    desktop.controller.navigator.open_screen("settings")
+    german = desktop.preferences.screen.form["language"].buttons()[list(language.LANGUAGES).index("de")]
     german.click()
     assert "Not now." in texts(desktop)
-    assert desktop.keeper.screen.chosen["language"].value() == "en"
-    assert desktop.why_no_other_language() == ""
+    assert desktop.preferences.screen.form["language"].value() == "en"
+    assert desktop.find_language_obstacle() == ""
     at_work[0] = False
     german.click()
-    qtbot.waitUntil(lambda: desktop.closed)
-    assert desktop.is_to_reopen
+    qtbot.waitUntil(lambda: desktop.is_closed)
+    assert desktop.must_reopen
     assert load_settings(tmp_path / "settings").screen.language == "de"
 
 
@@ -44,7 +44,7 @@ def test_camera_that_waits_behind_the_review_keeps_no_language(
     desktop: Desktop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as waiting:
-        waiting.setattr(desktop.journey.now, "source", object())
+        waiting.setattr(desktop.controller.current, "source", object())
         for place, refused in (("review", False), ("sessions", False), ("markers", True), ("live", True)):
-            waiting.setattr(type(desktop.journey.way), "behind", place)
-            assert bool(desktop.why_no_other_language()) is refused, place
+            waiting.setattr(type(desktop.controller.navigator), "behind", place)
+            assert bool(desktop.find_language_obstacle()) is refused, place

@@ -9,7 +9,7 @@ import pytest
 from carpus.core.errors import DiskFull
 from carpus.core.records import of_clinic
 from carpus.ui import last_places
-from carpus.ui.last_places import LastPlaces
+from carpus.ui.last_places import RecentLocations
 
 
 @pytest.fixture
@@ -21,18 +21,18 @@ def data(tmp_path: Path) -> Path:
 
 def test_the_first_time_it_is_documents_or_home(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     papers = tmp_path / "papers"
-    monkeypatch.setattr(last_places, "documents", lambda: str(papers))
-    assert LastPlaces(data).folder("reports") == str(Path.home()), "the folder for papers is not there"
+    monkeypatch.setattr(last_places, "documents_folder", lambda: str(papers))
+    assert RecentLocations(data).folder("reports") == str(Path.home()), "the folder for papers is not there"
     papers.mkdir()
-    assert LastPlaces(data).folder("reports") == str(papers)
+    assert RecentLocations(data).folder("reports") == str(papers)
 
 
 def test_each_kind_has_its_own_place_until_it_is_gone(tmp_path: Path, data: Path) -> None:
-    places = LastPlaces(data)
+    places = RecentLocations(data)
     for kind in ("reports", "recordings"):
         (tmp_path / kind).mkdir()
-        places.keep(kind, str(tmp_path / kind))  # type: ignore[arg-type]
-    again = LastPlaces(data)
+        places.save_folder(kind, str(tmp_path / kind))  # type: ignore[arg-type]
+    again = RecentLocations(data)
     assert again.folder("reports") == str(tmp_path / "reports")
     assert again.folder("recordings") == str(tmp_path / "recordings")
     (tmp_path / "reports").rmdir()
@@ -44,5 +44,5 @@ def test_a_folder_that_cannot_be_written_is_no_fault(data: Path, monkeypatch: py
         raise DiskFull("disk")
 
     monkeypatch.setattr(of_clinic, "replace_text", full)
-    LastPlaces(data).keep("reports", str(data))
-    assert Path(LastPlaces(data).folder("reports")).is_dir()
+    RecentLocations(data).save_folder("reports", str(data))
+    assert Path(RecentLocations(data).folder("reports")).is_dir()

@@ -15,21 +15,21 @@ import pytest
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import SessionUnreadable
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.records import of_sessions
-from carpus.core.records.keeping import Records
-from carpus.core.records.kept_sets import last_set_up
+from carpus.core.records.keeping import RecordRetention
+from carpus.core.records.kept_sets import read_last_setup
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import NewSessions, recover
-from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.records.new_sessions import SessionIntake, recover_sessions
+from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.patients.stored import StoredPatients
+from carpus.ui.patients.stored import PatientStore
 from carpus.ui.sessions.listing import remark
-from carpus.ui.sessions.stored import StoredSessions
+from carpus.ui.sessions.stored import SessionStore
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 
@@ -40,20 +40,20 @@ def library(tmp_path: Path) -> Iterator[Library]:
     opened.close()
 
 
-def set_up(patient_id: str, pseudonym: str) -> SetUp:
-    return SetUp(patient_id, pseudonym, "right", exercise_named("WRIST_RU"), 8, 25.0, float("nan"), True)
+def set_up(patient_id: str, pseudonym: str) -> SessionSetup:
+    return SessionSetup(patient_id, pseudonym, "right", get_exercise("WRIST_RU"), 8, 25.0, float("nan"), True)
 
 
 def store(
     library: Library,
-    wanted: SetUp,
+    wanted: SessionSetup,
     frames: int = 40,
     hand_length_mm: float = 180.0,
     findings: tuple[CalibrationFinding, ...] = (),
     parameters: str = "{}",
     after: timedelta = timedelta(0),
 ) -> str:
-    path = NewSessions(library).new_path(wanted)
+    path = SessionIntake(library).new_path(wanted)
     calibration = make_calibration()
     verdict = replace(calibration.verdict, hand_length_mm=hand_length_mm, findings=findings)
     header = new_header(
@@ -67,17 +67,17 @@ def store(
     with SessionWriter.create(path, header, CAMERA, replace(calibration, verdict=verdict)) as writer:
         for row in range(frames):
             writer.append(make_frame(row))
-    return NewSessions(library).entered(wanted, path)
+    return SessionIntake(library).register(wanted, path)
 
 
 def test_practice_is_never_among_the_patients(library: Library) -> None:
-    patients = StoredPatients(library)
+    patients = PatientStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     practice, measured = (
         store(library, set_up(PRACTICE_PATIENT, "Practice patient")),
         store(library, set_up(linden, "Linden 42")),
     )
-    assert [row.pseudonym for row in patients.patients()] == ["Linden 42"]
+    assert [row.pseudonym for row in patients.list_patients()] == ["Linden 42"]
     assert [row.session_id for row in library.sessions(linden)] == [measured]
     assert [row.session_id for row in library.sessions(PRACTICE_PATIENT)] == [practice]
     assert len(library.session(practice)) == 40
@@ -86,7 +86,7 @@ def test_practice_is_never_among_the_patients(library: Library) -> None:
 def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
-    places = NewSessions(library)
+    places = SessionIntake(library)
     assert math.isnan(places.last_hand_length_mm(wanted, simulated=False))
     steps = iter(range(1, 9))
 
@@ -104,42 +104,42 @@ def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(lib
 
 
 def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
-    patients = StoredPatients(library)
+    patients = PatientStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted, simulated = set_up(linden, "Linden 42"), json.dumps({"source": {"simulated": "yes"}})
     store(library, wanted, parameters=simulated)
-    (row,) = patients.patients()
+    (row,) = patients.list_patients()
     assert (row.session_count, row.last_session) == (0, None)
     assert patients.card(linden).results == ()
     real = store(library, wanted)
     store(library, wanted, parameters=simulated, after=timedelta(days=1))
-    (row,) = patients.patients()
+    (row,) = patients.list_patients()
     assert (row.session_count, row.last_session) == (1, library.entry(real).created)
     card = patients.card(linden)
-    assert card.note_when == library.entry(real).created
+    assert card.note_date == library.entry(real).created
     assert not any("imulated" in said for said in card.warnings)
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
 
 
 def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    assert last_set_up(library.store, linden) is None
+    assert read_last_setup(library.store, linden) is None
     wanted = set_up(linden, "Linden 42")
     store(library, wanted)
-    found = last_set_up(library.store, linden)
+    found = read_last_setup(library.store, linden)
     assert np.isnan(found.target_negative_deg)
-    assert (found.exercise, found.repetitions, found.target_positive_deg, found.keep_pictures) == (
+    assert (found.exercise, found.repetitions, found.target_positive_deg, found.stores_frames) == (
         wanted.exercise, 8, 25.0, True,
     )  # fmt: skip
 
 
 def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
     session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
-    choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, not_counted=True)
-    library.keep_choices(session_id, choices)
+    choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, is_session_excluded=True)
+    library.save_choices(session_id, choices)
     for text in ("First.", "Second,\nwith a line.", "Second,\nwith a line.\n", ""):
-        library.keep_comment(session_id, text)
-    assert [one.text for one in of_sessions.comments(library.store, session_id)] == [
+        library.save_comment(session_id, text)
+    assert [one.text for one in of_sessions.read_comments(library.store, session_id)] == [
         "First.",
         "Second,\nwith a line.",
         "",
@@ -150,45 +150,48 @@ def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
 
 
 def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
-    stored = StoredSessions(library)
+    stored = SessionStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     heron = library.patients.add(Patient("Heron 17", "right", "right"))
     one = store(library, set_up(linden, "Linden 42"))
     two = store(library, set_up(linden, "Linden 42"), after=timedelta(hours=1))
     path = library.entry(one).path
-    stored.set_aside(one, "discs lost")
-    assert {line.entry.session_id: line.set_aside for line in stored.lines(linden)} == {one: "discs lost", two: ""}
-    assert library.figures(library.entry(one)).not_counted
-    stored.set_aside(one, "")
-    assert not library.figures(library.entry(one)).not_counted
+    stored.exclude(one, "discs lost")
+    assert {line.entry.session_id: line.exclusion_reason for line in stored.list_sessions(linden)} == {
+        one: "discs lost",
+        two: "",
+    }
+    assert library.results(library.entry(one)).is_excluded
+    stored.exclude(one, "")
+    assert not library.results(library.entry(one)).is_excluded
     stored.rename_exercise(one, "FOREARM_PS")
-    assert library.figures(library.entry(one)).exercise.id == "FOREARM_PS"
+    assert library.results(library.entry(one)).exercise.id == "FOREARM_PS"
     assert library.session(one).header.exercise == "FOREARM_PS"
     assert read_session(path).header.exercise == "WRIST_RU", "the file is not changed"
     stored.move(one, heron)
     path = library.entry(one).path
     assert read_session(path).header.subject_id == "Heron 17"
-    assert [line.entry.session_id for line in stored.lines(linden)] == [two]
-    assert [line.entry.session_id for line in stored.lines(heron)] == [one]
-    recover(library)
-    assert [line.entry.session_id for line in stored.lines(heron)] == [one], "the files do not undo it"
-    records, cards = Records(library), StoredPatients(library)
+    assert [line.entry.session_id for line in stored.list_sessions(linden)] == [two]
+    assert [line.entry.session_id for line in stored.list_sessions(heron)] == [one]
+    recover_sessions(library)
+    assert [line.entry.session_id for line in stored.list_sessions(heron)] == [one], "the files do not undo it"
+    records, cards = RecordRetention(library), PatientStore(library)
     records.archive_session(one)
-    assert stored.lines(heron) == []
+    assert stored.list_sessions(heron) == []
     assert cards.card(heron).has_sessions, "its list of sessions is the way to the archive"
-    records.bring_back(one)
+    records.unarchive(one)
     path.with_suffix(".markers.jpg").write_bytes(b"x")
     plan = records.plan_session(one)
     assert {file.name for file in plan.files} == {
         path.name, path.with_suffix(".markers.jpg").name,
     }  # fmt: skip
     records.erase(plan)
-    assert stored.lines(heron) == []
+    assert stored.list_sessions(heron) == []
     assert list(path.parent.glob(f"{path.stem}.*")) == []
     assert len(library.session(two)) == 40
     library.entry(two).path.unlink()
-    library.forget_figures(two)
-    (line,) = [stored.with_figures(line) for line in stored.lines(linden)]
+    library.drop_cached_results(two)
+    (line,) = [stored.with_figures(line) for line in stored.list_sessions(linden)]
     assert remark(line) == "its file is not there"
     with pytest.raises(SessionUnreadable):
         records.plan_session(one)
@@ -199,7 +202,7 @@ def test_another_order_of_the_angles_is_read_everywhere_but_in_files(library: Li
     session_id = store(library, set_up(patient_id, "Linden 42"))
     plain = library.session(session_id)
     assert [figures.angle_order for figures in library.history(patient_id)] == ["zyx"]
-    library.angle_order = lambda: "isb"
+    library.get_angle_order = lambda: "isb"
     turned = library.session(session_id)
     assert turned.angle_order == "isb"
     assert not np.allclose(turned.motion.angles_rad, plain.motion.angles_rad, equal_nan=True)

@@ -15,25 +15,25 @@ import pytest
 
 from carpus.core.errors import RecordingEmpty
 from carpus.core.pipeline import looking_back
-from carpus.core.pipeline.correction import correct, task_of
+from carpus.core.pipeline.correction import correct, load_task
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.pipeline.looking_back import PIECE_S, LookingBack, TrackedHand
+from carpus.core.pipeline.looking_back import CHUNK_S, SmoothingProcess, TrackedHand
 from carpus.core.pipeline.measuring import LivePipeline, RecordedSession
 from carpus.core.pipeline.track import (
-    NOT_LOOKED_BACK,
+    SMOOTHING_FAILED,
     FramePipeline,
-    Learnt,
+    NeutralNoise,
     TrackSettings,
-    parameters_json,
+    format_parameters,
     retrack_session,
 )
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session, new_header
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.smoother_record import KeptSteps
+from carpus.core.tracking.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SPOT_SAID, Detections, Frame, Region, SpotAnswer, TrackedFrame
+from carpus.core.types import OPERATOR_LABEL, Detections, Frame, MarkerLabel, Region, TrackedFrame
 from tests.pipeline.live_fakes import HeldSource, wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
@@ -46,7 +46,7 @@ NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
 def patience() -> Iterator[None]:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
     with pytest.MonkeyPatch.context() as patient:
-        patient.setattr(looking_back, "END_S", 150.0)
+        patient.setattr(looking_back, "FINISH_TIMEOUT_S", 150.0)
         yield
 
 
@@ -63,7 +63,7 @@ class Blobs:
     def detect(self, frame: Frame, _region: object = None) -> Detections:
         return all_blobs()[frame.index]
 
-    def region_about(self, *_: object) -> Region:
+    def compute_search_region(self, *_: object) -> Region:
         return Region(0, 0, CAMERA.width_px, CAMERA.height_px)
 
 
@@ -77,30 +77,30 @@ def live_pipeline() -> LivePipeline:
     return LivePipeline(FramePipeline(Blobs(), tracker), neutral_ends_s=10.0)  # type: ignore[arg-type]
 
 
-def open_session(path: Path, looker: LookingBack | None) -> RecordedSession:
+def open_session(path: Path, looker: SmoothingProcess | None) -> RecordedSession:
     return RecordedSession(RecordingJournal(path.with_suffix(".journal"), make_header(), CAMERA, calibration()), looker)
 
 
-def begin_looking_back(piece_s: float = PIECE_S) -> LookingBack:
-    return LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()), piece_s=piece_s)
+def begin_looking_back(piece_s: float = CHUNK_S) -> SmoothingProcess:
+    return SmoothingProcess(TrackedHand(calibration(), CAMERA, TrackerSettings()), chunk_s=piece_s)
 
 
 @cache
-def walked() -> list[tuple[TrackedFrame, KeptSteps]]:
+def walked() -> list[tuple[TrackedFrame, FilterSteps]]:
     """Every frame as tracked, and its steps."""
-    pipeline, kept = live_pipeline(), list[KeptSteps]()
-    pipeline.keep = kept.append
+    pipeline, kept = live_pipeline(), list[FilterSteps]()
+    pipeline.on_steps = kept.append
     return list(zip([pipeline(frame) for frame in frames()], kept, strict=True))
 
 
-def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], None] = lambda *_: None) -> None:
+def recorded(path: Path, piece_s: float, at_row: Callable[[SmoothingProcess, int], None] = lambda *_: None) -> None:
     """Records rows 30 to 559, pausing from 200 to 259; ``at_row`` is called before every frame."""
     looker = begin_looking_back(piece_s)
     session = open_session(path, looker)
     for row, (tracked, kept) in enumerate(walked()):
         at_row(looker, row)
         if row >= 30:
-            looker.take(kept)
+            looker.add_steps(kept)
         if 30 <= row < 560 and not 200 <= row < 260:
             session.append(tracked)
     session.close()
@@ -115,11 +115,11 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Session:
 
 
 def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(whole: Session, tmp_path: Path) -> None:
-    def come(looker: LookingBack, row: int) -> None:
+    def come(looker: SmoothingProcess, row: int) -> None:
         if row == 500:  # stored while rows still come
-            wait_until(lambda: looker.has_more)
+            wait_until(lambda: looker.has_results)
 
-    recorded(tmp_path / "pieces.h5", PIECE_S, come)
+    recorded(tmp_path / "pieces.h5", CHUNK_S, come)
     pieces = read_session(tmp_path / "pieces.h5")
     assert len(pieces.smoothed.angles_rad) == len(pieces.timestamp_s) == 470
     sd_rad = whole.smoothed.angles_sd_rad
@@ -133,18 +133,18 @@ def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(whole: Session, tmp_pat
 def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
     whole: Session, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def kill(looker: LookingBack, row: int) -> None:
+    def kill(looker: SmoothingProcess, row: int) -> None:
         if row == 400:
             wait_until(lambda: looker.pid is not None)
             os.kill(looker.pid or 0, signal.SIGKILL)
 
-    recorded(tmp_path / "killed.h5", PIECE_S, kill)
+    recorded(tmp_path / "killed.h5", CHUNK_S, kill)
     killed = read_session(tmp_path / "killed.h5")
     assert killed.smoothed is None
     np.testing.assert_array_equal(killed.motion.angles_rad, whole.motion.angles_rad)
     assert np.isfinite(killed.motion.angles_rad).all()
     (event,) = killed.events
-    assert event.kind == NOT_LOOKED_BACK
+    assert event.kind == SMOOTHING_FAILED
     assert "SIGKILL" in event.text
     (line,) = caplog.records
     assert "Smoothing of this session failed" in line.getMessage()
@@ -155,7 +155,7 @@ def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
 def test_the_walk_keeps_no_steps() -> None:
     pipeline, kept = live_pipeline(), []
     for frame in islice(frames(), 60):
-        pipeline.keep = kept.append if frame.index in (3, 4) else None
+        pipeline.on_steps = kept.append if frame.index in (3, 4) else None
         pipeline(frame)
         assert not pipeline._pipeline.tracker.record.history
     assert [[step.timestamp_s for step in steps.steps] for steps in kept] == [[10.0 + 3 * DT_S], [10.0 + 4 * DT_S]]
@@ -165,58 +165,58 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
     """Said in the window's thread; tracked again from what the file holds, the session comes out as it was measured."""
     source, path, begun_at, said_at = HeldSource(), tmp_path / "session.h5", 10, 40
     settings = TrackSettings(smooth=False)
-    learnt = Learnt(0.15, 1.0, -np.inf)
+    learnt = NeutralNoise(0.15, 1.0, -np.inf)
     right = calibration()
     wrong_m = right.marker_position_w0_m.copy()
     wrong_m[MCP3] += [0.0, 0.014, 0.0]
     wrong = replace(right, marker_position_w0_m=wrong_m)
-    tracker = Tracker(wrong, CAMERA, learnt.applied(settings.tracker))
+    tracker = Tracker(wrong, CAMERA, learnt.adapt_settings(settings.tracker))
     pipeline = LivePipeline(FramePipeline(Blobs(), tracker), -np.inf)  # type: ignore[arg-type]
     header = new_header(
         hand="right", protocol=right.clicks.protocol, subject_id="Linden 42",
-        exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), dip_free=False,
+        exercise="WRIST_FE", parameters=format_parameters(settings, {}, learnt), dip_free=False,
     )  # fmt: skip
-    said: list[SpotAnswer] = []
+    said: list[MarkerLabel] = []
 
-    def take_up(answer: SpotAnswer, time_s: float) -> None:
+    def take_up(answer: MarkerLabel, time_s: float) -> None:
         said.append(answer)
-        live.add_event(SPOT_SAID, answer.text(), time_s)
+        live.add_event(OPERATOR_LABEL, answer.to_json(), time_s)
 
     with LiveSession(source) as live:
-        pipeline.taken_up = take_up
-        live.begin_tracking(pipeline)
+        pipeline.on_label = take_up
+        live.start_tracking(pipeline)
         for count in range(1, 91):
             if count == begun_at:
                 live.start_recording(
                     lambda: RecordedSession(RecordingJournal(path.with_suffix(".journal"), header, CAMERA, wrong), None)
                 )
             if count == said_at:
-                view = live.newest()
+                view = live.current_view()
                 assert not np.isfinite(view.tracked.marker_measured_px[MCP3]).any()
                 hidden = view.tracked.detections.pixel
                 taken = view.tracked.marker_measured_px
                 spare = [px for px in hidden if not (np.linalg.norm(taken - px, axis=1) < 1.0).any()]
                 assert len(spare) == 1
-                pipeline.answer(SpotAnswer(view.tracked.index, "MCP3", (float(spare[0][0]), float(spare[0][1]))))
+                pipeline.add_label(MarkerLabel(view.tracked.index, "MCP3", (float(spare[0][0]), float(spare[0][1]))))
             source.let(1)
             wait_until(lambda count=count: live.counters().tracked == count)
         assert live.stop_recording() == path
-        pipeline.restate()
+        pipeline.repeat_labels()
         source.let(1)
         wait_until(lambda: live.counters().tracked == 91)
-    assert [answer.index for answer in said] == [said_at - 1, 90], "told anew for a recording that begins later"
+    assert [answer.frame_index for answer in said] == [said_at - 1, 90], "told anew for a recording that begins later"
     measured = read_session(path)
     used = np.isfinite(measured.markers.measured_px[:, MCP3, 0])
     assert used.tolist() == [index >= said_at - 1 for index in range(begun_at - 1, 90)]
     (event,) = measured.events
-    assert event.kind == SPOT_SAID
+    assert event.kind == OPERATOR_LABEL
     assert event.time_s == measured.timestamp_s[said_at - begun_at]
-    correct(task_of(path, tmp_path / "corrected.h5", ()))
+    correct(load_task(path, tmp_path / "corrected.h5", ()))
     retrack_session(path, tmp_path / "again.h5", TrackSettings())
     for anew in ("corrected.h5", "again.h5"):
         again = read_session(tmp_path / anew)
         np.testing.assert_array_equal(np.isfinite(again.markers.measured_px[:, MCP3, 0]), used)
-        assert [event.kind for event in again.events] == [SPOT_SAID]
+        assert [event.kind for event in again.events] == [OPERATOR_LABEL]
 
 
 def test_a_session_without_a_frame_is_none(tmp_path: Path) -> None:

@@ -10,29 +10,29 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.app.desktop.practice import TakesDrawn, practice_beginning, practice_spec
+from carpus.app.desktop.practice import PracticeRenderer, practice_spec, render_practice_start
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import CarpusFault, DiskFull
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import HAND21
 from carpus.core.measures.reach import find_reaches
-from carpus.core.measures.signals import even_signal, low_pass
-from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.measures.signals import low_pass, resample_evenly
+from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
 from carpus.core.simulation import recording
-from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.types import Side
-from carpus.ui.opening import NobodyWaitsError, Progress
+from carpus.ui.opening import OpeningCancelledError, Progress
 from tests.accuracy.carpus import measured_hand
 from tests.capture.test_practice import Take
 from tests.pipeline.live_fakes import wait_until
 from tests.simulation.measurements import measurement_sequence
 from tests.ui.fakes import set_up
 
-FIRST, SECOND = (replace(set_up("FIST_COMPOSITE"), exercise=exercise_named(name)) for name in ("WRIST_FE", "WRIST_RU"))
+FIRST, SECOND = (replace(set_up("FIST_COMPOSITE"), exercise=get_exercise(name)) for name in ("WRIST_FE", "WRIST_RU"))
 SET_UPS = {"WRIST_FE": FIRST, "WRIST_RU": SECOND}
 
 
@@ -42,14 +42,14 @@ class Drawn:
     def __init__(self, fault: CarpusFault | None = None) -> None:
         self.go_on, self.begun, self.ended = threading.Semaphore(0), threading.Event(), threading.Event()
         self.fault, self.told, self.asked = fault, list[Any](), list[str]()
-        self.patient = PracticeSource(Take(), 0.55, begins_only=True)
-        self.takes = TakesDrawn(self.patient, self._draw, SET_UPS, {}, lambda *_: None, self.told.append)
+        self.patient = PracticeSource(Take(), 0.55, is_still_only=True)
+        self.takes = PracticeRenderer(self.patient, self._draw, SET_UPS, {}, lambda *_: None, self.told.append)
         self.takes.start()
         assert not self.begun.wait(0.05), "the still hand is shown first: drawing takes every core"
-        self.patient.shown.set()
+        self.patient.still_hand_shown.set()
         assert self.begun.wait(60.0)
 
-    def _draw(self, one: SetUp, progress: Progress) -> tuple[Take, float]:
+    def _draw(self, one: SessionSetup, progress: Progress) -> tuple[Take, float]:
         self.begun.set()
         self.asked.append(one.exercise.id)
         assert self.go_on.acquire(timeout=60.0)
@@ -58,7 +58,7 @@ class Drawn:
             raise self.fault
         try:
             progress(1, 2)
-        except NobodyWaitsError:
+        except OpeningCancelledError:
             self.ended.set()
             raise
         return Take(), 0.55
@@ -94,8 +94,8 @@ def test_what_goes_wrong_with_a_drawing_is_told() -> None:
 
 def test_the_beginning_is_what_the_whole_take_begins_with_and_a_dozen_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """A second of drawing, not a minute: the first live picture waits for nothing else."""
-    whole = SimulatedPictures(practice_spec(FIRST))
-    begun = practice_beginning(FIRST)
+    whole = SimulatedRecording(practice_spec(FIRST))
+    begun = render_practice_start(FIRST)
     assert begun is not None
     source, still_s = begun
     frames = list(source.frames())
@@ -103,20 +103,22 @@ def test_the_beginning_is_what_the_whole_take_begins_with_and_a_dozen_pictures(m
     assert is_simulated(source.info)
     assert source.info.camera == whole.truth.camera
     for i, frame in ((0, frames[0]), (len(frames) - 1, frames[-1])):
-        color, depth = whole.sensed(i, whole.clean(i))
+        color, depth = whole.apply_sensor(i, whole.render_clean(i))
         np.testing.assert_array_equal(frame.color_rgb, color)
         np.testing.assert_array_equal(frame.depth_raw, depth)
     assert frames[-1].timestamp_s - frames[0].timestamp_s == pytest.approx(still_s, abs=1.0 / 15.0)
     monkeypatch.setattr(recording, "is_cached", lambda _: True)
-    assert practice_beginning(FIRST) is None, "nothing to draw: the whole take is there"
+    assert render_practice_start(FIRST) is None, "nothing to draw: the whole take is there"
 
 
 def spec_of(exercise: str, side: Side = "right") -> RecordingSpec:
-    return practice_spec(SetUp(PRACTICE_PATIENT, "Practice", side, exercise_named(exercise), 3, math.nan, math.nan))
+    return practice_spec(
+        SessionSetup(PRACTICE_PATIENT, "Practice", side, get_exercise(exercise), 3, math.nan, math.nan)
+    )
 
 
 def truth_of(exercise: str) -> Truth:
-    return SimulatedPictures(spec_of(exercise)).truth
+    return SimulatedRecording(spec_of(exercise)).truth
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
@@ -134,6 +136,6 @@ def test_its_thumb_touches_every_finger_tip_and_it_reaches_out_and_back_twice() 
         away = np.linalg.norm(joints[:, HAND21.markers.index(f"TIP{finger}")] - thumb, axis=1)
         assert away.min() < 0.015
     truth = truth_of("REACH_GRASP")
-    reaches = find_reaches(low_pass(even_signal(truth.timestamp_s - truth.timestamp_s[0], truth.position_m)))
-    assert [reach.outward for reach in reaches] == [True, False, True, False]
+    reaches = find_reaches(low_pass(resample_evenly(truth.timestamp_s - truth.timestamp_s[0], truth.position_m)))
+    assert [reach.is_outward for reach in reaches] == [True, False, True, False]
     assert all(0.2 < reach.path.length_m < 0.3 for reach in reaches)

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.desktop.log import NobodysLines
-from carpus.app.settings import load_sound_settings
+from carpus.app.desktop.log import RedactingFormatter
+from carpus.app.settings import load_valid_settings
 from carpus.core.camera import Camera
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import RecordingUnreadable, SettingsInvalid
-from carpus.core.formats.new_output import TableForm, new_table, plain_cell
+from carpus.core.formats.new_output import TableDialect, escape_formula, write_new_table
 from carpus.core.records.library import Library
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
@@ -53,8 +53,8 @@ def test_what_a_command_writes_is_for_its_owner(tmp_path: Path, command: Command
 def test_the_log_names_nobody(tmp_path: Path, own_folders: Path) -> None:
     library = Library(tmp_path)
     library.patients.add(Patient("Linden Birke", "right", name="Ada Miller"))
-    lines = NobodysLines()
-    lines.names = library.pseudonyms
+    lines = RedactingFormatter()
+    lines.find_pseudonyms = library.pseudonyms
     try:
         path = tmp_path / "sessions" / "Linden-Birke" / "Linden-Birke_2026-11-13_153000_wrist-flexion_left.h5"
         try:
@@ -79,18 +79,18 @@ def test_a_tooltip_shows_tags_and_does_not_follow_them() -> None:
 
 @pytest.mark.parametrize("start", list("=+-@\t\r"))
 def test_a_text_of_a_table_is_not_calculated(start: str) -> None:
-    assert plain_cell(f"{start}cmd|' /C calc'!A0").startswith("'")
+    assert escape_formula(f"{start}cmd|' /C calc'!A0").startswith("'")
 
 
 @pytest.mark.parametrize("text", ["-1.5", "+2", "-.5e-3", "n/a", "'=x", "", "2026-11-13"])
 def test_numbers_and_plain_words_of_a_table_stay_as_they_are(text: str) -> None:
-    assert plain_cell(text) == text
+    assert escape_formula(text) == text
 
 
 @pytest.mark.parametrize("separator", [",", "\t"])
 def test_no_table_that_is_written_calculates(tmp_path: Path, separator: str) -> None:
-    path = new_table(
-        tmp_path / "t.tsv", ("a", "b", "c"), [("=1+2", "-3.5", "@SUM(A1)"), ("-2+3", "+", "x")], TableForm(separator)
+    path = write_new_table(
+        tmp_path / "t.tsv", ("a", "b", "c"), [("=1+2", "-3.5", "@SUM(A1)"), ("-2+3", "+", "x")], TableDialect(separator)
     )
     assert [line.split(separator) for line in path.read_text().splitlines()[1:]] == [
         ["'=1+2", "-3.5", "'@SUM(A1)"], ["'-2+3", "'+", "x"],
@@ -139,7 +139,7 @@ def test_a_list_of_pictures_stays_in_its_folder(tmp_path: Path, name: str) -> No
 
     (tmp_path / "rgb.txt").write_text(f"1.0 {name}\n")
     with pytest.raises(RecordingUnreadable, match="leads out of the folder"):
-        TumFolder(tmp_path, need_depth=False)
+        TumFolder(tmp_path, requires_depth=False)
 
 
 @pytest.mark.parametrize(
@@ -158,9 +158,9 @@ def test_a_list_of_pictures_stays_in_its_folder(tmp_path: Path, name: str) -> No
 def test_settings_that_make_no_sense_are_told_and_left_out(tmp_path: Path, text: str) -> None:
     (tmp_path / "settings.toml").write_bytes(text.encode("utf-8", "surrogateescape"))
     (tmp_path / "preferences.toml").write_text('[report]\ntherapist = "AB"\n')
-    settings, faults = load_sound_settings(tmp_path)
+    settings, faults = load_valid_settings(tmp_path)
     assert settings.report.therapist == "AB"
     assert [type(fault) for fault in faults] == [SettingsInvalid]
     (tmp_path / "settings.toml").write_text('[recording]\nfolder = "~nobody-at-all/x"\n')
-    settings, faults = load_sound_settings(tmp_path)
+    settings, faults = load_valid_settings(tmp_path)
     assert (settings.data_folder, faults) == (Path("~nobody-at-all/x"), []), "a home that nobody has"

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from pytestqt.qtbot import QtBot
 
-from carpus.app.__main__ import main, parser
+from carpus.app.__main__ import build_parser, main
 from carpus.core.purpose import PURPOSE
 from carpus.ui.theme import Theme
 from carpus.ui.welcome.panel import WelcomePanel
@@ -40,7 +40,7 @@ def test_commands_of_the_readme_can_be_typed() -> None:
     assert len(lines) >= 6
     for line in lines:
         words = shlex.split(line)[1:]
-        parser(words).parse_args(words)
+        build_parser(words).parse_args(words)
 
 
 def test_both_papers_are_cited() -> None:

@@ -16,7 +16,7 @@ import pytest
 import carpus
 from carpus.app.python_face import HandFrame, ProposedClicks
 from carpus.core.errors import CalibrationImpossible, SettingsInvalid
-from carpus.core.hand.protocols import protocol_named
+from carpus.core.hand.protocols import get_protocol
 from carpus.core.session.reader import read_session
 from tests.rendered import FLEXION, REPEATED_FLEXION, Rendered
 
@@ -46,7 +46,7 @@ def test_frames_come_as_values_and_agree_with_the_truth(folder: Path, frames: li
     assert frames[-1].marker_position_cam_m.shape == (6, 3)
 
 
-CLICKS = ProposedClicks("right", "wrist6", {name: [1.0, 2.0] for name in protocol_named("wrist6").markers}, {})
+CLICKS = ProposedClicks("right", "wrist6", {name: [1.0, 2.0] for name in get_protocol("wrist6").markers}, {})
 PICTURE = np.zeros((4, 4, 3), dtype=np.uint8)
 USUAL: dict[str, dict[str, Any]] = {
     "track": {"path": "r", "clicks": CLICKS},
@@ -211,9 +211,9 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     done = carpus.export(folder / "truth.h5", tmp_path, ["mot", "c3d"])
     assert {path.suffix for path in done.files} >= {".mot", ".c3d"}
     found = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot")
-    assert max(pair.figures_deg.rmse for pair in found.pairs) < 0.1
+    assert max(pair.agreement_deg.rmse for pair in found.pairs) < 0.1
     given = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot", lag_s=0.1, drift_percent=1.0).shift
-    assert (given.reference_later_s, given.was_given, given.drift) == (0.1, True, pytest.approx(0.01))
+    assert (given.lag_s, given.is_given, given.drift) == (0.1, True, pytest.approx(0.01))
 
 
 @pytest.mark.parametrize(("sessions", "formats", "name"), [([], "csv", "sessions"), ("s.h5", (), "formats")])

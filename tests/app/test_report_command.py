@@ -19,8 +19,8 @@ import pytest
 from pyarrow import parquet
 
 from carpus.app import python_face
-from carpus.core.formats.measures_files import HEAD
-from carpus.core.records.of_sessions import add_comment, keep_choices
+from carpus.core.formats.measures_files import MEASURES_HEADER
+from carpus.core.records.of_sessions import add_comment, save_choices
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 from carpus.core.session.values import new_header
@@ -95,7 +95,7 @@ def test_the_comment_is_on_it_and_paper_and_language_are_chosen(
     path, out = tmp_path / "data" / "sessions" / "day.h5", tmp_path / "de.pdf"
     with opened(tmp_path / "data") as house:
         shutil.copy(sessions[0], path)
-        house.files.take_in()
+        house.files.scan()
         add_comment(house.store, read_outline(path).header.session_id, "Splint at night.", "")
     done = command("report", path, "--output", out, "--paper", "letter", "--language", "de")
     assert (done.code, done.err) == (0, "")
@@ -120,8 +120,8 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path, 
             writer.append(replace(there, status=TrackStatus.TRACKED, dropped_before=0))
     whole = {row.measure: row.count for row in python_face.open_session(path).measures()}
     with opened(tmp_path / "data") as house:
-        house.files.take_in()
-        keep_choices(house.store, header.session_id, RepetitionChoices({0: "pain", 1: "pain"}), 0)
+        house.files.scan()
+        save_choices(house.store, header.session_id, RepetitionChoices({0: "pain", 1: "pain"}), 0)
     assert command("report", path, "--output", tmp_path / "day.pdf").code == 0
     left = whole["arc"] - 2
     assert f"mean of {left} repetitions; number 1 left out: pain" in words(tmp_path / "day.pdf")
@@ -158,7 +158,7 @@ def folder(tmp_path: Path) -> Path:
 def test_a_patients_figures_are_a_table(folder: Path, command: Command) -> None:
     done = command("progress", "linden 42", "--sessions", folder / "one.h5")
     rows = list(csv.DictReader(io.StringIO(done.out)))
-    assert (done.code, tuple(rows[0])) == (0, HEAD)
+    assert (done.code, tuple(rows[0])) == (0, MEASURES_HEADER)
     assert {row["subject_id"] for row in rows} == {"Linden 42"}
     assert any(row["of"] == "flexion" and row["measure"] == "arc" for row in rows)
     nobody = command("progress", "Heron 17", "--sessions", folder)
@@ -173,7 +173,7 @@ def test_figures_are_written_as_csv_parquet_and_pdf(folder: Path, tmp_path: Path
     table = parquet.read_table(out[1])
     with out[0].open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert tuple(table.column_names) == HEAD
+    assert tuple(table.column_names) == MEASURES_HEADER
     assert table.num_rows == len(rows)
     means = [float(row["mean"]) if row["mean"] else None for row in rows]
     for value, text in zip(table.column("mean").to_pylist(), means, strict=True):

@@ -21,15 +21,15 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import RecordsSettings, Settings
-from carpus.core.records.backup import backups
+from carpus.core.records.backup import list_backups
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
-from carpus.core.records.restoring import put_in_place
+from carpus.core.records.restoring import activate_restored
 from carpus.core.records.values import BackupSettings, Patient
-from carpus.ui.collector import Collector
+from carpus.ui.collector import GarbageCollector
 from carpus.ui.messages.messages import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
@@ -59,7 +59,7 @@ def opened(open_desktop: Open, data: Path) -> Open:
 
 
 def patient(desktop: Desktop, pseudonym: str) -> str:
-    return next(one.patient_id for one in desktop.library.patients.listed() if one.pseudonym == pseudonym)
+    return next(one.patient_id for one in desktop.library.patients.search() if one.pseudonym == pseudonym)
 
 
 def linden(desktop: Desktop) -> str:
@@ -67,7 +67,7 @@ def linden(desktop: Desktop) -> str:
 
 
 def names(desktop: Desktop) -> list[str]:
-    return [one.pseudonym for one in desktop.library.patients.listed()]
+    return [one.pseudonym for one in desktop.library.patients.search()]
 
 
 def visible_words(window: QWidget) -> set[str]:
@@ -83,43 +83,43 @@ def visible_words(window: QWidget) -> set[str]:
 
 def test_a_session_is_looked_at_given_away_archived_and_erased_from_the_list(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
-    journey, sheet = desktop.journey, desktop.safe.erasing.sheet
-    rows = journey.sessions.screen.list.rows
-    journey.sessions.show(linden(desktop))
-    chosen = journey.sessions.screen.chosen()
-    journey.sessions.screen.open_chosen()
-    qtbot.waitUntil(lambda: journey.review.screen.shown)
+    journey, sheet = desktop.controller, desktop.data_protection.erasing.dialog
+    rows = journey.sessions.screen.list.session_model
+    journey.sessions.open(linden(desktop))
+    chosen = journey.sessions.screen.current_line()
+    journey.sessions.screen.open_current()
+    qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
     last = read_log(desktop.library.store)[-1]
-    assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.entry.session_id))
+    assert (last.action, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.entry.session_id))
 
     heron = patient(desktop, "Heron 17")
-    journey.sessions.show(linden(desktop))
-    journey.sessions.screen.move_sheet.chosen.emit(heron)
+    journey.sessions.open(linden(desktop))
+    journey.sessions.screen.move_dialog.chosen.emit(heron)
     said = "The session is now one of Heron 17."
     qtbot.waitUntil(lambda: said in visible_words(desktop.shell))
     assert len(desktop.library.sessions(heron)) == 1
-    journey.way.go("patients")
+    journey.navigator.switch_screen("patients")
     assert said not in visible_words(desktop.shell)
 
     for who, pseudonym, answer in (
-        (linden(desktop), "Linden 42", sheet.instead), (heron, "Heron 17", sheet.for_good),
+        (linden(desktop), "Linden 42", sheet.archive_button), (heron, "Heron 17", sheet.delete_button),
     ):  # fmt: skip
-        journey.sessions.show(who)
+        journey.sessions.open(who)
         assert len(rows.lines) == 1
-        journey.sessions.screen.erase_button.click()
+        journey.sessions.screen.delete_button.click()
         qtbot.waitUntil(sheet.isVisible)
-        sheet.line.setText(pseudonym)
+        sheet.confirm_field.setText(pseudonym)
         qtbot.mouseClick(answer, Qt.MouseButton.LeftButton)
         qtbot.waitUntil(lambda: len(rows.lines) == 0)
-    assert len(desktop.library.index.archived()) == 1
-    assert [entry.did for entry in read_log(desktop.library.store)][-3:] == [
+    assert len(desktop.library.session_list.list_archived()) == 1
+    assert [entry.action for entry in read_log(desktop.library.store)][-3:] == [
         "archived", "erase_begun", "erased",
     ]  # fmt: skip
 
 
 def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
-    journey, sheet, who = desktop.journey, desktop.safe.erasing.sheet, linden(desktop)
+    journey, sheet, who = desktop.controller, desktop.data_protection.erasing.dialog, linden(desktop)
 
     def told() -> list[NoticeStrip]:
         return [one for one in desktop.shell.findChildren(NoticeStrip) if one.isVisible()]
@@ -127,71 +127,74 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
     def archive(ask: QPushButton, gone: Callable[[], bool]) -> NoticeStrip:
         ask.click()
         qtbot.waitUntil(sheet.isVisible)
-        sheet.instead.click()
+        sheet.archive_button.click()
         qtbot.waitUntil(lambda: gone() and bool(told()))
         (strip,) = told()
-        assert ("in the archive" in strip.words.happened, strip.button.text()) == (True, "&Undo")
+        assert ("in the archive" in strip.words.summary, strip.button.text()) == (True, "&Undo")
         return strip
 
     def archive_patient() -> NoticeStrip:
         journey.patients.screen.change_patient(who)
-        return archive(journey.patients.screen.form.remove, lambda: names(desktop) == ["Heron 17"])
+        return archive(journey.patients.screen.form.remove_button, lambda: names(desktop) == ["Heron 17"])
 
     archive_patient().button.click()
-    qtbot.waitUntil(lambda: journey.patients.screen.list.rows.find(who) >= 0)
+    qtbot.waitUntil(lambda: journey.patients.screen.list.patient_model.find_row(who) >= 0)
     archive_patient().later_button.click()
     journey.patients.screen.search.setText("linden")
     assert journey.patients.screen.archive_button.isVisible()
     assert "Linden 42" in journey.patients.screen.archive_button.text()
     journey.patients.screen.archive_button.click()
-    lists = desktop.safe.lists
-    qtbot.waitUntil(lists.sheet.isVisible)
-    assert [one.accessibleName() for one in lists.sheet.buttons] == ["Bring back Linden 42", "Erase… Linden 42"]
-    lists.sheet.buttons[0].click()
-    qtbot.waitUntil(lambda: lists.sheet.buttons == [])
-    lists.sheet.close_sheet()
+    lists = desktop.data_protection.lists
+    qtbot.waitUntil(lists.records_dialog.isVisible)
+    assert [one.accessibleName() for one in lists.records_dialog.buttons] == [
+        "Bring back Linden 42",
+        "Erase… Linden 42",
+    ]
+    lists.records_dialog.buttons[0].click()
+    qtbot.waitUntil(lambda: lists.records_dialog.buttons == [])
+    lists.records_dialog.close_dialog()
     assert not journey.patients.screen.archive_button.isVisible()
-    assert journey.patients.screen.list.rows.find(who) >= 0, "the list below knows it too"
+    assert journey.patients.screen.list.patient_model.find_row(who) >= 0, "the list below knows it too"
     journey.patients.screen.search.clear()
 
-    journey.sessions.show(who)
-    lines = journey.sessions.screen.list.rows
-    archive(journey.sessions.screen.erase_button, lambda: len(lines.lines) == 1).button.click()
+    journey.sessions.open(who)
+    lines = journey.sessions.screen.list.session_model
+    archive(journey.sessions.screen.delete_button, lambda: len(lines.lines) == 1).button.click()
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
-    strip = archive(journey.sessions.screen.erase_button, lambda: len(lines.lines) == 1)
-    journey.way.back()
+    strip = archive(journey.sessions.screen.delete_button, lambda: len(lines.lines) == 1)
+    journey.navigator.navigate_back()
     assert journey.place == "sessions", "Esc closes what is told, then leaves"
     assert not strip.isVisible()
     assert journey.sessions.screen.archive_button.isVisible()
     journey.sessions.screen.archive_button.click()
-    qtbot.waitUntil(lists.sheet.isVisible)
-    lists.sheet.buttons[0].click()
+    qtbot.waitUntil(lists.records_dialog.isVisible)
+    lists.records_dialog.buttons[0].click()
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
 
 
 def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened()
-    patients, sheet = desktop.journey.patients.screen, desktop.safe.erasing.sheet
+    patients, sheet = desktop.controller.patients.screen, desktop.data_protection.erasing.dialog
     patients.change_patient(linden(desktop))
-    assert patients.form.remove.isVisible()
-    patients.form.remove.click()
+    assert patients.form.remove_button.isVisible()
+    patients.form.remove_button.click()
     qtbot.waitUntil(sheet.isVisible)
-    assert "sessions (2)" in sheet.goes.text()
-    qtbot.keyClicks(sheet.line, "Linden 42")
-    sheet.for_good.click()
+    assert "sessions (2)" in sheet.deleted_text.text()
+    qtbot.keyClicks(sheet.confirm_field, "Linden 42")
+    sheet.delete_button.click()
     qtbot.waitUntil(lambda: names(desktop) == ["Heron 17"])
-    qtbot.waitUntil(lambda: desktop.journey.place == "patients" and not desktop.journey.background.busy)
+    qtbot.waitUntil(lambda: desktop.controller.place == "patients" and not desktop.controller.background.is_busy)
     assert traces(data, "Linden", "Mustermann") == []
     qtbot.waitUntil(lambda: "The patient is erased." in visible_words(desktop.shell), timeout=60_000)
     patients.new_patient()
-    assert not patients.form.remove.isVisible()
+    assert not patients.form.remove_button.isVisible()
 
 
 def test_who_goes_on_with_another_patient_while_one_is_erased_stays_there(
     qtbot: QtBot, opened: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop = opened()
-    journey, records = desktop.journey, desktop.safe.erasing._records
+    journey, records = desktop.controller, desktop.data_protection.erasing._records
     goes_on, erase = threading.Event(), records.erase
     heron = patient(desktop, "Heron 17")
 
@@ -201,18 +204,18 @@ def test_who_goes_on_with_another_patient_while_one_is_erased_stays_there(
 
     monkeypatch.setattr(records, "erase", slow)
     journey.patients.screen.change_patient(linden(desktop))
-    journey.patients.screen.form.remove.click()
-    sheet = desktop.safe.erasing.sheet
+    journey.patients.screen.form.remove_button.click()
+    sheet = desktop.data_protection.erasing.dialog
     qtbot.waitUntil(sheet.isVisible)
-    qtbot.keyClicks(sheet.line, "Linden 42")
-    sheet.for_good.click()
-    journey.sessions.show(heron)
+    qtbot.keyClicks(sheet.confirm_field, "Linden 42")
+    sheet.delete_button.click()
+    journey.sessions.open(heron)
     goes_on.set()
     qtbot.waitUntil(lambda: names(desktop) == ["Heron 17"])
-    qtbot.waitUntil(lambda: not journey.background.busy)
+    qtbot.waitUntil(lambda: not journey.background.is_busy)
     assert journey.place == "sessions"
-    assert journey.now.patient is not None
-    assert journey.now.patient.patient_id == heron
+    assert journey.current.patient is not None
+    assert journey.current.patient.patient_id == heron
 
 
 def test_a_window_with_a_pin_shows_nothing_before_it(
@@ -220,29 +223,29 @@ def test_a_window_with_a_pin_shows_nothing_before_it(
 ) -> None:
     Pin(data).set("4821")
     desktop = opened()
-    shell, locking = desktop.shell, desktop.safe.locking
-    assert locking.locked
+    shell, locking = desktop.shell, desktop.data_protection.locking
+    assert locking.is_locked
     assert visible_words(shell) & {"Linden 42", "Heron 17", "Patients"} == set()
     assert "Linden" not in shell.windowTitle()
-    qtbot.keyClicks(locking.sheet.line, "0000")
-    qtbot.keyClick(locking.sheet.line, Qt.Key.Key_Return)
-    assert locking.locked
-    assert "4 more tries" in locking.sheet.said.text()
+    qtbot.keyClicks(locking.lock_screen.pin_field, "0000")
+    qtbot.keyClick(locking.lock_screen.pin_field, Qt.Key.Key_Return)
+    assert locking.is_locked
+    assert "4 more tries" in locking.lock_screen.error_text.text()
     for key in (Qt.Key.Key_Escape, Qt.Key.Key_F1):
-        qtbot.keyClick(locking.sheet.line, key)
-    assert locking.locked
+        qtbot.keyClick(locking.lock_screen.pin_field, key)
+    assert locking.is_locked
     with monkeypatch.context() as missing:
         missing.setitem(sys.modules, "argon2", None)
-        qtbot.keyClicks(locking.sheet.line, "4821")
-        qtbot.keyClick(locking.sheet.line, Qt.Key.Key_Return)
-        assert locking.locked
-        assert "argon2 is missing" in locking.sheet.said.text()
-        assert locking.sheet.line.isEnabled()
-    qtbot.keyClicks(locking.sheet.line, "4821")
-    qtbot.keyClick(locking.sheet.line, Qt.Key.Key_Return)
-    assert not locking.locked
+        qtbot.keyClicks(locking.lock_screen.pin_field, "4821")
+        qtbot.keyClick(locking.lock_screen.pin_field, Qt.Key.Key_Return)
+        assert locking.is_locked
+        assert "argon2 is missing" in locking.lock_screen.error_text.text()
+        assert locking.lock_screen.pin_field.isEnabled()
+    qtbot.keyClicks(locking.lock_screen.pin_field, "4821")
+    qtbot.keyClick(locking.lock_screen.pin_field, Qt.Key.Key_Return)
+    assert not locking.is_locked
     assert "Patients" in visible_words(shell)
-    done = [entry.did for entry in read_log(desktop.library.store)]
+    done = [entry.action for entry in read_log(desktop.library.store)]
     assert done[-3:] == ["locked", "pin_refused", "unlocked"]
 
 
@@ -251,46 +254,46 @@ def test_it_locks_by_key_and_by_itself_but_never_over_a_recording(
 ) -> None:
     Pin(data).set("4821")
     desktop = opened()
-    locking, journey = desktop.safe.locking, desktop.journey
-    locking.sheet.tried.emit("4821")
-    assert not locking.locked
-    assert 0 < locking.idle.left_ms <= 11 * 60_000  # a coarse clock
-    journey.sessions.show(linden(desktop))
+    locking, journey = desktop.data_protection.locking, desktop.controller
+    locking.lock_screen.pin_entered.emit("4821")
+    assert not locking.is_locked
+    assert 0 < locking.idle_timer.remaining_ms <= 11 * 60_000  # a coarse clock
+    journey.sessions.open(linden(desktop))
     journey.sessions.screen.rename_button.click()
-    assert journey.sessions.screen.rename_sheet.isVisible()
+    assert journey.sessions.screen.exercise_dialog.isVisible()
     monkeypatch.setattr(type(journey.live.screen.recording), "state", "recording")
-    locking.lock_by_key()
-    locking.idle.passed.emit()
-    assert not locking.locked
-    assert 0 < locking.idle.left_ms <= 66_000, "it waits for the recording to end"
+    locking.lock_or_set_pin()
+    locking.idle_timer.timed_out.emit()
+    assert not locking.is_locked
+    assert 0 < locking.idle_timer.remaining_ms <= 66_000, "it waits for the recording to end"
     monkeypatch.setattr(type(journey.live.screen.recording), "state", "off")
-    locking.idle.passed.emit()
-    assert locking.locked
-    assert "after 10 minutes" in locking.sheet.why.text()
+    locking.idle_timer.timed_out.emit()
+    assert locking.is_locked
+    assert "after 10 minutes" in locking.lock_screen.reason_text.text()
     assert not any("Linden" in word for word in visible_words(desktop.shell))
-    locking.sheet.tried.emit("4821")
-    assert journey.sessions.screen.rename_sheet.isVisible(), "what was open is open again"
+    locking.lock_screen.pin_entered.emit("4821")
+    assert journey.sessions.screen.exercise_dialog.isVisible(), "what was open is open again"
 
 
 def test_a_pin_is_set_changed_and_taken_away_in_the_settings(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened()
-    locking = desktop.safe.locking
-    locking.lock_by_key()
-    assert desktop.journey.place == "settings", "without a PIN the key leads to where one is set"
-    sheet = locking.pin_sheet
+    locking = desktop.data_protection.locking
+    locking.lock_or_set_pin()
+    assert desktop.controller.place == "settings", "without a PIN the key leads to where one is set"
+    sheet = locking.pin_dialog
     for new, again, is_set in (("4821", "4822", False), ("99", "99", False), ("4821", "4821", True)):
         locking.card.pin_button.click()
-        sheet.new.setText(new)
-        sheet.again.setText(again)
-        sheet.keep.click()
+        sheet.new_pin.setText(new)
+        sheet.repeated_pin.setText(again)
+        sheet.save_button.click()
         assert Pin(data).is_set == is_set
-        sheet.close_sheet()
+        sheet.close_dialog()
     locking.card.pin_button.click()
-    locking.pin_sheet.old.setText("0000")
-    locking.pin_sheet.remove.click()
+    locking.pin_dialog.current_pin.setText("0000")
+    locking.pin_dialog.remove_button.click()
     assert Pin(data).is_set
-    locking.pin_sheet.old.setText("4821")
-    locking.pin_sheet.remove.click()
+    locking.pin_dialog.current_pin.setText("4821")
+    locking.pin_dialog.remove_button.click()
     assert not Pin(data).is_set
 
 
@@ -299,56 +302,56 @@ def test_back_up_now_reminder_and_restore(
 ) -> None:
     disk = tmp_path / "disk"
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk))))
-    backing, journey = desktop.safe.backing_up, desktop.journey
+    backing, journey = desktop.data_protection.backing_up, desktop.controller
     strips = journey.patients.screen.findChildren(NoticeStrip)
-    assert ["There is no back-up yet." in strip.words.happened for strip in strips] == [True]
+    assert ["There is no back-up yet." in strip.words.summary for strip in strips] == [True]
     disk.mkdir()
-    backing.back_up()
-    qtbot.waitUntil(lambda: backing.last is not None and backing.card.now_button.isEnabled())
+    backing.start_backup()
+    qtbot.waitUntil(lambda: backing.last_backup is not None and backing.card.now_button.isEnabled())
     assert "Every session is in it." in backing.card.headline.text()
-    assert read_log(desktop.library.store)[-1].did == "backed_up"
+    assert read_log(desktop.library.store)[-1].action == "backed_up"
     erased = linden(desktop)
-    desktop.safe.erasing._records.erase(desktop.safe.erasing._records.plan_patient(erased))
+    desktop.data_protection.erasing._records.erase(desktop.data_protection.erasing._records.plan_patient(erased))
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getExistingDirectory", lambda *_: str(disk))
     backing.card.restore_button.click()
-    qtbot.waitUntil(lambda: journey.messages.busy)
+    qtbot.waitUntil(lambda: journey.messages.is_busy)
     asked = " ".join(visible_words(desktop.shell))
     assert "Session files added: 0, changed: 0, taken away: 0" in asked
     assert "erased since then stay erased: 1" in asked
-    button = next(one for one in journey.messages.card.findChildren(QPushButton) if "Restore it" in one.text())
+    button = next(one for one in journey.messages.dialog.findChildren(QPushButton) if "Restore it" in one.text())
     with monkeypatch.context() as patched:
-        patched.setattr(journey.way, "is_recording", lambda: True)
+        patched.setattr(journey.navigator, "is_recording", lambda: True)
         button.click()
-        qtbot.waitUntil(lambda: backing.restored)
+        qtbot.waitUntil(lambda: backing.is_restored)
         assert desktop.shell.isVisible(), "a recording goes on"
-    qtbot.waitUntil(lambda: desktop.closed)
-    old = put_in_place(data, datetime(2026, 11, 20, 18, 0))
+    qtbot.waitUntil(lambda: desktop.is_closed)
+    old = activate_restored(data, datetime(2026, 11, 20, 18, 0))
     assert old is not None, "what was there is kept"
     assert old.is_dir()
     with closing(Library(data)) as restored:
-        assert {one.pseudonym for one in restored.patients.listed()} == {"Heron 17"}
+        assert {one.pseudonym for one in restored.patients.search()} == {"Heron 17"}
 
 
 def test_back_up_now_without_a_folder_asks_for_one_and_backs_up(
     qtbot: QtBot, opened: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop = opened()
-    backing = desktop.safe.backing_up
+    backing = desktop.data_protection.backing_up
     disk = tmp_path / "disk"
     disk.mkdir()
     chosen = ["", str(disk)]
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getExistingDirectory", lambda *_: chosen.pop(0))
     backing.card.now_button.click()
-    assert not backing._running, "nothing was chosen"
+    assert not backing._is_running, "nothing was chosen"
     backing.card.now_button.click()
-    qtbot.waitUntil(lambda: backing.last is not None and not backing._running)
-    assert len(backups(disk)) == 1
+    qtbot.waitUntil(lambda: backing.last_backup is not None and not backing._is_running)
+    assert len(list_backups(disk)) == 1
     facts = backing._facts()
-    assert (facts.state, facts.place_state) == ("warn", "warn"), "the same disk is no safe place"
-    assert "same disk" in facts.place_words
-    monkeypatch.setattr("carpus.ui.records.backing_up.on_same_disk", lambda *_: False)
+    assert (facts.state, facts.folder_state) == ("warn", "warn"), "the same disk is no safe place"
+    assert "same disk" in facts.folder_text
+    monkeypatch.setattr("carpus.ui.records.backing_up.is_same_disk", lambda *_: False)
     facts = backing._facts()
-    assert (facts.state, facts.place_state) == ("good", "good")
+    assert (facts.state, facts.folder_state) == ("good", "good")
 
 
 def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
@@ -356,54 +359,57 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
 ) -> None:
     disk = tmp_path / "disk"
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk), hour=12)))
-    backing = desktop.safe.backing_up
+    backing = desktop.data_protection.backing_up
     today = datetime.now().astimezone().replace(hour=13)
     monkeypatch.setattr("carpus.ui.records.backing_up._now", lambda: today)
-    backing.look()
-    assert not backing._running, "the disk is not there"
+    backing.run_if_due()
+    assert not backing._is_running, "the disk is not there"
     disk.mkdir()
-    monkeypatch.setattr(desktop.journey.way, "is_recording", lambda: True)
-    backing.look()
-    assert not backing._running
-    monkeypatch.setattr(desktop.journey.way, "is_recording", lambda: False)
-    backing.look()
-    qtbot.waitUntil(lambda: backing.last is not None and not backing._running)
-    backing.look()
-    assert not backing._running, "once a day"
+    monkeypatch.setattr(desktop.controller.navigator, "is_recording", lambda: True)
+    backing.run_if_due()
+    assert not backing._is_running
+    monkeypatch.setattr(desktop.controller.navigator, "is_recording", lambda: False)
+    backing.run_if_due()
+    qtbot.waitUntil(lambda: backing.last_backup is not None and not backing._is_running)
+    backing.run_if_due()
+    assert not backing._is_running, "once a day"
     monkeypatch.setattr("carpus.ui.records.backing_up._now", lambda: today + timedelta(days=1))
-    backing.look()
-    assert backing._running
-    qtbot.waitUntil(lambda: not backing._running)
+    backing.run_if_due()
+    assert backing._is_running
+    qtbot.waitUntil(lambda: not backing._is_running)
 
 
 def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened(replace(Settings(), records=RecordsSettings(10)))
-    lists = desktop.safe.lists
-    desktop.journey.context.today = lambda: date(2040, 1, 1)
+    lists = desktop.data_protection.lists
+    desktop.controller.context.today = lambda: date(2040, 1, 1)
     lists.card.due_button.click()
-    qtbot.waitUntil(lists.sheet.isVisible)
-    assert [button.accessibleName() for button in lists.sheet.buttons] == ["Archive Linden 42", "Erase… Linden 42"]
-    lists.sheet.buttons[0].click()
-    qtbot.waitUntil(lambda: [one.text() for one in lists.sheet.buttons] == ["Bring back", "Erase…"])
-    lists.sheet.close_sheet()
+    qtbot.waitUntil(lists.records_dialog.isVisible)
+    assert [button.accessibleName() for button in lists.records_dialog.buttons] == [
+        "Archive Linden 42",
+        "Erase… Linden 42",
+    ]
+    lists.records_dialog.buttons[0].click()
+    qtbot.waitUntil(lambda: [one.text() for one in lists.records_dialog.buttons] == ["Bring back", "Erase…"])
+    lists.records_dialog.close_dialog()
     lists.card.archive_button.click()
-    qtbot.waitUntil(lists.sheet.isVisible)
-    lists.sheet.buttons[0].click()
-    qtbot.waitUntil(lambda: lists.sheet.buttons == [])
-    lists.sheet.close_sheet()
+    qtbot.waitUntil(lists.records_dialog.isVisible)
+    lists.records_dialog.buttons[0].click()
+    qtbot.waitUntil(lambda: lists.records_dialog.buttons == [])
+    lists.records_dialog.close_dialog()
     lists.card.log_button.click()
-    qtbot.waitUntil(lists.log_sheet.isVisible)
-    table = lists.log_sheet.table
+    qtbot.waitUntil(lists.log_dialog.isVisible)
+    table = lists.log_dialog.table
     assert [table.item(row, 2).text() for row in range(2)] == ["brought back", "archived"]
     assert table.item(0, 3).text() == "Linden 42"
-    assert lists.log_sheet.title.text() == f"Log: {table.rowCount()} lines"
+    assert lists.log_dialog.title.text() == f"Log: {table.rowCount()} lines"
 
 
 def test_garbage_is_collected_in_the_windows_thread_once_the_first_picture_is_there(opened: Open, qtbot: QtBot) -> None:
     frozen = gc.get_freeze_count()
     desktop = opened()
     qtbot.waitUntil(lambda: gc.get_freeze_count() > frozen + 1000, timeout=60_000)
-    assert desktop.application.findChild(Collector) is not None
+    assert desktop.application.findChild(GarbageCollector) is not None
     assert not gc.isenabled(), "it would run in any thread"
     item = QObject()
     item.itself = item  # type: ignore[attr-defined]

@@ -18,9 +18,9 @@ from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop import window
-from carpus.app.desktop.screens import CORE, PLACES, load_core, load_screens
+from carpus.app.desktop.screens import PLACES, SLOW_CORE_MODULES, load_core, load_screens
 from carpus.app.desktop.window import Desktop
-from carpus.ui.flow import ASIDE, STEPS, TABS
+from carpus.ui.flow import OVERLAYS, PATIENT_TABS, SETUP_STEPS
 from carpus.ui.help import guide
 from carpus.ui.now_open import SourceChoice
 from tests.ui.fakes import FakeFeed
@@ -36,8 +36,10 @@ Looks = dict[tuple[str, str], set[tuple[int, str]]]
 def seen(desktop: Desktop, *places: str) -> dict[str, Looks]:
     """Size and ground of each text of each screen, or of some, brought to the front; those that are not made yet are
     made."""
-    way = desktop.journey.way
-    return {place: looks(desktop, way.flow(place).screen) for place in places or sorted({*way.makers} - {"patients"})}
+    way = desktop.controller.navigator
+    return {
+        place: looks(desktop, way.flow(place).screen) for place in places or sorted({*way.factories} - {"patients"})
+    }
 
 
 def looks(desktop: Desktop, screen: QWidget) -> Looks:
@@ -75,30 +77,30 @@ def test_esc_closes_the_patients_view_and_a_slow_source_is_said_of_the_simulated
     open_desktop: Callable[..., Desktop],
 ) -> None:
     desktop = open_desktop()
-    journey = desktop.journey
-    journey.way.show("help")
+    journey = desktop.controller
+    journey.navigator.open_screen("help")
     journey.live.patient_view.toggle()
-    journey._take_key("back")
+    journey._handle_key("back")
     assert not journey.live.patient_view.is_open
     assert journey.place == "help", "over the window, and goes nowhere"
-    journey._take_key("back")
+    journey._handle_key("back")
     assert journey.place == "patients"
     journey.patients.screen.search.setText("Fern")
     for _ in range(2):  # what lies over the screen goes first
-        journey._take_key("back")
+        journey._handle_key("back")
     assert journey.patients.screen.search.text() == ""
     for kind, slow_hz in (("practice", 11.0), ("camera", 24.0)):
-        journey.now.choice = SourceChoice(kind)  # type: ignore[arg-type]
+        journey.current.source_choice = SourceChoice(kind)  # type: ignore[arg-type]
         for fps, state in ((slow_hz + 2.0, "good"), (slow_hz, "warn")):
-            journey.bar.show_counters(replace(FakeFeed().counters(), fps=fps))
-            assert desktop.shell.bar.camera.state == state
+            journey.top_bar.show_counters(replace(FakeFeed().counters(), fps=fps))
+            assert desktop.shell.top_bar.camera.state == state
     before, during = (
         replace(FakeFeed().counters(), missing=383, recording=False),
         replace(FakeFeed().counters(), recording=True),
     )
     for counters, lost in ((before, ""), (replace(during, missing=383), ""), (replace(during, missing=385), "2 lost")):
-        journey.bar.show_counters(counters)
-        assert ("lost" in desktop.shell.bar.camera.text(), lost in desktop.shell.bar.camera.text()) == (
+        journey.top_bar.show_counters(counters)
+        assert ("lost" in desktop.shell.top_bar.camera.text(), lost in desktop.shell.top_bar.camera.text()) == (
             bool(lost),
             True,
         )
@@ -118,14 +120,16 @@ def test_a_start_makes_no_screen_but_the_first_and_loads_the_others_in_the_windo
     monkeypatch.setattr(window, "load_core", lambda: noted(load_core))
     monkeypatch.setattr(window, "load_screens", lambda: noted(load_screens))
     desktop = open_desktop()
-    assert set(desktop.journey.way.flows) == {"patients"}
-    desktop._load()
-    qtbot.waitUntil(lambda: {*CORE, *PLACES} <= set(loaded))
+    assert set(desktop.controller.navigator.flows) == {"patients"}
+    desktop._preload()
+    qtbot.waitUntil(lambda: {*SLOW_CORE_MODULES, *PLACES} <= set(loaded))
     assert {loaded[place] for place in PLACES} == {threading.main_thread()}
-    assert threading.main_thread() not in {loaded[module] for module in CORE}
+    assert threading.main_thread() not in {loaded[module] for module in SLOW_CORE_MODULES}
     desktop.close()
-    assert set(desktop.journey.way.flows) == {"patients"}
-    code = f"import sys, importlib; [importlib.import_module(one) for one in {CORE!r}]; print(*sys.modules)"
+    assert set(desktop.controller.navigator.flows) == {"patients"}
+    code = (
+        f"import sys, importlib; [importlib.import_module(one) for one in {SLOW_CORE_MODULES!r}]; print(*sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not [one for one in done.stdout.split() if one.startswith(("PySide6", "carpus.ui"))]
 
@@ -135,28 +139,28 @@ SOME = ("settings", "sessions", "live")
 
 
 def choose(desktop: Desktop, **chosen: Any) -> None:
-    desktop.keeper.take(replace(desktop.keeper.screen.preferences, **chosen))
+    desktop.preferences.apply(replace(desktop.preferences.screen.preferences, **chosen))
 
 
 def all_made(desktop: Desktop) -> None:
     """Every screen has a page of the guide and a picture, and every place that is named is there."""
-    windows, way = ShownWindows(), desktop.journey.way
-    assert {*STEPS, *TABS, *ASIDE, "patients"} <= set(way.makers)
+    windows, way = ShownWindows(), desktop.controller.navigator
+    assert {*SETUP_STEPS, *PATIENT_TABS, *OVERLAYS, "patients"} <= set(way.factories)
     desktop.application.installEventFilter(windows)
-    flows = [way.flow(place) for place in way.makers]
+    flows = [way.flow(place) for place in way.factories]
     desktop.application.removeEventFilter(windows)
     assert windows.seen == [], "parts of a screen that come up as windows while it is made"
-    assert {flow.place: flow for flow in flows} == way.flows
-    assert {flow.guide for flow in flows} <= set(guide.PAGES)
-    assert {flow.tab for flow in flows} <= {*TABS, ""}
+    assert {flow.screen_name: flow for flow in flows} == way.flows
+    assert {flow.guide_page for flow in flows} <= set(guide.PAGES)
+    assert {flow.parent_tab for flow in flows} <= {*PATIENT_TABS, ""}
     sources = [path.read_text("utf-8") for part in ("app", "ui") for path in (ROOT / part).rglob("*.py")]
     named = {one for text in sources for found in NAMED.findall(text) for one in found if one}
     assert "review" in named
-    assert named <= set(way.makers)
-    led = {one for text in sources for one in LED.findall(text)} | {*STEPS, *TABS}
-    assert set(way.makers) - led == set(), "screens that nobody leads to"
-    shown = {place for place in way.makers for state in STATES if f"{state}_".startswith(f"{place}_")}
-    assert set(way.makers) - shown == set(), "screens without a picture"
+    assert named <= set(way.factories)
+    led = {one for text in sources for one in LED.findall(text)} | {*SETUP_STEPS, *PATIENT_TABS}
+    assert set(way.factories) - led == set(), "screens that nobody leads to"
+    shown = {place for place in way.factories for state in STATES if f"{state}_".startswith(f"{place}_")}
+    assert set(way.factories) - shown == set(), "screens without a picture"
 
 
 def test_what_is_chosen_reaches_the_screens_that_are_made_later(open_desktop: Callable[..., Desktop]) -> None:
@@ -167,8 +171,8 @@ def test_what_is_chosen_reaches_the_screens_that_are_made_later(open_desktop: Ca
         choose(desktop, **CHOSEN)
     after = seen(early)
     assert not any(same(after[place], looks) for place, looks in before.items())
-    assert "live" not in late.journey.way.flows
+    assert "live" not in late.controller.navigator.flows
     made_later = seen(late)
     assert [place for place in after if not same(after[place], made_later[place])] == []
     for desktop in (early, late):
-        assert desktop.journey.live.screen.recording.start_mode == "still"
+        assert desktop.controller.live.screen.recording.start_mode == "still"

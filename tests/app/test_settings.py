@@ -13,7 +13,7 @@ import pytest
 
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import (
-    GONE,
+    OBSOLETE,
     PREFERENCES_FILE,
     SETTINGS_FILE,
     TRACKING,
@@ -21,10 +21,10 @@ from carpus.app.settings import (
     RecordingSettings,
     ScreenSettings,
     Settings,
-    keep_preferences,
     load_settings,
-    load_sound_settings,
-    note_data_folder,
+    load_valid_settings,
+    save_last_data_folder,
+    save_preferences,
     settings_folder,
     with_data_folder,
 )
@@ -32,7 +32,7 @@ from carpus.core.errors import SettingsInvalid
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.typed_value import settable_names
-from carpus.core.words import one_sentence
+from carpus.core.words import format_fault_line
 
 DEFAULTS = Path(__file__).parents[2] / "resources" / "defaults.toml"
 
@@ -115,7 +115,7 @@ def test_what_cannot_be_used_is_named_with_its_file(tmp_path: Path, text: str, n
         load_settings(written(tmp_path, text))
     assert fault.value.subject == named
     assert SETTINGS_FILE in fault.value.detail
-    assert named in one_sentence(fault.value)
+    assert named in format_fault_line(fault.value)
     with pytest.raises(SettingsInvalid) as fault:
         load_settings(written(tmp_path, "theme = light"))
     assert SETTINGS_FILE in fault.value.subject, "no TOML at all"
@@ -129,7 +129,7 @@ def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_
         recording=RecordingSettings(folder="/data of the clinic/é"),
         report=ReportSettings("M. R."),
     )
-    keep_preferences(Settings(), chosen, tmp_path)
+    save_preferences(Settings(), chosen, tmp_path)
     settings = load_settings(tmp_path)
     assert (settings.screen, settings.recording, settings.report) == (chosen.screen, chosen.recording, chosen.report)
     assert settings.track.tracker.profile == "brisk"
@@ -140,7 +140,7 @@ def test_settings_of_earlier_versions_that_are_gone_are_ignored_with_a_line_in_t
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level("INFO")
-    for place in GONE:
+    for place in OBSOLETE:
         section, _, name = place.rpartition(".")
         caplog.clear()
         assert load_settings(written(tmp_path, f"[{section}]\n{name} = 3\n")) == load_settings(tmp_path / "none")
@@ -167,8 +167,8 @@ def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[
     settings = with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")
     assert (settings.data_folder, settings.records.url, settings.backup.hour) == (tmp_path / "of one run", "", -1)
     desktop = open_desktop(settings)
-    desktop.keeper.screen.chosen["patient_sound"].buttons()[1].click()
-    desktop.keeper.keep(lock=LockSettings(5))
+    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
+    desktop.preferences.save(lock=LockSettings(5))
     stored = load_settings(tmp_path / "settings")
     assert (stored.data_folder, stored.backup.hour) == (Path("/clinic"), 18)
     assert (stored.patient.sound, stored.lock.after_min) == (True, 5), "what was changed is stored"
@@ -177,34 +177,34 @@ def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[
 
 def test_a_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
     desktop = open_desktop(is_demo=True)
-    desktop.keeper.screen.chosen["patient_sound"].buttons()[1].click()
+    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
     assert not (tmp_path / "settings").exists()
 
 
 def test_a_data_folder_chosen_and_taken_back_is_the_one_of_before(
     open_desktop: Callable[..., Desktop], tmp_path: Path
 ) -> None:
-    keeper = open_desktop().keeper
+    keeper = open_desktop().preferences
     shown = keeper.screen.preferences
-    keeper.take(dataclasses.replace(shown, data_folder="/another"))
+    keeper.apply(dataclasses.replace(shown, data_folder="/another"))
     assert load_settings(tmp_path / "settings").data_folder == Path("/another")
-    keeper.take(shown)
+    keeper.apply(shown)
     assert load_settings(tmp_path / "settings").data_folder == tmp_path / "data"
 
 
 def test_a_data_folder_that_changes_is_noticed_at_the_next_start(tmp_path: Path) -> None:
     one, other = tmp_path / "one", tmp_path / "other"
-    assert note_data_folder(one, tmp_path) is None, "nobody knows of any before"
-    assert note_data_folder(one, tmp_path) is None
-    assert note_data_folder(other, tmp_path) == one
-    assert note_data_folder(other, tmp_path) is None
+    assert save_last_data_folder(one, tmp_path) is None, "nobody knows of any before"
+    assert save_last_data_folder(one, tmp_path) is None
+    assert save_last_data_folder(other, tmp_path) == one
+    assert save_last_data_folder(other, tmp_path) is None
 
 
 def test_what_the_window_does_not_show_stays_as_a_file_said(open_desktop: Callable[..., Desktop]) -> None:
     desktop = open_desktop(Settings(screen=ScreenSettings("light"), report=ReportSettings("AB", "isb")))
-    desktop.keeper.screen.chosen["patient_sound"].buttons()[1].click()
-    assert desktop.journey.context.patient_sound
-    assert desktop.journey.context.report == ReportSettings("AB", "isb")
+    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
+    assert desktop.controller.context.patient_sound
+    assert desktop.controller.context.report_settings == ReportSettings("AB", "isb")
 
 
 GOLDEN = Path(__file__).parent / "golden"
@@ -214,7 +214,7 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
     """What version 0.1 wrote and read is kept as files: the program of today takes them as they are."""
     for name in (SETTINGS_FILE, PREFERENCES_FILE):
         shutil.copy(GOLDEN / f"v0.1-{name}", tmp_path / name)
-    found, faults = load_sound_settings(tmp_path)
+    found, faults = load_valid_settings(tmp_path)
     assert faults == []
     assert found == load_settings(tmp_path)
     table = tomllib.loads((GOLDEN / f"v0.1-{SETTINGS_FILE}").read_text(encoding="utf-8"))
@@ -228,5 +228,5 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
     assert found.track.tracker.profile == "slow", "the file says something else than the defaults"
     assert (found.screen.theme, found.screen.text_scale) == ("dark", 1.25)
     assert (found.recording.folder, found.report.therapist) == ("/home/clinic/Carpus", "AB")
-    keep_preferences(found, dataclasses.replace(found, lock=LockSettings(5)), tmp_path)
+    save_preferences(found, dataclasses.replace(found, lock=LockSettings(5)), tmp_path)
     assert load_settings(tmp_path) == dataclasses.replace(found, lock=LockSettings(5))

@@ -18,10 +18,10 @@ import pytest
 
 from carpus import __version__
 from carpus.app.commands import track
-from carpus.app.settings import StreamSettings, keep_preferences, load_settings, settings_folder
+from carpus.app.settings import StreamSettings, load_settings, save_preferences, settings_folder
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
+from carpus.core.pipeline.track import NeutralNoise, TrackSettings, format_parameters
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
@@ -48,7 +48,7 @@ def stored(path: Path, protocol: MarkerProtocol = WRIST6, version: str = __versi
 
 def said_of(settings: TrackSettings) -> str:
     """As a session keeps them."""
-    return parameters_json(settings, {}, Learnt(0.1, 1.0, 0.0))
+    return format_parameters(settings, {}, NeutralNoise(0.1, 1.0, 0.0))
 
 
 @pytest.mark.parametrize(
@@ -114,11 +114,11 @@ def test_a_recording_is_tracked_with_the_settings_of_the_person_and_streamed_whe
     track.add_arguments(arguments)
     own = load_settings().track
     for told, profile in (((), "slow"), (("--profile", "brisk"), "brisk")):
-        chosen = track.settings_from(arguments.parse_args(["r", "--output", "o", *told]), own)
+        chosen = track.apply_options(arguments.parse_args(["r", "--output", "o", *told]), own)
         assert chosen.tracker.profile == profile
     settings = load_settings(tmp_path)
     assert not settings.stream.on
-    keep_preferences(settings, replace(settings, stream=StreamSettings(True)), tmp_path)
+    save_preferences(settings, replace(settings, stream=StreamSettings(True)), tmp_path)
     assert load_settings(tmp_path).stream.on
 
 
@@ -143,7 +143,7 @@ def test_when_the_hand_moved_is_asked_or_taken_from_the_file_and_said(
     done = command(*words, "--output", tmp_path / "a.h5")
     assert (done.code, "does not say when the hand moved" in done.err) == (0, doubted)
     one = read_session(tmp_path / "a.h5").header
-    assert one.when == day
+    assert one.recording_time == day
     if doubted:
         assert command(*words, "--output", tmp_path / "b.h5").code == 0
         two = read_session(tmp_path / "b.h5").header

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.__main__ import parser
+from carpus.app.__main__ import build_parser
 from carpus.app.command_line import CommandParser
 from carpus.app.commands import COMMANDS
 from carpus.core.capture.devices import cameras
@@ -214,7 +214,7 @@ def data(places: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def command_parser(name: str) -> CommandParser:
-    top = parser([name])
+    top = build_parser([name])
     (chosen,) = (action for action in top._actions if isinstance(action, argparse._SubParsersAction))
     sub = chosen.choices[name]
     assert isinstance(sub, CommandParser)
@@ -267,7 +267,7 @@ def test_help_shows_examples_that_can_be_typed(name: str, command: Command) -> N
     for line in example.splitlines():
         program, *words = shlex.split(line)
         assert (program, words[0]) == ("carpus", name)
-        parser(words).parse_args(words)
+        build_parser(words).parse_args(words)
     told = command(name, "--help")
     assert told.code == 0
     assert all(line in told.out for line in example.splitlines())
@@ -312,6 +312,6 @@ def test_a_list_of_patients_that_another_program_holds_is_left_where_it_is(
 
 def test_an_address_of_openni2_needs_no_kind() -> None:
     for address in ("", "xtion", "realsense:123", "1d27/0601@1/7", "xtion:1d27/0601@1/7"):
-        cameras.check_address(address)
+        cameras.validate_address(address)
     with pytest.raises(cameras.CameraUnknown):
         cameras.open_camera("relsense")

@@ -6,13 +6,13 @@ import os
 import signal
 import time
 
-from carpus.app.batch.work import Outcome, Task, fault_of
+from carpus.app.batch.work import TrackingOutcome, TrackingTask, fault_outcome
 
 
-def deadly(task: Task) -> Outcome:
+def deadly(task: TrackingTask) -> TrackingOutcome:
     """``dies`` always kills its process, ``once`` the first time; ``waits`` until it is told to stop; ``hangs`` deaf to
     that, with half a session beside it; ``stutters`` succeeds the second time, ``refuses`` never."""
-    mark = task.place.session
+    mark = task.tracking_input.session
     if task.subject_id == "dies" or (task.subject_id == "once" and not mark.exists()):
         mark.touch()
         time.sleep(0.2)  # long enough for others to be under way
@@ -32,5 +32,5 @@ def deadly(task: Task) -> Outcome:
         tries = mark.with_suffix(".tries")
         tries.write_text(tries.read_text() + "x" if tries.exists() else "x")
         if task.subject_id == "refuses" or len(tries.read_text()) < 2:
-            return fault_of(task.place, "refused", may_pass=task.subject_id == "stutters")
-    return Outcome(task.place, "tracked")
+            return fault_outcome(task.tracking_input, "refused", is_retryable=task.subject_id == "stutters")
+    return TrackingOutcome(task.tracking_input, "tracked")

@@ -20,10 +20,10 @@ from distributed import Client
 from pyarrow import parquet
 
 from carpus.app.__main__ import main
-from carpus.app.batch.processes import outcomes_on
-from carpus.app.batch.work import Outcome, Task
+from carpus.app.batch.processes import run_tasks_on_scheduler
+from carpus.app.batch.work import TrackingOutcome, TrackingTask
 from carpus.app.commands.track_many import OUTCOMES_FILE
-from carpus.app.sources import CLICKS_FILE, places
+from carpus.app.sources import CLICKS_FILE, plan_inputs
 from carpus.core.errors import SchedulerUnreachable
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_session
@@ -81,20 +81,20 @@ def told(folder: Path) -> dict[str, str]:
 @pytest.mark.thorough
 def test_a_worker_that_is_killed_costs_nothing(address: str, recordings: Path, tmp_path: Path) -> None:
     out = tmp_path / "far"
-    found_there = places([recordings], out)
+    found_there = plan_inputs([recordings], out)
     broken = replace(found_there[0], clicks=recordings / "none.json", session=out / "none.h5", name="none.h5")
-    tasks = [Task(place, TrackSettings(smooth=False)) for place in (*found_there, broken)]
+    tasks = [TrackingTask(place, TrackSettings(smooth=False)) for place in (*found_there, broken)]
     with Client(address, set_as_default=False) as client:
         processes = client.run(os.getpid)
-    coming = outcomes_on(address, tasks)
-    found: list[Outcome] = [next(coming)]
+    coming = run_tasks_on_scheduler(address, tasks)
+    found: list[TrackingOutcome] = [next(coming)]
     os.kill(next(iter(processes.values())), signal.SIGKILL)
     found += coming
-    (fault,) = (each for each in found if each.place == broken)
-    assert (fault.result, "none.json" in fault.said[0]) == ("fault", True)
+    (fault,) = (each for each in found if each.tracking_input == broken)
+    assert (fault.result, "none.json" in fault.messages[0]) == ("fault", True)
     found.remove(fault)
-    assert sorted(each.place.name for each in found) == [f"r{number}.h5" for number in range(COUNT)]
-    assert {each.result for each in found} <= {"tracked", "kept"}, [each.said for each in found]
+    assert sorted(each.tracking_input.name for each in found) == [f"r{number}.h5" for number in range(COUNT)]
+    assert {each.result for each in found} <= {"tracked", "kept"}, [each.messages for each in found]
     assert {path.suffix for path in out.iterdir()} == {".h5"}, "nothing half-done is left"
 
     # The same by the command, which finds all done; and the same numbers as here.
@@ -157,7 +157,7 @@ def test_a_scheduler_that_is_not_there_is_told(
 ) -> None:
     monkeypatch.setattr("carpus.app.batch.processes.PATIENCE_S", 1.0)
     with pytest.raises(SchedulerUnreachable):
-        list(outcomes_on("tcp://127.0.0.1:9", []))
+        list(run_tasks_on_scheduler("tcp://127.0.0.1:9", []))
     words = ["track", str(recordings), "--output", str(tmp_path / "out"), "--scheduler", "nonsense://"]
     assert main(words) == 1
     assert "nonsense" in capsys.readouterr().err

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carpus.app.sources import is_many, is_recording, places
+from carpus.app.sources import is_batch, is_recording, plan_inputs
 
 
 def folder_of(root: Path, *names: str) -> Path:
@@ -24,7 +24,7 @@ def test_a_folder_is_searched(tmp_path: Path) -> None:
         tmp_path / "in", "b/rgb.txt", "b/depth.txt", "a/c/rgb.txt", "a/x.oni", "a/y.carpusraw", "a/old.h5",
         "a/notes.txt", "sim/truth.h5", ".hidden/rgb.txt", "out/z.oni",
     )  # fmt: skip
-    found = places([root], root / "out")
+    found = plan_inputs([root], root / "out")
     assert names(found) == [
         ("c", "a/c.h5"), ("x.oni", "a/x.h5"), ("y.carpusraw", "a/y.h5"), ("b", "b.h5"),
     ]  # fmt: skip
@@ -37,7 +37,7 @@ def test_a_folder_is_searched(tmp_path: Path) -> None:
 def test_what_is_named_counts_once_and_keeps_its_place(tmp_path: Path) -> None:
     root = folder_of(tmp_path, "p1/rec/rgb.txt", "p2/rec/rgb.txt", "p3/s.h5", "p2/rec.oni")
     named = [root / "p1/rec", root / "p2", root / "p2/rec", root / "p3/s.h5", root / "gone"]
-    found = places(named, root / "out")
+    found = plan_inputs(named, root / "out")
     assert names(found) == [
         ("rec", "p1/rec.h5"), ("rec", "p2/rec.h5"), ("rec.oni", "p2/rec.oni.h5"), ("s.h5", "p3/s.h5"),
         ("gone", "gone.h5"),
@@ -49,11 +49,11 @@ def test_what_is_named_counts_once_and_keeps_its_place(tmp_path: Path) -> None:
 def test_one_or_many(tmp_path: Path) -> None:
     root = folder_of(tmp_path, "in/a/rgb.txt", "s.h5")
     (root / "there").mkdir()
-    assert is_many([root / "in/a", root / "s.h5"], root / "x")
-    assert is_many([root / "in"], root / "out")
-    assert is_many([root / "in/a"], root / "there")
-    assert not is_many([root / "in/a"], root / "out")
-    assert not is_many([root / "in/a"], root / "new.h5")
-    assert not is_many([root / "in"], root / "new.h5")
+    assert is_batch([root / "in/a", root / "s.h5"], root / "x")
+    assert is_batch([root / "in"], root / "out")
+    assert is_batch([root / "in/a"], root / "there")
+    assert not is_batch([root / "in/a"], root / "out")
+    assert not is_batch([root / "in/a"], root / "new.h5")
+    assert not is_batch([root / "in"], root / "new.h5")
     assert is_recording(root / "in/a")
     assert not is_recording(root / "in")

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from carpus.app.batch import work
-from carpus.app.batch.processes import DIED, cores, outcomes
-from carpus.app.batch.work import Task
+from carpus.app.batch.processes import DIED_TEXT, count_cores, run_tasks
+from carpus.app.batch.work import TrackingTask
 from carpus.app.sources import TrackingInput
 from carpus.core.errors import OutputExists
 from carpus.core.pipeline.track import TrackSettings
@@ -20,30 +20,30 @@ from tests.batch.deadly import deadly
 from tests.records.samples import record
 
 
-def task(folder: Path, name: str, kind: str = "") -> Task:
-    return Task(TrackingInput(folder / name, None, folder / f"{name}.h5", f"{name}.h5"), TrackSettings(), kind)
+def task(folder: Path, name: str, kind: str = "") -> TrackingTask:
+    return TrackingTask(TrackingInput(folder / name, None, folder / f"{name}.h5", f"{name}.h5"), TrackSettings(), kind)
 
 
 def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
     kinds = ["", "dies", "once", ""]
     tasks = [task(tmp_path, f"r{i}", kind) for i, kind in enumerate(kinds)]
-    found = {outcome.place.name: outcome for outcome in outcomes(tasks, 2, deadly)}
+    found = {outcome.tracking_input.name: outcome for outcome in run_tasks(tasks, 2, deadly)}
     assert len(found) == len(tasks)
     assert [found[f"r{i}.h5"].result for i in range(len(kinds))] == [
         "fault" if kind == "dies" else "tracked" for kind in kinds
     ]
-    assert found["r1.h5"].said == (DIED,)
+    assert found["r1.h5"].messages == (DIED_TEXT,)
 
 
 def test_what_hangs_is_given_up(tmp_path: Path) -> None:
-    (outcome,) = outcomes([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
-    assert "0.1 minutes" in outcome.said[0]
+    (outcome,) = run_tasks([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
+    assert "0.1 minutes" in outcome.messages[0]
     assert not list(tmp_path.iterdir()), "half a session is gone"
 
 
 def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
     tasks = [task(tmp_path, "r0", "stutters"), task(tmp_path, "r1", "refuses")]
-    found = {outcome.place.name: outcome.result for outcome in outcomes(tasks, 2, deadly)}
+    found = {outcome.tracking_input.name: outcome.result for outcome in run_tasks(tasks, 2, deadly)}
     assert found == {"r0.h5": "tracked", "r1.h5": "fault"}
     assert [(tmp_path / f"r{k}.tries").read_text() for k in (0, 1)] == ["xx", "x"]
 
@@ -54,20 +54,20 @@ def test_what_another_run_finished_meanwhile_was_done_before(tmp_path: Path, mon
         raise OutputExists(output)
 
     monkeypatch.setattr(work, "retrack_session", slower)
-    outcome = work.work(task(tmp_path, "r0"))
+    outcome = work.execute_task(task(tmp_path, "r0"))
     assert (outcome.result, outcome.frames > 0) == ("kept", True)
 
 
 def test_a_worker_with_another_version_tracks_nothing(tmp_path: Path) -> None:
-    outcome = work.work(replace(task(tmp_path, "r0"), software_version="0.0.1"))
+    outcome = work.execute_task(replace(task(tmp_path, "r0"), software_version="0.0.1"))
     assert outcome.result == "fault"
-    assert "0.0.1" in outcome.said[0]
+    assert "0.0.1" in outcome.messages[0]
 
 
 def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
     tasks = [task(tmp_path, "quick"), *(task(tmp_path, f"r{i}", "waits") for i in range(3))]
-    coming = outcomes(tasks, 2, deadly)
-    assert next(coming).place.name == "quick.h5"
+    coming = run_tasks(tasks, 2, deadly)
+    assert next(coming).tracking_input.name == "quick.h5"
     until = time.monotonic() + 60.0
     while not list(tmp_path.glob("r*.h5")) and time.monotonic() < until:
         time.sleep(0.02)
@@ -77,10 +77,12 @@ def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
 
 
 def test_there_is_a_core() -> None:
-    assert cores() >= 1
-    assert list(outcomes([], 2)) == []
+    assert count_cores() >= 1
+    assert list(run_tasks([], 2)) == []
 
 
 def test_more_processes_than_tasks(tmp_path: Path) -> None:
     tasks = [task(tmp_path, f"r{i}") for i in range(2)]
-    assert {outcome.place.name for outcome in outcomes(tasks, 5, deadly)} == {t.place.name for t in tasks}
+    assert {outcome.tracking_input.name for outcome in run_tasks(tasks, 5, deadly)} == {
+        t.tracking_input.name for t in tasks
+    }

@@ -16,8 +16,8 @@ from pyarrow import parquet
 
 from carpus.app.commands.track_many import MEASURES_FILE, OUTCOMES_FILE
 from carpus.core.formats import measures_files
-from carpus.core.results.figures import session_figures
-from carpus.core.results.measures_table import SessionFigure
+from carpus.core.results.figures import compute_session_results
+from carpus.core.results.measures_table import MeasureRow
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE
 from tests.commands import Command
@@ -65,7 +65,7 @@ def test_faults_are_gathered_and_what_is_done_is_left(made: Path, tmp_path: Path
     measures = rows(out / MEASURES_FILE)
     assert {row["session"] for row in measures} == {"anna/first.h5", "second.h5"}
     arc = next(row for row in measures if row["session"] == "anna/first.h5" and row["measure"] == "arc")
-    wanted = session_figures(session).wrist_ranges[0]
+    wanted = compute_session_results(session).wrist_ranges[0]
     assert (arc["of"], arc["unit"]) == ("deviation", "deg")
     assert float(arc["mean"]) == pytest.approx(wanted.mean, rel=1e-5)
     assert arc["session_id"] == session.header.session_id
@@ -130,8 +130,8 @@ def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, command:
 def test_a_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(measures_files, "ROWS_AT_ONCE", 5)
     kinds = {"str": "", "float": math.nan, "int": 0, "bool": False}
-    row = SessionFigure(**{field.name: kinds[str(field.type)] for field in fields(SessionFigure)})  # type: ignore[arg-type]
-    with measures_files.measures_file(tmp_path / "t.parquet") as take:
+    row = MeasureRow(**{field.name: kinds[str(field.type)] for field in fields(MeasureRow)})  # type: ignore[arg-type]
+    with measures_files.open_measures_file(tmp_path / "t.parquet") as take:
         for _ in range(4):
             take([row] * 3)
         assert (tmp_path / "t.parquet.half").exists(), "written as it comes"

@@ -8,15 +8,15 @@ from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
-from carpus.app.batch.processes import cores, outcomes
-from carpus.app.batch.work import Task
+from carpus.app.batch.processes import count_cores, run_tasks
+from carpus.app.batch.work import TrackingTask
 from carpus.app.sources import TrackingInput
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks
 from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.pipeline.track import TrackSettings, track_recording
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
 from tests.bench.tracking import pipeline_of
 
@@ -33,7 +33,7 @@ def _tracked(path: Path, clicks: Clicks, number: int) -> int:
 
 def of_raw() -> Iterator[str]:
     """The second of two walks through a raw recording of the wrist, beside tracking its frames unpacked before."""
-    recording = cached_recording(RecordingSpec(seed=7, motion="flexion", seconds=LONGER_S))
+    recording = render_cached(RecordingSpec(seed=7, motion="flexion", seconds=LONGER_S))
     clicks = read_clicks(recording / CLICKS_FILE, 640, 480)
     with tempfile.TemporaryDirectory() as name:
         path, packing_s = Path(name) / "r.carpusraw", 0.0
@@ -65,24 +65,24 @@ def of_raw() -> Iterator[str]:
 def report() -> Iterator[str]:
     """Measure and tell, line by line: so many recordings for each process, from one process to one a core."""
     yield from of_raw()
-    recording = cached_recording(RecordingSpec(seed=7, motion="flexion", seconds=SECONDS))
+    recording = render_cached(RecordingSpec(seed=7, motion="flexion", seconds=SECONDS))
     yield f"Recordings of {SECONDS:g} s (six discs, looked back at) tracked a minute; start of the processes included"
     one = 0.0
-    for count in sorted({1, *(n for n in (2, 4, 8, 16, 32, 64) if n < cores()), cores()}):
+    for count in sorted({1, *(n for n in (2, 4, 8, 16, 32, 64) if n < count_cores()), count_cores()}):
         with tempfile.TemporaryDirectory() as name:
             tasks = [
-                Task(
+                TrackingTask(
                     TrackingInput(recording, recording / CLICKS_FILE, Path(name) / f"{number}.h5", f"{number}"),
                     TrackSettings(),
                 )
                 for number in range(EACH * count)
             ]
             begin_s = time.perf_counter()
-            done = list(outcomes(tasks, count))
+            done = list(run_tasks(tasks, count))
             a_minute = 60.0 * len(done) / (time.perf_counter() - begin_s)
-        faults = [each.said for each in done if each.result != "tracked"]
+        faults = [each.messages for each in done if each.result != "tracked"]
         if faults:
             yield f"{count} processes: {len(faults)} faults, {faults[0]}"
             continue
         one = one or a_minute
-        yield f"{count} of {cores()} cores: {a_minute:.1f} recordings a minute, {a_minute / one:.2f} of one core's"
+        yield f"{count} of {count_cores()} cores: {a_minute:.1f} recordings a minute, {a_minute / one:.2f} of one core's"  # noqa: E501

@@ -68,8 +68,8 @@ def _plain_hand() -> Path:
     if not target.exists():
         spec = dataclasses.replace(FINGERS, skin_tone=1, sleeve="none", light="bright", false_blobs=0.0)
         renderer = Renderer(Scene(spec))
-        sensor, no_disc = ColorSensor(spec, renderer.looks), np.ones(len(HAND21.markers), dtype=bool)
-        frames = [sensor.expose(renderer.picture(k / 30.0, no_disc).color, k) for k in range(PICTURES)]
+        sensor, no_disc = ColorSensor(spec, renderer.appearance), np.ones(len(HAND21.markers), dtype=bool)
+        frames = [sensor.expose(renderer.render(k / 30.0, no_disc).color, k) for k in range(PICTURES)]
         target.parent.mkdir(parents=True, exist_ok=True)
         np.savez_compressed(target, color_rgb=np.stack(frames))
     return target

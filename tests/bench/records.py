@@ -21,12 +21,12 @@ from pathlib import Path
 import psycopg
 from sqlalchemy import insert
 
-from carpus.core.names import folded
+from carpus.core.names import fold_name
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.of_sessions import comments
+from carpus.core.records.of_sessions import read_comments
 from carpus.core.records.patients import WORDS, Patients
 from carpus.core.records.schema import COMMENT, PATIENT, SESSION
-from carpus.core.records.session_list import ListedSessions
+from carpus.core.records.session_list import SessionList
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from tests.records.postgres import Cluster
@@ -47,8 +47,8 @@ def fill(store: Store, patients: int) -> None:
             days = sorted(rng.randrange(3650) for _ in range(SESSIONS_EACH))
             when = [FIRST + timedelta(days=day, minutes=rng.randrange(600)) for day in days]
             people.append({
-                "id": patient_id, "folded": folded(pseudonym), "pseudonym": pseudonym, "name": name, "side": "right",
-                "dominance": "right", "note": "distal radius", "search": folded(f"{pseudonym} {name} distal radius"),
+                "id": patient_id, "folded": fold_name(pseudonym), "pseudonym": pseudonym, "name": name, "side": "right",
+                "dominance": "right", "note": "distal radius", "search": fold_name(f"{pseudonym} {name} distal radius"),
                 "sessions": SESSIONS_EACH, "results": SESSIONS_EACH, "last": when[-1].isoformat(),
                 "last_s": when[-1].timestamp(), "last_exercise": "WRIST_FE", "added_s": when[0].timestamp(),
             })  # fmt: skip
@@ -95,8 +95,8 @@ def of_server(patients: int, folder: Path) -> None:
         with opened(folder / "0", url) as house:
             house.names("nobody")
             print(f"the first computer brings all of it: {time.perf_counter() - begin:.0f} s")
-            print(f"list of the last 200: {timed(lambda: house.patients.listed(most=200))}")
-            print(f"search: {timed(lambda: house.patients.listed('oak 77', most=200))}")
+            print(f"list of the last 200: {timed(lambda: house.patients.search(limit=200))}")
+            print(f"search: {timed(lambda: house.patients.search('oak 77', limit=200))}")
             number = itertools.count()
             print(f"a patient entered: {timed(lambda: house.patients.add(Patient(f'New {next(number)}', 'left')))}")
         with psycopg.connect(url) as line:
@@ -144,20 +144,20 @@ def main() -> None:
         begin = time.perf_counter()
         store = Store(Path(folder))
         print(f"opened in {(time.perf_counter() - begin) * 1e3:.0f} ms")
-        people, sessions = Patients(store), ListedSessions(store)
+        people, sessions = Patients(store), SessionList(store)
         somebody = f"{patients // 2:032x}"
-        last = sessions.of_patient(somebody)[0].session_id
+        last = sessions.patient_sessions(somebody)[0].session_id
         for name, what in {
-            "list, the last 200": lambda: people.listed(most=200),
-            "search of a part of a name": lambda: people.listed("kestrelmann lin", most=200),
-            "search of a number": lambda: people.listed(str(patients // 2), most=200),
-            "search of nothing there": lambda: people.listed("zzzz", most=200),
-            "sessions of a patient": lambda: sessions.of_patient(somebody),
+            "list, the last 200": lambda: people.search(limit=200),
+            "search of a part of a name": lambda: people.search("kestrelmann lin", limit=200),
+            "search of a number": lambda: people.search(str(patients // 2), limit=200),
+            "search of nothing there": lambda: people.search("zzzz", limit=200),
+            "sessions of a patient": lambda: sessions.patient_sessions(somebody),
             "progress: sessions and comments": lambda: [
-                comments(store, one.session_id) for one in sessions.of_patient(somebody)
+                read_comments(store, one.session_id) for one in sessions.patient_sessions(somebody)
             ],
-            "one session by identity": lambda: sessions.one(last),
-            "a patient changed": lambda: people.archive(somebody) or people.bring_back(somebody),
+            "one session by identity": lambda: sessions.get(last),
+            "a patient changed": lambda: people.archive(somebody) or people.unarchive(somebody),
         }.items():
             print(f"{name:34} {timed(what)}")
         store.close()

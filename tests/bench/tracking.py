@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.calibration.calibrate import calibrate
+from carpus.core.calibration.calibrate import calibrate_hand
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.pipeline import track
-from carpus.core.pipeline.track import FramePipeline, TrackSettings, build_pipeline, learnt_from
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.pipeline.track import FramePipeline, TrackSettings, build_pipeline, noise_from_neutral
+from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter, palm_association
 from carpus.core.types import Frame, TrackStatus
@@ -70,11 +70,11 @@ def pipeline_of(folder: Path, frames: list[Frame]) -> tuple[FramePipeline, float
     """A calibrated pipeline at its start, and until when the hand was still."""
     camera, settings = TumFolder(folder).info.camera, TrackSettings()
     opening = [frame for frame in frames if frame.timestamp_s - frames[0].timestamp_s <= settings.calibration.still_s]
-    outcome = calibrate(
+    outcome = calibrate_hand(
         read_clicks(folder / CLICKS_FILE), opening, camera, settings.calibration, settings.detection, None
     )
     ends_s = opening[max(outcome.capture_frames, 1) - 1].timestamp_s
-    learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
+    learnt = noise_from_neutral(outcome.noise, ends_s, settings.tracker)
     return build_pipeline(outcome, camera, settings, learnt, keep_history=False), ends_s
 
 
@@ -155,8 +155,8 @@ def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs:
 def report(rounds: int) -> Iterator[str]:
     """Measure and tell, line by line."""
     costs, leaving = Costs(), Costs()
-    measure(cached_recording(ORDINARY, workers=2), costs, rounds)
-    measure(cached_recording(LEAVING, workers=2), leaving, rounds)
+    measure(render_cached(ORDINARY, workers=2), costs, rounds)
+    measure(render_cached(LEAVING, workers=2), leaving, rounds)
     plain, part = float(np.median(costs.reference)), costs.part
     yield f"Wrist, {costs.in_words}"
     yield HEAD

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from carpus.core.pipeline import track
-from carpus.core.simulation.recording import cached_recording
+from carpus.core.simulation.recording import render_cached
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import digit_association, hand_filter
 from tests.bench.timing import HEAD, line
@@ -41,7 +41,7 @@ def report(rounds: int, *, compare: bool = False) -> Iterator[str]:
     """Measure and tell, line by line; ``compare`` with other people's work too."""
     costs = Costs()
     for spec in (FIST, FINGERS):
-        measure(cached_recording(spec, workers=2), costs, rounds, PARTS)
+        measure(render_cached(spec, workers=2), costs, rounds, PARTS)
     plain = float(np.median(costs.reference))
     yield f"Whole hand, {costs.in_words}"
     yield HEAD

@@ -18,19 +18,19 @@ import numpy as np
 from PySide6.QtCore import QEvent, QEventLoop, QObject, Qt, QTimer
 
 from carpus.app import compose
-from carpus.app.desktop.journey import Journey
-from carpus.app.desktop.looks import application
+from carpus.app.desktop.journey import MainController
+from carpus.app.desktop.looks import create_application
 from carpus.app.desktop.practice import practice_spec
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from carpus.app.unattended import Walker
+from carpus.app.unattended import DemoDriver
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.hand.exercises import exercise_named
-from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.hand.exercises import get_exercise
+from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.hand_motion import STILL_S
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.ui.live.screen import LiveScreen
 
@@ -102,7 +102,7 @@ class Watcher(QObject):
         self._live, self._run = live, run
         self._awaited = False
         self._drawn_index = -1
-        live.plots().face.installEventFilter(self)
+        live.current_chart().mouse_target.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
         if event.type() == QEvent.Type.Paint and not self._awaited:
@@ -112,61 +112,61 @@ class Watcher(QObject):
 
     def _drawn(self) -> None:
         self._awaited = False
-        view, now_s = self._live._view, time.monotonic()
+        view, now_s = self._live._tracked_view, time.monotonic()
         if view is not None and view.tracked.index != self._drawn_index:
             self._drawn_index = view.tracked.index
             self._run.latency_ms.append(1e3 * (now_s - view.captured_at_s))
             self._run.drawn_at_s.append(now_s)
 
 
-def spec_of(set_up: SetUp) -> RecordingSpec:
+def spec_of(set_up: SessionSetup) -> RecordingSpec:
     """The practice patient at a real camera's rate; the program itself shows it with half the pictures."""
     return replace(practice_spec(set_up), fps=FPS)
 
 
-def take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
+def take(set_up: SessionSetup, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
     """The take, rendered once and kept, and how long it is still at its start."""
-    folder = cached_recording(spec_of(set_up), progress, workers=os.cpu_count() or 1)
+    folder = render_cached(spec_of(set_up), progress, workers=os.cpu_count() or 1)
     return TumFolder(folder, read_ahead=READ_AHEAD), STILL_S - 1.0 / FPS
 
 
-def choose_whole_hand(journey: Journey) -> None:
+def choose_whole_hand(journey: MainController) -> None:
     """The way to the practice patient's fist with 21 markers."""
-    journey.exercise.show(PRACTICE_PATIENT)
-    journey.exercise.screen.choose(exercise_named("FIST_COMPOSITE"))
-    journey.exercise.screen.primary.click()
+    journey.exercise.open(PRACTICE_PATIENT)
+    journey.exercise.screen.choose_exercise(get_exercise("FIST_COMPOSITE"))
+    journey.exercise.screen.primary_button.click()
     journey.camera.screen.sources.choose("practice")
-    journey.camera.screen.primary.click()
+    journey.camera.screen.primary_button.click()
 
 
 def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -> tuple[Run, dict[str, Any]]:
     """Record so long in the real window, on the practice patient in real time; with the raw ``pictures`` on request."""
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
-    qt = application(["bench"])
-    desktop = compose.compose(qt, settings, is_demo=True, take=take)
+    qt = create_application(["bench"])
+    desktop = compose.compose(qt, settings, is_demo=True, practice_renderer=take)
     run = Run()
     try:
-        walker, journey = Walker(desktop), desktop.journey
+        walker, journey = DemoDriver(desktop), desktop.controller
         desktop.show()
         desktop.shell.resize(*SIZE_PX)
-        walker.at("patients")
+        walker.run_until_screen("patients")
         if whole_hand:
             choose_whole_hand(journey)
         else:
             walker.start_practice()
-        walker.until(lambda: journey.place == "markers", patience_s=1800.0)
-        set_up, source = journey.now.set_up, journey.now.source
+        walker.run_until(lambda: journey.place == "markers", timeout_s=1800.0)
+        set_up, source = journey.current.set_up, journey.current.source
         assert set_up is not None
         assert source is not None
         source.measuring._set_up = replace(source.measuring._set_up, keep_pictures=pictures)
-        walker.take_picture()
-        walker.click_markers(read_clicks(cached_recording(spec_of(set_up)) / CLICKS_FILE).pixel)
+        walker.capture_frame()
+        walker.click_markers(read_clicks(render_cached(spec_of(set_up)) / CLICKS_FILE).pixel)
         live, feed = journey.live.screen, source.measuring.feed
         live.recording.toggle()
-        walker.until(lambda: live.recording.state == "recording")
+        walker.run_until(lambda: live.recording.state == "recording")
         watcher = Watcher(live, run)
         again = QTimer(live)
-        again.timeout.connect(source.measuring._on_recording)
+        again.timeout.connect(source.measuring._on_recording_started)
         again.start(round(1e3 * REST_S))
         before, start_s = feed.counters(), time.monotonic()
         cpu_s, window_cpu_s = time.process_time(), time.thread_time()
@@ -189,18 +189,18 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
             "tracked": after.tracked - before.tracked,
             "dropped": after.dropped - before.dropped,
             "rows": after.rows_written,
-            "pictures": after.pictures_written,
+            "pictures": after.frames_written,
             "tracked_p95_ms": after.latency_p95_ms,
             "threads": threading.active_count(),
         }
-        live.plots().face.removeEventFilter(watcher)
+        live.current_chart().mouse_target.removeEventFilter(watcher)
         weigh.stop()
         again.stop()
         stop_s = time.monotonic()
         live.recording.stop()
-        walker.at("review")
+        walker.run_until_screen("review")
         facts["stop_s"] = time.monotonic() - stop_s
-        session = read_session(desktop.library.entry(journey.now.session_id).path)
+        session = read_session(desktop.library.entry(journey.current.session_id).path)
         facts["looked_back"] = "all rows" if session.smoothed is not None else "no"
         return run, facts
     finally:

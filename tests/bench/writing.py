@@ -12,7 +12,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.records.recordings import write_session
 from carpus.core.session.journal import RecordingJournal
-from carpus.core.simulation.recording import cached_recording
+from carpus.core.simulation.recording import render_cached
 from tests.bench.timing import HEAD, Times, line
 from tests.bench.tracking import ORDINARY, frames_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
@@ -43,7 +43,7 @@ def report() -> Iterator[str]:
             "row of a session", appended.cpu_ms, note=f"mean {mean:.3f}; longest wait for the disk {slowest:.0f} ms"
         )
         yield line("the session of a journal, at once", closed.cpu_ms)
-        recording = cached_recording(ORDINARY, workers=2)
+        recording = render_cached(ORDINARY, workers=2)
         pictures = Times()
         raw = RawWriter(folder / "raw.carpusraw", TumFolder(recording).info)
         for frame in frames_of(recording)[:PICTURES]:

@@ -11,10 +11,10 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from carpus.app.desktop.looks import application
-from carpus.core.hand.exercises import exercise_named
-from carpus.core.results.seen import JointCurves, ReportCurves
-from carpus.ui.figures import FIGURES
+from carpus.app.desktop.looks import create_application
+from carpus.core.hand.exercises import get_exercise
+from carpus.core.results.seen import JointCurves, WristCurves
+from carpus.ui.figures import FINGER_ANGLES
 from carpus.ui.plot.session import HandPlot, SessionChart, SessionPlot
 from carpus.ui.theme import Theme
 
@@ -24,13 +24,13 @@ WANTED_MS = 50.0
 
 def report() -> Iterator[str]:
     """In at the middle and out again, then along: each step until it is painted; of the wrist and of the whole hand."""
-    qt = application(["carpus"])
+    qt = create_application(["carpus"])
     gc.collect()
     gc.freeze()  # as the program does before a session is opened
     curves = _curves()
     for words, plot in (
-        ("wrist", SessionPlot(curves, exercise_named("WRIST_FE"), ())),
-        ("whole hand", HandPlot(curves, exercise_named("FIST_COMPOSITE"), (), joints=_joints(curves))),
+        ("wrist", SessionPlot(curves, get_exercise("WRIST_FE"), ())),
+        ("whole hand", HandPlot(curves, get_exercise("FIST_COMPOSITE"), (), joints=_joints(curves))),
     ):
         view = SessionChart(Theme("light"))
         view.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
@@ -55,16 +55,16 @@ def report() -> Iterator[str]:
     yield f"{WANTED_MS:.0f} ms were wanted at most; on a computer that does other work too the CPU time says more"
 
 
-def _curves() -> ReportCurves:
+def _curves() -> WristCurves:
     time_s = np.arange(0.0, SECONDS, 1.0 / RATE_HZ)
     noise = np.random.default_rng(1).normal(0.0, 0.4, (len(time_s), 3))
     angles_deg = np.array([8.0, 50.0, 5.0]) * np.sin(2.0 * np.pi * 0.4 * time_s)[:, None] + noise
-    return ReportCurves(time_s, angles_deg, np.full_like(angles_deg, 0.7), np.zeros(len(time_s), dtype=np.int64))
+    return WristCurves(time_s, angles_deg, np.full_like(angles_deg, 0.7), np.zeros(len(time_s), dtype=np.int64))
 
 
-def _joints(curves: ReportCurves) -> JointCurves:
+def _joints(curves: WristCurves) -> JointCurves:
     """All joints bend and straighten in turn, with the wrist's noise."""
-    names = tuple(dict.fromkeys(figure.joint for figure in FIGURES if figure.row != "tam"))
+    names = tuple(dict.fromkeys(figure.joint for figure in FINGER_ANGLES if figure.kind != "tam"))
     bent = np.abs(curves.angles_deg[:, 1:2]) + np.arange(len(names))
     noise = np.random.default_rng(2).normal(0.0, 0.4, bent.shape)
     return JointCurves(names, curves.time_s, bent + noise, np.full_like(bent, 0.7), np.ones(bent.shape, dtype=bool))
@@ -72,7 +72,7 @@ def _joints(curves: ReportCurves) -> JointCurves:
 
 def _step_ms(view: SessionChart, turn: int, modifiers: Qt.KeyboardModifier) -> tuple[float, float]:
     """On the clock, and CPU time of the window's thread."""
-    face = view.face
+    face = view.mouse_target
     at = QPointF(view.panels()[0][0].box.center().toPoint())
     event = QWheelEvent(
         at, face.mapToGlobal(at), QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, modifiers,

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
+from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand
 from carpus.core.calibration.result import Clicks
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import disc_mask
@@ -96,4 +96,4 @@ def outcome_of(
     settings: CalibrationSettings | None = None,
 ) -> CalibrationOutcome:
     own = settings or CalibrationSettings()
-    return calibrate(clicks or clicks_on(scene), frames or still(scene), CAMERA, own, DetectionSettings())
+    return calibrate_hand(clicks or clicks_on(scene), frames or still(scene), CAMERA, own, DetectionSettings())

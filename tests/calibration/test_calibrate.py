@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.calibrate import (
     NeutralCapture,
-    calibrate,
-    compared_with_last_time,
+    calibrate_hand,
+    check_hand_length,
     measure_hand,
     require_calibration,
 )
@@ -163,9 +163,9 @@ def test_a_hand_of_another_length_than_last_time_is_doubted() -> None:
     outcome = outcome_of(Scene())
     length_mm = outcome.verdict.hand_length_mm
     for same in (math.nan, length_mm, 0.9 * length_mm, 1.1 * length_mm):
-        assert compared_with_last_time(outcome, same) is outcome
+        assert check_hand_length(outcome, same) is outcome
     for other in (0.8 * length_mm, 1.25 * length_mm):
-        doubted = compared_with_last_time(outcome, other)
+        doubted = check_hand_length(outcome, other)
         finding = only(doubted.verdict.findings, "other_length")
         assert (finding.value, finding.limit) == (length_mm, other)
         assert doubted.calibration is not None
@@ -271,7 +271,7 @@ def test_the_noise_of_a_still_hand_is_measured() -> None:
     quiet, loud = (outcome_of(one, frames=frames_of(one, 9)).noise for one in (Scene(noise=0.5), Scene(noise=2.0)))
     assert 0.0 < quiet.pixel_sd_px < 0.5 * loud.pixel_sd_px
     assert quiet.depth_sd_m < 0.6 * loud.depth_sd_m
-    assert loud.disc_radius_m == pytest.approx(0.006, rel=0.1)
+    assert loud.marker_radius_m == pytest.approx(0.006, rel=0.1)
     few = outcome_of(scene, frames=still(scene, 3)).noise
     assert np.isnan(few.pixel_sd_px), "three pictures show no noise worth the name"
 
@@ -296,7 +296,7 @@ def test_start_angles_are_carried_on() -> None:
     scene = Scene()
     start = np.radians([0.0, 30.0, 0.0])
     args = (clicks_on(scene), still(scene, 5), CAMERA, CalibrationSettings(), DetectionSettings())
-    given, none = (calibrate(*args, angles).calibration for angles in (start, None))
+    given, none = (calibrate_hand(*args, angles).calibration for angles in (start, None))
     assert given is not None
     assert none is not None
     assert np.array_equal(given.start_angles_rad, start)

@@ -8,14 +8,14 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.calibration.calibrate import calibrate
-from carpus.core.calibration.candidates import disc_at, marker_candidates, snapped
-from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.calibrate import calibrate_hand
+from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, nearest_blob
+from carpus.core.calibration.naming import propose_labels
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.hand.protocols import HAND21
-from carpus.core.simulation.recording import SimulatedPictures, clicks_of
+from carpus.core.simulation.recording import SimulatedRecording, sample_clicks
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, Frame, Side
 from tests.suites import few
@@ -27,24 +27,24 @@ RADIUS_PX = 4.8
 @lru_cache(maxsize=4)
 def seen(seed: int, paper_to: str = "blue") -> tuple[Frame, Camera, FloatArray]:
     """A still hand, its camera and where its discs are (6, 2); the colour channels may be exchanged."""
-    pictures = SimulatedPictures(
+    pictures = SimulatedRecording(
         RecordingSpec(seed=seed, hand="left" if seed % 2 else "right", distance_m=0.66, light="normal", false_blobs=1.0)
     )
-    color, depth = pictures.sensed(0, pictures.clean(0))
+    color, depth = pictures.apply_sensor(0, pictures.render_clean(0))
     if paper_to == "green":
         # The blue of the paper becomes green while skin and table keep theirs.
         blue = color[..., 2].astype(int) > color[..., 0].astype(int) + 40
         color = np.where(blue[..., None], color[..., [0, 2, 1]], color)
-    return Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, pictures.truth.disc_pixel[0]
+    return Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, pictures.truth.marker_px[0]
 
 
 @pytest.mark.parametrize("seed", few([0, 1, 3], 2))
 def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -> None:
     frame, camera, discs = seen(seed)
-    found = marker_candidates(frame, camera, SETTINGS)
+    found = find_marker_candidates(frame, camera, SETTINGS)
     rng = np.random.default_rng(seed)
     for disc in discs:
-        taken = snapped(found, disc + rng.normal(0.0, 1.5, 2), RADIUS_PX, SETTINGS)
+        taken = nearest_blob(found, disc + rng.normal(0.0, 1.5, 2), RADIUS_PX, SETTINGS)
         assert len(taken) == 1
         assert np.linalg.norm(taken.pixel[0] - disc) < 0.8
 
@@ -53,12 +53,12 @@ def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -
 def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: int, side: Side) -> None:
     """The first is a child's, with small discs that take on some of the skin; the last wears a blue sleeve."""
     spec = RecordingSpec(seed=seed, hand=side, protocol="hand21", motion="rest", false_blobs=2.0)
-    pictures = SimulatedPictures(spec)
-    color, depth = pictures.sensed(0, pictures.clean(0))
-    found = marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS)
-    proposal = propose_names(found, pictures.truth.camera, side, HAND21)
+    pictures = SimulatedRecording(spec)
+    color, depth = pictures.apply_sensor(0, pictures.render_clean(0))
+    found = find_marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS)
+    proposal = propose_labels(found, pictures.truth.camera, side, HAND21)
     assert (proposal.blob >= 0).all()
-    assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 3.0  # under a disc
+    assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.marker_px[0], axis=1).max() < 3.0  # under a disc
 
 
 def test_clicks_at_the_edges_of_small_discs_are_found_all_the_same() -> None:
@@ -67,19 +67,19 @@ def test_clicks_at_the_edges_of_small_discs_are_found_all_the_same() -> None:
         seed=22, protocol="hand21", motion="fingers", seconds=5.0, hidden_share=0.03, false_blobs=1.0,
         distance_m=0.66, light="normal",
     )  # fmt: skip
-    pictures = SimulatedPictures(spec)
-    frames = [Frame(i, i / 30.0, *pictures.sensed(i, pictures.clean(i)), 1.0 / 5000.0) for i in range(3)]
-    clicks, camera = clicks_of(pictures.truth), pictures.truth.camera
-    outcome = calibrate(clicks, frames, camera, CalibrationSettings(), SETTINGS)
+    pictures = SimulatedRecording(spec)
+    frames = [Frame(i, i / 30.0, *pictures.apply_sensor(i, pictures.render_clean(i)), 1.0 / 5000.0) for i in range(3)]
+    clicks, camera = sample_clicks(pictures.truth), pictures.truth.camera
+    outcome = calibrate_hand(clicks, frames, camera, CalibrationSettings(), SETTINGS)
     assert not any(finding.blocks for finding in outcome.verdict.findings)
-    assert np.linalg.norm(outcome.pixel - pictures.truth.disc_pixel[0], axis=1).max() < 1.5
+    assert np.linalg.norm(outcome.pixel - pictures.truth.marker_px[0], axis=1).max() < 1.5
 
 
 @pytest.mark.parametrize("paper_to", ["blue", "green"])
 def test_a_click_on_a_disc_of_any_colour_finds_it(paper_to: str) -> None:
     frame, camera, discs = seen(0, paper_to)
     for disc in discs:
-        taken = disc_at(frame, disc + 1.0, camera, SETTINGS)
+        taken = find_marker_at_click(frame, disc + 1.0, camera, SETTINGS)
         assert len(taken) == 1
         assert np.linalg.norm(taken.pixel[0] - disc) < 1.0
 
@@ -88,18 +88,18 @@ def test_a_click_on_bare_skin_finds_nothing() -> None:
     frame, camera, discs = seen(0)
     middles = [(a + b) / 2 for i, a in enumerate(discs) for b in discs[:i]]
     bare = [spot for spot in middles if np.linalg.norm(discs - spot, axis=1).min() > 4 * RADIUS_PX]
-    found = marker_candidates(frame, camera, SETTINGS)
+    found = find_marker_candidates(frame, camera, SETTINGS)
     bare = [spot for spot in bare if np.linalg.norm(found.pixel - spot, axis=1).min() > 4 * RADIUS_PX]
     assert len(bare) >= 3
-    assert sum(len(disc_at(frame, spot, camera, SETTINGS)) for spot in bare) == 0
+    assert sum(len(find_marker_at_click(frame, spot, camera, SETTINGS)) for spot in bare) == 0
 
 
 def test_a_picture_without_a_hand_has_no_candidates_and_a_click_at_its_edge_finds_nothing() -> None:
     frame, camera, _ = seen(0)
     grey = Frame(0, 0.0, np.full_like(frame.color_rgb, 90), None, 1.0)
-    assert len(marker_candidates(grey, camera, SETTINGS)) == 0
+    assert len(find_marker_candidates(grey, camera, SETTINGS)) == 0
     for corner in ((0.0, 0.0), (639.0, 479.0)):
-        assert len(disc_at(grey, np.array(corner), camera, SETTINGS)) == 0
+        assert len(find_marker_at_click(grey, np.array(corner), camera, SETTINGS)) == 0
 
 
 def in_dark_cloth(frame: Frame, base: tuple[int, int, int], from_row: int, seed: int) -> Frame:
@@ -121,18 +121,18 @@ CLOTHS = [(26, 29, 40), (20, 20, 24), (40, 46, 66)]
 def test_a_dark_pullover_has_no_discs(seed: int, base: tuple[int, int, int]) -> None:
     frame, camera, _ = seen(0)
     cloth = in_dark_cloth(frame, base, 0, seed)
-    found = marker_candidates(cloth, camera, SETTINGS)
+    found = find_marker_candidates(cloth, camera, SETTINGS)
     assert len(found) <= 8  # it was all that is ever handed on, 48
-    assert not (propose_names(found, camera, "right", HAND21).blob >= 0).any()
+    assert not (propose_labels(found, camera, "right", HAND21).blob >= 0).any()
     clicks = np.random.default_rng(seed).uniform((20, 20), (620, 460), (30, 2))
-    assert sum(len(disc_at(cloth, click, camera, SETTINGS)) for click in clicks) <= 1
+    assert sum(len(find_marker_at_click(cloth, click, camera, SETTINGS)) for click in clicks) <= 1
 
 
 @pytest.mark.parametrize("base", CLOTHS)
 def test_a_dark_pullover_beside_the_hand_hides_no_disc(base: tuple[int, int, int]) -> None:
     frame, camera, discs = seen(0)
     below = int(discs[:, 1].max() + 25)
-    found = marker_candidates(in_dark_cloth(frame, base, below, 0), camera, SETTINGS)
+    found = find_marker_candidates(in_dark_cloth(frame, base, below, 0), camera, SETTINGS)
     for disc in discs:
         assert np.linalg.norm(found.pixel - disc, axis=1).min() < 1.0
     assert len(found) <= 14

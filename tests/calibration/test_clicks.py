@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.calibration.clicks import check_inside, read_clicks, write_clicks
+from carpus.core.calibration.clicks import check_clicks_inside, read_clicks, write_clicks
 from carpus.core.calibration.result import Clicks
 from carpus.core.errors import (
     CarpusFault,
-    ClickOutsidePicture,
+    ClickOutsideImage,
     ClicksUnreadable,
     OutputExists,
     OutputNotWritable,
@@ -113,9 +113,9 @@ BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
     "true": (markers(MCP2=[True, 210]), ClicksUnreadable, "MCP2"),
     "three numbers": (markers(MCP2=[1, 2, 3]), ClicksUnreadable, "MCP2"),
     "marker twice": (json.dumps(GOOD).replace('"CMC1"', '"WRIST"'), ClicksUnreadable, "WRIST is there twice"),
-    "left of the picture": (markers(MCP2=[-3, 210]), ClickOutsidePicture, "-3, 210"),
-    "right of the picture": (markers(MCP2=[640, 210]), ClickOutsidePicture, "640 x 480"),
-    "under the picture": (markers(MCP2=[300, 1e6]), ClickOutsidePicture, "1e+06"),
+    "left of the picture": (markers(MCP2=[-3, 210]), ClickOutsideImage, "-3, 210"),
+    "right of the picture": (markers(MCP2=[640, 210]), ClickOutsideImage, "640 x 480"),
+    "under the picture": (markers(MCP2=[300, 1e6]), ClickOutsideImage, "1e+06"),
 }
 
 
@@ -148,8 +148,8 @@ def test_the_picture_ends_at_the_edge_of_its_outer_pixels(u: float, v: float, in
     clicks = Clicks("right", WRIST6, np.full((6, 2), 10.0))
     clicks.pixel[3] = u, v
     if inside:
-        check_inside(clicks, 640, 480)
+        check_clicks_inside(clicks, 640, 480)
     else:
-        with pytest.raises(ClickOutsidePicture) as caught:
-            check_inside(clicks, 640, 480)
+        with pytest.raises(ClickOutsideImage) as caught:
+            check_clicks_inside(clicks, 640, 480)
         assert caught.value.subject == "MCP3"

@@ -10,17 +10,17 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.name_checks import (
-    looks_like_other_side,
-    misnamed,
+    find_label_fault,
+    find_shifted_labels,
+    is_other_side,
     plan_view,
-    shifted_names,
 )
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.protocols import HAND21, PALM_MARKERS, WRIST6, joint_angle_names
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import truth_of
+from carpus.core.simulation.truth import compute_truth
 from carpus.core.types import FloatArray, Side
 
 SIDES: tuple[Side, Side] = ("right", "left")
@@ -30,8 +30,8 @@ ROW = HAND21.markers.index
 
 @cache
 def _seen(seed: int, side: Side, protocol: str) -> FloatArray:
-    truth = truth_of(Scene(RecordingSpec(seed=seed, hand=side, protocol=protocol, motion="rest", seconds=0.2)))
-    return plan_view(truth.disc_position_cam_m[0])
+    truth = compute_truth(Scene(RecordingSpec(seed=seed, hand=side, protocol=protocol, motion="rest", seconds=0.2)))
+    return plan_view(truth.marker_position_cam_m[0])
 
 
 def seen_plan(seed: int, side: Side, protocol: str = "hand21") -> FloatArray:
@@ -46,31 +46,31 @@ def test_the_other_side_is_seen_and_the_own_is_not_doubted(protocol: str, side: 
     claimed: Side = "left" if side == "right" else "right"
     for seed in range(12):
         plan = seen_plan(seed, side, protocol)
-        assert not looks_like_other_side(PROTOCOLS[protocol], side, plan)
-        assert looks_like_other_side(PROTOCOLS[protocol], claimed, plan)
+        assert not is_other_side(PROTOCOLS[protocol], side, plan)
+        assert is_other_side(PROTOCOLS[protocol], claimed, plan)
 
 
 def test_turn_size_and_place_of_the_hand_do_not_matter() -> None:
     plan = seen_plan(0, "right", "wrist6")
     turn = np.array([[0.0, -1.0], [1.0, 0.0]])
-    assert not looks_like_other_side(WRIST6, "right", 0.7 * plan @ turn.T - 0.1)
-    assert looks_like_other_side(WRIST6, "left", 0.7 * plan @ turn.T - 0.1)
+    assert not is_other_side(WRIST6, "right", 0.7 * plan @ turn.T - 0.1)
+    assert is_other_side(WRIST6, "left", 0.7 * plan @ turn.T - 0.1)
 
 
 # --- the palm -------------------------------------------------------------------------------
 @pytest.mark.parametrize("side", SIDES)
 def test_right_names_are_not_doubted(side: Side) -> None:
     for seed in range(8):
-        assert shifted_names(side, seen_plan(seed, side, "wrist6")) == ()
-        assert shifted_names(side, seen_plan(seed, side, "hand21")[list(HAND21.palm)]) == ()
+        assert find_shifted_labels(side, seen_plan(seed, side, "wrist6")) == ()
+        assert find_shifted_labels(side, seen_plan(seed, side, "hand21")[list(HAND21.palm)]) == ()
 
 
 @pytest.mark.parametrize("side", SIDES)
 def test_names_one_disc_further_on_are_told_with_the_wrist_first(side: Side) -> None:
     for seed in range(6):
         plan = seen_plan(seed, side, "wrist6")
-        assert shifted_names(side, np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
-        assert shifted_names(side, np.roll(plan, -1, axis=0))[:2] == ("WRIST", "CMC1")
+        assert find_shifted_labels(side, np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
+        assert find_shifted_labels(side, np.roll(plan, -1, axis=0))[:2] == ("WRIST", "CMC1")
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -78,7 +78,7 @@ def test_every_wrong_order_is_told_name_by_name(side: Side) -> None:
     for seed in range(2):
         plan = seen_plan(seed, side, "wrist6")
         for order in list(permutations(range(6)))[1:]:
-            wrong = shifted_names(side, plan[list(order)])
+            wrong = find_shifted_labels(side, plan[list(order)])
             assert set(wrong) == {PALM_MARKERS[i] for i in range(6) if order[i] != i}
             # The disc under a name is order[i]; what it should be called follows in the list.
             first = PALM_MARKERS.index(wrong[0])
@@ -87,7 +87,7 @@ def test_every_wrong_order_is_told_name_by_name(side: Side) -> None:
 
 def test_the_other_hand_with_its_names_in_order_is_not_called_shifted() -> None:
     for seed in range(6):
-        assert shifted_names("left", seen_plan(seed, "right", "wrist6")) == ()
+        assert find_shifted_labels("left", seen_plan(seed, "right", "wrist6")) == ()
 
 
 @pytest.mark.parametrize("tilt_deg", [-35.0, 35.0])
@@ -96,8 +96,8 @@ def test_a_tilted_hand_is_not_doubted_and_a_shift_on_it_is_told(axis: str, tilt_
     for seed in range(6):
         flat = np.column_stack((seen_plan(seed, "right", "wrist6"), np.zeros(6)))
         plan = Rotation.from_euler(axis, tilt_deg, degrees=True).apply(flat - flat.mean(axis=0))[:, :2]
-        assert shifted_names("right", plan) == ()
-        assert shifted_names("right", np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
+        assert find_shifted_labels("right", plan) == ()
+        assert find_shifted_labels("right", np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
 
 
 # --- the whole hand -------------------------------------------------------------------------
@@ -121,9 +121,9 @@ def bent_plan(rng: np.random.Generator, side: Side) -> FloatArray:
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_no_hand_is_doubted(side: Side) -> None:
     for seed in range(12):
-        assert misnamed(HAND21, side, seen_plan(seed, side)) is None
+        assert find_label_fault(HAND21, side, seen_plan(seed, side)) is None
     rng = np.random.default_rng(4)
-    assert [misnamed(HAND21, side, bent_plan(rng, side)) for _ in range(80)] == [None] * 80
+    assert [find_label_fault(HAND21, side, bent_plan(rng, side)) for _ in range(80)] == [None] * 80
 
 
 def test_any_two_exchanged_names_are_found_and_named() -> None:
@@ -131,7 +131,7 @@ def test_any_two_exchanged_names_are_found_and_named() -> None:
     for pair in list(combinations(range(21), 2))[::13]:
         wrong = plan.copy()
         wrong[list(pair)] = plan[list(pair)[::-1]]
-        found = misnamed(HAND21, "right", wrong)
+        found = find_label_fault(HAND21, "right", wrong)
         assert found is not None, pair
         assert set(sum(found.swapped, ())) == {HAND21.markers[i] for i in pair}
 
@@ -145,7 +145,7 @@ def test_the_usual_mistakes_are_named_on_many_hands(pair: tuple[str, str], side:
     for seed in range(2):
         plan = seen_plan(seed, side)
         plan[rows] = plan[rows[::-1]]
-        found = misnamed(HAND21, side, plan)
+        found = find_label_fault(HAND21, side, plan)
         assert found is not None
         assert {*found.swapped[0], *found.swapped[1]} == set(pair)
 
@@ -154,7 +154,7 @@ def test_two_whole_fingers_that_stand_in_for_each_other_are_named() -> None:
     plan = seen_plan(1, "right")
     middle, ring = ([ROW(f"{joint}{k}") for joint in ("MCP", "PIP", "DIP", "TIP")] for k in (3, 4))
     plan[middle + ring] = plan[ring + middle]
-    found = misnamed(HAND21, "right", plan)
+    found = find_label_fault(HAND21, "right", plan)
     assert found is not None
     assert found.swapped == tuple(tuple(HAND21.markers[i] for i in rows) for rows in (middle, ring))
 
@@ -162,6 +162,6 @@ def test_two_whole_fingers_that_stand_in_for_each_other_are_named() -> None:
 def test_a_name_on_something_that_is_no_disc_of_the_hand_is_named_alone() -> None:
     plan = seen_plan(2, "right")
     plan[ROW("TIP5")] = plan[0] + [0.05, -0.06]  # a blue sleeve
-    found = misnamed(HAND21, "right", plan)
+    found = find_label_fault(HAND21, "right", plan)
     assert found is not None
-    assert found.alone == "TIP5"
+    assert found.misplaced == "TIP5"

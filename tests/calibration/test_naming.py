@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from carpus.core.calibration.naming import NameProposal, propose_names
+from carpus.core.calibration.naming import LabelProposal, propose_labels
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.core.simulation.spec import RecordingSpec
@@ -41,10 +41,10 @@ def blob_of(marker: IntArray, count: int) -> IntArray:
 
 
 def without(blobs: Detections, gone: IntArray) -> Detections:
-    return blobs.only(~np.isin(np.arange(len(blobs)), gone))
+    return blobs.subset(~np.isin(np.arange(len(blobs)), gone))
 
 
-def is_complete(proposal: NameProposal) -> bool:
+def is_complete(proposal: LabelProposal) -> bool:
     return bool((proposal.blob >= 0).all())
 
 
@@ -52,7 +52,7 @@ def is_complete(proposal: NameProposal) -> bool:
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_all_discs_get_their_names_among_false_blobs(side: Side, seed: int) -> None:
     blobs, marker = hand(seed, side, false_blobs=3.0)
-    proposal = propose_names(blobs, DEFAULT_CAMERA, side, HAND21)
+    proposal = propose_labels(blobs, DEFAULT_CAMERA, side, HAND21)
     assert np.array_equal(proposal.blob, blob_of(marker, 21))
     assert proposal.is_sure.sum() >= 20
     assert np.nanmax(proposal.misfit_m) < 0.01
@@ -62,7 +62,7 @@ def test_all_discs_get_their_names_among_false_blobs(side: Side, seed: int) -> N
 def test_a_disc_that_is_not_there_is_not_named_and_the_others_keep_their_names(seed: int) -> None:
     blobs, marker = hand(seed, "right", false_blobs=2.0)
     gone = np.random.default_rng(seed).choice(np.flatnonzero(marker >= 0), 2, replace=False)
-    proposal = propose_names(without(blobs, gone), DEFAULT_CAMERA, "right", HAND21)
+    proposal = propose_labels(without(blobs, gone), DEFAULT_CAMERA, "right", HAND21)
     true = blob_of(np.delete(marker, gone), 21)
     assert np.array_equal(proposal.blob, true)
     assert not is_complete(proposal)
@@ -72,10 +72,10 @@ def test_a_disc_that_is_not_there_is_not_named_and_the_others_keep_their_names(s
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_six_discs_of_the_palm(seed: int) -> None:
     blobs, marker = hand(seed, "left", "wrist6", false_blobs=2.0)
-    proposal = propose_names(blobs, DEFAULT_CAMERA, "left", WRIST6)
+    proposal = propose_labels(blobs, DEFAULT_CAMERA, "left", WRIST6)
     assert np.array_equal(proposal.blob, blob_of(marker, 6))
     assert proposal.is_sure.all(), "six right names are confirmed at once"
-    other = propose_names(blobs, DEFAULT_CAMERA, "right", WRIST6)
+    other = propose_labels(blobs, DEFAULT_CAMERA, "right", WRIST6)
     assert not (is_complete(other) and other.is_sure.any()), "the other hand's names are looked at one by one"
 
 
@@ -84,24 +84,24 @@ def test_with_one_of_the_six_away_no_other_spot_takes_its_name(seed: int, gone: 
     side: Side = "left" if seed % 2 else "right"
     blobs, marker = hand(seed, side, "wrist6", false_blobs=4.0)
     there = np.arange(len(blobs)) != blob_of(marker, 6)[WRIST6.markers.index(gone)]
-    assert is_complete(propose_names(blobs, DEFAULT_CAMERA, side, WRIST6))
-    assert not is_complete(propose_names(blobs.only(there), DEFAULT_CAMERA, side, WRIST6))
+    assert is_complete(propose_labels(blobs, DEFAULT_CAMERA, side, WRIST6))
+    assert not is_complete(propose_labels(blobs.subset(there), DEFAULT_CAMERA, side, WRIST6))
 
 
 def test_the_other_side_does_not_fit() -> None:
     for seed in SEEDS:
         blobs, _ = hand(seed, "right")
-        assert not is_complete(propose_names(blobs, DEFAULT_CAMERA, "left", HAND21))
+        assert not is_complete(propose_labels(blobs, DEFAULT_CAMERA, "left", HAND21))
 
 
 def test_names_that_a_person_gave_are_kept() -> None:
     blobs, marker = hand(201, "right")
     true = blob_of(marker, 21)
     given = {row: int(true[row]) for row in (0, 1, 5, 9, 17)}
-    assert np.array_equal(propose_names(blobs, DEFAULT_CAMERA, "right", HAND21, known=given).blob, true)
+    assert np.array_equal(propose_labels(blobs, DEFAULT_CAMERA, "right", HAND21, given_labels=given).blob, true)
     tip, other = HAND21.markers.index("TIP2"), HAND21.markers.index("TIP3")
     turned_round = given | {tip: int(true[other]), other: int(true[tip])}
-    kept = propose_names(blobs, DEFAULT_CAMERA, "right", HAND21, known=turned_round)
+    kept = propose_labels(blobs, DEFAULT_CAMERA, "right", HAND21, given_labels=turned_round)
     assert all(kept.blob[row] == blob for row, blob in turned_round.items())
     assert len(set(kept.blob[kept.blob >= 0])) == np.count_nonzero(kept.blob >= 0)
 
@@ -112,7 +112,7 @@ def test_what_is_no_hand_is_not_named() -> None:
         pixel = rng.uniform((0.0, 0.0), (640.0, 480.0), (count, 2))
         many: FloatArray = np.full(count, 0.7)
         blobs = Detections(pixel, many, 0.001 * many, 80.0 * many, many)
-        proposal = propose_names(blobs, DEFAULT_CAMERA, "right", HAND21)
+        proposal = propose_labels(blobs, DEFAULT_CAMERA, "right", HAND21)
         assert not is_complete(proposal)
         assert proposal.is_sure.sum() <= 4
 
@@ -120,4 +120,4 @@ def test_what_is_no_hand_is_not_named() -> None:
 def test_unknown_depths_do_not_matter_much() -> None:
     blobs, marker = hand(203, "left")
     flat = Detections(blobs.pixel, np.full(len(blobs), np.nan), blobs.depth_sd_m, blobs.area_px, blobs.similarity)
-    assert np.array_equal(propose_names(flat, DEFAULT_CAMERA, "left", HAND21).blob, blob_of(marker, 21))
+    assert np.array_equal(propose_labels(flat, DEFAULT_CAMERA, "left", HAND21).blob, blob_of(marker, 21))

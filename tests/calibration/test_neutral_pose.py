@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from carpus.core.calibration.neutral_pose import pose_by_least_squares
+from carpus.core.calibration.neutral_pose import estimate_neutral_pose
 from carpus.core.camera import Camera
 from carpus.core.types import FloatArray
 from tests.tracking.hands import FROM_ABOVE
@@ -32,7 +32,7 @@ def measured(rotation: FloatArray, translation: FloatArray) -> FloatArray:
 
 
 def fitted(values: FloatArray, rotation: FloatArray, translation: FloatArray) -> tuple[FloatArray, FloatArray]:
-    return pose_by_least_squares(
+    return estimate_neutral_pose(
         CAMERA, PALM_M, values[:12].reshape(6, 2), values[12:], rotation, translation,
         pixel_sd_px=PIXEL_SD, depth_sd_m=DEPTH_SD,
     )  # fmt: skip

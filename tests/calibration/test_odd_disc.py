@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
-from carpus.core.calibration.name_checks import average_palm, odd_disc
+from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand
+from carpus.core.calibration.name_checks import average_palm, find_odd_marker
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.hand.protocols import PALM_MARKERS
@@ -26,7 +26,7 @@ def judged(scene: Scene, clicked_px: FloatArray, *spots: FloatArray) -> Calibrat
     extras = tuple(Extra((float(u), float(v)), radius_px, PAPERS["blue"]) for u, v in spots)
     clicks = replace(clicks_on(scene), pixel=clicked_px)
     frames = frames_of(scene, 5, extras=extras)
-    return calibrate(clicks, frames, CAMERA, CalibrationSettings(), DetectionSettings())
+    return calibrate_hand(clicks, frames, CAMERA, CalibrationSettings(), DetectionSettings())
 
 
 def odd_kinds(outcome: CalibrationOutcome) -> list[str]:
@@ -76,7 +76,7 @@ def test_a_spot_that_nobody_named_close_to_a_disc_is_told(radii: float, told: bo
     for one in frames:  # a line of skin between the two
         left, right = (round(u + (radii + by) * radius_px) for by in (-0.85, -0.4))
         one.color_rgb[round(v) - 6 : round(v) + 7, left:right] = SKIN
-    outcome = calibrate(clicks_on(scene), frames, CAMERA, CalibrationSettings(), DetectionSettings())
+    outcome = calibrate_hand(clicks_on(scene), frames, CAMERA, CalibrationSettings(), DetectionSettings())
     near = [finding for finding in outcome.verdict.findings if finding.kind == "near_spot"]
     assert [finding.markers for finding in near] == ([("WRIST",)] if told else [])
     assert all(np.linalg.norm(np.array(finding.spot_px) - spot.pixel) < 1.5 for finding in near)
@@ -91,9 +91,9 @@ def test_no_palm_has_this_shape_and_the_disc_at_fault_is_named(side: Side) -> No
         outward = plan[marker] - plan.mean(axis=0)
         plan[marker] -= 0.9 * outward  # pulled into the middle
         plan += rng.normal(0.0, 0.001, plan.shape)
-        odd = odd_disc(side, plan, NO_SPOT)
+        odd = find_odd_marker(side, plan, NO_SPOT)
         assert odd is not None
-        assert (odd.marker, odd.fits) == (marker, False)
+        assert (odd.marker, odd.is_spot_better) == (marker, False)
 
 
 def test_hands_and_sticking_differ_without_a_question() -> None:
@@ -102,7 +102,7 @@ def test_hands_and_sticking_differ_without_a_question() -> None:
     for _ in range(300):
         plan = average_palm("right") * rng.uniform(0.92, 1.08, 2)  # slender and broad hands
         plan = plan + rng.normal(0.0, 0.003, plan.shape)
-        asked += odd_disc("right", plan, NO_SPOT) is not None
+        asked += find_odd_marker("right", plan, NO_SPOT) is not None
     assert asked <= 3
 
 
@@ -110,4 +110,4 @@ def test_the_discs_of_the_fingers_are_no_spare_spots_of_the_palm() -> None:
     palm = average_palm("right")
     along = (palm[2:6] - palm[0]) / np.linalg.norm(palm[2:6] - palm[0], axis=1)[:, None]
     fingers = np.concatenate([palm[2:6] + reach * along for reach in (0.045, 0.07, 0.09)])
-    assert odd_disc("right", palm, fingers) is None
+    assert find_odd_marker("right", palm, fingers) is None

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.calibration.calibrate import calibrate
+from carpus.core.calibration.calibrate import calibrate_hand
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.calibration.still_depth import depth_offset_px
+from carpus.core.calibration.still_depth import estimate_depth_offset_px
 from carpus.core.detection.appearance import learn_appearance
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.simulation.recording import SimulatedPictures, clicks_of
+from carpus.core.simulation.recording import SimulatedRecording, sample_clicks
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, Frame
 
@@ -20,10 +20,10 @@ DETECTION = DetectionSettings()
 SEEDS = (1, 2, 5, 11)
 
 
-def offset_px(pictures: SimulatedPictures, frame: Frame) -> float:
-    clicks = clicks_of(pictures.truth)
+def offset_px(pictures: SimulatedRecording, frame: Frame) -> float:
+    clicks = sample_clicks(pictures.truth)
     looks, centre = learn_appearance(frame, clicks.pixel, pictures.truth.camera, DETECTION)
-    return depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])])
+    return estimate_depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])])
 
 
 def moved(frame: Frame, columns: int, rows: int) -> Frame:
@@ -38,18 +38,18 @@ def moved(frame: Frame, columns: int, rows: int) -> Frame:
 
 
 @pytest.fixture(scope="module")
-def takes() -> list[tuple[SimulatedPictures, Frame]]:
+def takes() -> list[tuple[SimulatedRecording, Frame]]:
     """A first picture of several patients, tables, lights and sleeves."""
-    made = [SimulatedPictures(RecordingSpec(seed=seed, seconds=0.1, protocol="wrist6")) for seed in SEEDS]
+    made = [SimulatedRecording(RecordingSpec(seed=seed, seconds=0.1, protocol="wrist6")) for seed in SEEDS]
     return [(pictures, next(pictures.frames())) for pictures in made]
 
 
-def test_registered_depth_is_never_suspected(takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+def test_registered_depth_is_never_suspected(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     assert [offset_px(*take) for take in takes] == [0.0] * len(takes)
 
 
 @pytest.mark.parametrize("shift", [(12, 0), (-12, 0), (10, -10)])
-def test_depth_beside_colour_is_noticed(shift: tuple[int, int], takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+def test_depth_beside_colour_is_noticed(shift: tuple[int, int], takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     """In most rooms: on a table of the skin's own colour the picture does not say."""
     true_px = float(np.hypot(*shift))
     found: FloatArray = np.array([offset_px(pictures, moved(frame, *shift)) for pictures, frame in takes])
@@ -58,19 +58,19 @@ def test_depth_beside_colour_is_noticed(shift: tuple[int, int], takes: list[tupl
     assert np.abs(noticed - true_px).max() < 6.0
 
 
-def test_without_depth_or_discs_nothing_is_said(takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+def test_without_depth_or_discs_nothing_is_said(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     pictures, frame = takes[0]
     assert offset_px(pictures, replace(frame, depth_raw=None)) == 0.0
     assert offset_px(pictures, moved(frame, 640, 0)) == 0.0, "a picture full of holes"
 
 
-def test_the_verdict_names_it(takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+def test_the_verdict_names_it(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     pictures, frame = takes[0]
-    clicks, camera = clicks_of(pictures.truth), pictures.truth.camera
+    clicks, camera = sample_clicks(pictures.truth), pictures.truth.camera
     kinds = [
         [
             finding.kind
-            for finding in calibrate(clicks, [each], camera, CalibrationSettings(), DETECTION).verdict.findings
+            for finding in calibrate_hand(clicks, [each], camera, CalibrationSettings(), DETECTION).verdict.findings
         ]
         for each in (frame, moved(frame, 12, 0))
     ]

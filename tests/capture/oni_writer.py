@@ -22,7 +22,7 @@ from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
 from carpus.core.capture.files.pictures import encode_color
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
-from carpus.core.durable import Writing
+from carpus.core.durable import FileWriter
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import ByteImage, DepthImage, Frame
@@ -56,7 +56,7 @@ class _Stream:
         self.entries: list[tuple[int, int]] = []
 
 
-class OniWriter(Writing):
+class OniWriter(FileWriter):
     """Writes one recording. Use as a context manager; the file is whole only after :meth:`close`."""
 
     def __init__(
@@ -274,7 +274,7 @@ def _differences(index: NDArray[np.int32]) -> NDArray[np.uint8]:
     count = len(step)
     if count == 0:
         return np.empty(0, np.uint8)
-    small = np.abs(step) <= oni.SMALL
+    small = np.abs(step) <= oni.SMALL_STEP
     where = np.arange(count)
     last_escape = np.maximum.accumulate(np.where(small, -1, where))
     second = small & ((where - last_escape) % 2 == 0)
@@ -286,16 +286,16 @@ def _differences(index: NDArray[np.int32]) -> NDArray[np.uint8]:
     # up to three bytes stand at each pixel; NONE marks those that are not written
     none = np.int32(-1)
     out = np.full((count, 3), none)
-    out[pair, 0] = ((step[pair - 1] + oni.SMALL) << 4) | (step[pair] + oni.SMALL)
+    out[pair, 0] = ((step[pair - 1] + oni.SMALL_STEP) << 4) | (step[pair] + oni.SMALL_STEP)
     begun = np.zeros(count, bool)
     begun[escape] = np.append(False, first[:-1])[escape]
-    half = np.where(begun[escape], (step[escape - 1] + oni.SMALL) << 4 | 0x0F, 0xFF)
+    half = np.where(begun[escape], (step[escape - 1] + oni.SMALL_STEP) << 4 | 0x0F, 0xFF)
     out[escape, 0] = half
-    far = np.abs(step[escape]) > oni.MEDIUM
+    far = np.abs(step[escape]) > oni.MEDIUM_STEP
     out[escape, 1] = np.where(far, index[escape + 1] >> 8, 192 + step[escape])
     out[escape, 2] = np.where(far, index[escape + 1] & 0xFF, none)
     if len(alone) and alone[-1] == count - 1:
-        out[-1, 0] = ((step[-1] + oni.SMALL) << 4) | 0x0D
+        out[-1, 0] = ((step[-1] + oni.SMALL_STEP) << 4) | 0x0D
     stream = out[out >= 0]
 
     return _pack_runs(stream, np.isin(np.flatnonzero(out.ravel() >= 0), pair * 3))

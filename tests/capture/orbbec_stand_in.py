@@ -18,7 +18,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from carpus.core.capture.devices.orbbec import library
+from carpus.core.capture.devices.orbbec import import_sdk
 
 SERIAL, NAME = "CL8FX00000A", "Orbbec Femto Bolt"
 FRAMES, PERIOD_US, FIRST_US = 90, 33_333, 5_000_000
@@ -168,7 +168,7 @@ class StandInContext:
 
 def plugged_in(folder: Path, bag: Path) -> StandInContext:
     """A context with the camera, unless it is unplugged."""
-    ob = library()
+    ob = import_sdk()
     devices = {} if (folder / "unplugged").exists() else {SERIAL: ob.PlaybackDevice(str(bag))}
     return StandInContext(devices, folder)
 

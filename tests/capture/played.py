@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.devices.capture_child import Opened, Outlet
+from carpus.core.capture.devices.capture_child import CaptureOutlet, DeviceOpened
 from carpus.core.capture.files.realsense_recording import FilePlayer
-from carpus.core.capture.frame_assembly import WAITING_IN_FILE, Assembler, Layout
+from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, StreamLayout
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.types import Frame
@@ -19,17 +19,17 @@ MODES = {Sensor.COLOR: VideoMode(PixelFormat.RGB888, WIDTH, HEIGHT, 30)}
 PERIOD_US = 33_333
 
 
-def serve(outlet: Outlet, count: int) -> None:
+def serve(outlet: CaptureOutlet, count: int) -> None:
     """So many pictures, the next only when there is room for it."""
-    outlet.send(Opened(MODES, {}, None, {}))
+    outlet.send(DeviceOpened(MODES, {}, None, {}))
     for number in range(1, count + 1):
-        while not outlet.has_room:
-            outlet.obey(block=True)
-            outlet.stay_alive()
-        if outlet.stopping:
+        while not outlet.has_free_slot:
+            outlet.handle_commands(block=True)
+            outlet.send_heartbeat()
+        if outlet.is_stopping:
             return
         picture = memoryview(np.ascontiguousarray(color_picture(number)).tobytes())
-        outlet.put(Sensor.COLOR, number, number * PERIOD_US, picture)
+        outlet.publish(Sensor.COLOR, number, number * PERIOD_US, picture)
 
 
 class PlayedSource:
@@ -49,8 +49,8 @@ class PlayedSource:
     def frames(self) -> Iterator[Frame]:
         if self.player.open(self._count, 60.0) is None:
             return
-        layout = Layout((WIDTH, HEIGHT), None)
-        yield from self.player.frames(Assembler(layout, float(PERIOD_US), WAITING_IN_FILE), MODES)
+        layout = StreamLayout((WIDTH, HEIGHT), None)
+        yield from self.player.frames(FrameAssembler(layout, float(PERIOD_US), FILE_PAIRING_LIMIT), MODES)
 
     def close(self) -> None:
         self.player.close()

@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.camera_info import StoredCalibration, fitted_camera, read_camera_info, write_camera_info
+from carpus.core.capture.camera_info import StoredCalibration, read_camera_info, rescale_camera, write_camera_info
 from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 
@@ -152,10 +152,10 @@ def test_a_camera_file_is_never_overwritten(tmp_path: Path) -> None:
 
 
 def test_the_default_camera_sees_the_same_field_at_every_size() -> None:
-    assert fitted_camera(DEFAULT_CAMERA, (640, 480)) == DEFAULT_CAMERA
-    half = fitted_camera(DEFAULT_CAMERA, (320, 240))
+    assert rescale_camera(DEFAULT_CAMERA, (640, 480)) == DEFAULT_CAMERA
+    half = rescale_camera(DEFAULT_CAMERA, (320, 240))
     assert half is not None
     corner = np.array([-0.5, -0.5])  # outer corner of the top left pixel, the same ray at every size
-    ray = DEFAULT_CAMERA.back_project(corner, np.array(1.0))
-    np.testing.assert_allclose(half.back_project(corner, np.array(1.0)), ray, atol=1e-12)
-    assert fitted_camera(DEFAULT_CAMERA, (1280, 720)) is None
+    ray = DEFAULT_CAMERA.backproject(corner, np.array(1.0))
+    np.testing.assert_allclose(half.backproject(corner, np.array(1.0)), ray, atol=1e-12)
+    assert rescale_camera(DEFAULT_CAMERA, (1280, 720)) is None

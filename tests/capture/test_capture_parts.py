@@ -12,20 +12,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.camera import Camera
-from carpus.core.capture.camera_info import fitted_camera
+from carpus.core.capture.camera_info import rescale_camera
 from carpus.core.capture.devices import openni2_camera
-from carpus.core.capture.devices.capture_child import Alive, Arrived, Opened, why_unlisted
+from carpus.core.capture.devices.capture_child import DeviceOpened, Heartbeat, ImageArrived, camera_unlisted_error
 from carpus.core.capture.devices.capture_process import CaptureProcess
-from carpus.core.capture.devices.openni2 import CallFailed, Picture
-from carpus.core.capture.devices.openni2_camera import MODELS, agreed_size
-from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.devices.openni2 import OpenNI2Error, VideoFrame
+from carpus.core.capture.devices.openni2_camera import MODELS, frame_size_bytes
+from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.frame_assembly import (
-    TOLERANCE_US,
-    Assembler,
-    Layout,
-    NearestPairing,
-    Stamped,
-    camera_of_view,
+    PAIRING_TOLERANCE_US,
+    ApproximateTimeSynchronizer,
+    FrameAssembler,
+    StreamLayout,
+    TimestampedImage,
+    camera_from_field_of_view,
 )
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
@@ -35,10 +35,10 @@ PERIOD_US = 33_333
 
 def paired(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) -> list[tuple[int, int | None]]:
     """Times of colour pictures and their depth, fed in this order."""
-    pairing = NearestPairing[str](PERIOD_US, limit=limit, start_limit=start_limit)
+    pairing = ApproximateTimeSynchronizer[str](PERIOD_US, limit=limit, start_limit=start_limit)
     out = []
     for kind, time_us in events:
-        out += (pairing.add_color if kind == "color" else pairing.add_depth)(Stamped(time_us, 1, kind))
+        out += (pairing.add_color if kind == "color" else pairing.add_depth)(TimestampedImage(time_us, 1, kind))
     out += pairing.finish()
     return [(color.timestamp_us, depth.timestamp_us if depth else None) for color, depth in out]
 
@@ -53,7 +53,7 @@ PAIRED: dict[str, tuple[list[tuple[str, int]], list[tuple[int, int | None]]]] = 
         [(100_000, 104_000)],
     ),
     "a far one is none": (
-        [("color", 0), ("depth", TOLERANCE_US + 1), ("color", 90_000)],
+        [("color", 0), ("depth", PAIRING_TOLERANCE_US + 1), ("color", 90_000)],
         [(0, None), (90_000, None)],
     ),
 }
@@ -66,17 +66,17 @@ def test_each_colour_picture_has_the_depth_nearest_in_time(case: str) -> None:
 
 
 def test_a_near_depth_is_not_waited_past() -> None:
-    pairing = NearestPairing[str](PERIOD_US)
-    assert pairing.add_color(Stamped(100_000, 1, "")) == []
-    assert len(pairing.add_depth(Stamped(98_000, 1, ""))) == 1
+    pairing = ApproximateTimeSynchronizer[str](PERIOD_US)
+    assert pairing.add_color(TimestampedImage(100_000, 1, "")) == []
+    assert len(pairing.add_depth(TimestampedImage(98_000, 1, ""))) == 1
 
 
 @pytest.mark.parametrize(("start_limit", "count", "shown"), [(0, 10, range(7)), (5, 20, range(5, 17))])
 def test_where_no_depth_comes_no_colour_picture_waits_longer_than_the_limit(
     start_limit: int, count: int, shown: range
 ) -> None:
-    pairing = NearestPairing[str](PERIOD_US, limit=3, start_limit=start_limit)
-    out = [pair for i in range(count) for pair in pairing.add_color(Stamped(i * PERIOD_US, i, ""))]
+    pairing = ApproximateTimeSynchronizer[str](PERIOD_US, limit=3, start_limit=start_limit)
+    out = [pair for i in range(count) for pair in pairing.add_color(TimestampedImage(i * PERIOD_US, i, ""))]
     assert [color.number for color, _ in out] == list(shown)
 
 
@@ -98,7 +98,7 @@ def test_every_colour_once_in_order_every_depth_at_most_once(color: list[int], d
     used = [partner for _, partner in pairs if partner is not None]
     assert len(used) == len(set(used))
     assert used == sorted(used)
-    assert all(abs(time_us - partner) <= TOLERANCE_US for time_us, partner in pairs if partner is not None)
+    assert all(abs(time_us - partner) <= PAIRING_TOLERANCE_US for time_us, partner in pairs if partner is not None)
 
 
 def color_of(value: int) -> np.ndarray:
@@ -106,15 +106,15 @@ def color_of(value: int) -> np.ndarray:
 
 
 def test_gaps_and_clocks_that_begin_anew() -> None:
-    layout = Layout((6, 4), None)
-    assembler = Assembler(layout, PERIOD_US, 4)
+    layout = StreamLayout((6, 4), None)
+    assembler = FrameAssembler(layout, PERIOD_US, 4)
     frames = []
     for number, time_us in ((1, 0), (2, PERIOD_US), (5, 4 * PERIOD_US), (6, 4 * PERIOD_US)):
-        frames += assembler.color(time_us, number, color_of(number))
+        frames += assembler.add_color(time_us, number, color_of(number))
     assert [frame.dropped_before for frame in frames] == [0, 0, 2]
-    assembler.restart(layout, first_us=7_000, away_us=1_000_000)
-    frames += assembler.color(7_000, 1, color_of(9))
-    frames += assembler.color(7_000 + PERIOD_US, 2, color_of(10))
+    assembler.restart(layout, first_us=7_000, gap_us=1_000_000)
+    frames += assembler.add_color(7_000, 1, color_of(9))
+    frames += assembler.add_color(7_000 + PERIOD_US, 2, color_of(10))
     assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
     times_s = np.array([frame.timestamp_s for frame in frames])
     assert np.diff(times_s) == pytest.approx([0.033333, 0.099999, 1.0, 0.033333])
@@ -122,50 +122,50 @@ def test_gaps_and_clocks_that_begin_anew() -> None:
 
 
 def test_missing_numbers_count_even_when_times_do_not_tell() -> None:
-    assembler = Assembler(Layout((6, 4), None), 1e6, 4)
-    frames = assembler.color(0, 1, color_of(1)) + assembler.color(PERIOD_US, 4, color_of(2))
+    assembler = FrameAssembler(StreamLayout((6, 4), None), 1e6, 4)
+    frames = assembler.add_color(0, 1, color_of(1)) + assembler.add_color(PERIOD_US, 4, color_of(2))
     assert frames[1].dropped_before == 2
 
 
 def test_pictures_are_copies() -> None:
     view = color_of(3)
-    (frame,) = Assembler(Layout((6, 4), None), PERIOD_US, 4).color(0, 1, view)
+    (frame,) = FrameAssembler(StreamLayout((6, 4), None), PERIOD_US, 4).add_color(0, 1, view)
     view[:] = 0
     assert (frame.color_rgb == 3).all()
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_depth_is_enlarged_without_inventing_any(mirrored: bool) -> None:
-    layout = Layout((8, 6), (4, 3), False, mirrored)
+    layout = StreamLayout((8, 6), (4, 3), False, mirrored)
     small = np.arange(12, dtype=np.uint16).reshape(3, 4)
-    large = layout.depth(small)
+    large = layout.convert_depth(small)
     assert large.shape == (6, 8)
     expected = small[:, ::-1] if mirrored else small
     assert (large == expected.repeat(2, 0).repeat(2, 1)).all()
-    assert layout.enlarged == "depth from 4x3 to 8x6"
-    assert layout.misfit() == ""
+    assert layout.format_enlargement == "depth from 4x3 to 8x6"
+    assert layout.describe_size_mismatch() == ""
 
 
 def test_sizes_that_do_not_fit() -> None:
-    assert Layout((640, 480), (320, 200)).misfit() == "colour 640x480, depth 320x200"
-    assert Layout((160, 120), (640, 480)).misfit() != ""
-    assert Layout((640, 480), (640, 480)).misfit() == ""
+    assert StreamLayout((640, 480), (320, 200)).describe_size_mismatch() == "colour 640x480, depth 320x200"
+    assert StreamLayout((160, 120), (640, 480)).describe_size_mismatch() != ""
+    assert StreamLayout((640, 480), (640, 480)).describe_size_mismatch() == ""
 
 
 def test_intrinsics_from_the_field_of_view() -> None:
     # the angles an Asus Xtion tells: f = 570.34 px
-    camera = camera_of_view((640, 480), (1.02260, 0.79662))
+    camera = camera_from_field_of_view((640, 480), (1.02260, 0.79662))
     assert camera is not None
     assert camera.fx_px == pytest.approx(570.34, abs=0.05)
     assert camera.fy_px == pytest.approx(570.34, abs=0.05)
     assert (camera.cx_px, camera.cy_px, camera.origin) == (319.5, 239.5, "driver")
-    assert camera_of_view((640, 400), None) is None
+    assert camera_from_field_of_view((640, 400), None) is None
 
 
 @given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 def test_a_point_keeps_its_place_in_an_enlarged_picture(x: float, y: float) -> None:
     small = Camera(262.5, 263.0, 159.1, 120.3, 320, 240)
-    large = fitted_camera(small, (640, 480))
+    large = rescale_camera(small, (640, 480))
     assert large is not None
     point = np.array([x, y, 2.0])
     # pixel u of the small picture covers 2u and 2u + 1 of the large one
@@ -175,12 +175,12 @@ def test_a_point_keeps_its_place_in_an_enlarged_picture(x: float, y: float) -> N
 MODE = VideoMode(PixelFormat.RGB888, 64, 48, 30)
 
 
-def picture(**changes: int | bool) -> Picture:
+def picture(**changes: int | bool) -> VideoFrame:
     whole = {
         "sensor": Sensor.COLOR, "index": 1, "timestamp_us": 1, "width_px": 64, "height_px": 48, "stride_bytes": 192,
         "pixel_format": PixelFormat.RGB888, "is_cropped": False, "size_bytes": 9216, "address": 4096,
     }  # fmt: skip
-    return Picture(**{**whole, **changes})  # type: ignore[arg-type]
+    return VideoFrame(**{**whole, **changes})  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -192,9 +192,9 @@ def picture(**changes: int | bool) -> Picture:
     ],
 )  # fmt: skip
 def test_a_whole_picture_may_be_read_and_memory_of_any_other_is_not_touched(changes: dict[str, int]) -> None:
-    assert agreed_size(picture(), MODE) == 9216
-    assert agreed_size(picture(**changes), MODE) is None
-    assert agreed_size(picture(pixel_format=999), VideoMode(999, 64, 48, 30)) is None
+    assert frame_size_bytes(picture(), MODE) == 9216
+    assert frame_size_bytes(picture(**changes), MODE) is None
+    assert frame_size_bytes(picture(pixel_format=999), VideoMode(999, 64, 48, 30)) is None
 
 
 def plugged_in(root: Path, product: str = "0601", *, driver: str | None = None) -> Path:
@@ -220,14 +220,14 @@ def plugged_in(root: Path, product: str = "0601", *, driver: str | None = None) 
 
 def test_the_camera_on_the_bus(tmp_path: Path) -> None:
     nodes = plugged_in(tmp_path, driver="usbfs")
-    (camera,) = usb_cameras(MODELS, tmp_path / "sys", nodes)
+    (camera,) = find_usb_cameras(MODELS, tmp_path / "sys", nodes)
     assert camera == UsbCamera("Asus Xtion Pro Live", "1d27", "0601", nodes / "001" / "007", 480, True, True)
 
 
 def test_other_devices_and_other_systems(tmp_path: Path) -> None:
     nodes = plugged_in(tmp_path, product="9999")
-    assert usb_cameras(MODELS, tmp_path / "sys", nodes) == []
-    assert usb_cameras(MODELS, tmp_path / "nowhere", nodes) == []
+    assert find_usb_cameras(MODELS, tmp_path / "sys", nodes) == []
+    assert find_usb_cameras(MODELS, tmp_path / "nowhere", nodes) == []
 
 
 def seen(**changes: bool) -> UsbCamera:
@@ -246,7 +246,7 @@ def seen(**changes: bool) -> UsbCamera:
     ],
 )
 def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str, fault: type[CarpusFault]) -> None:
-    failed = openni2_camera._why_not_opened(CallFailed("oniDeviceOpen", 1, reason), cameras)
+    failed = openni2_camera._open_error(OpenNI2Error("oniDeviceOpen", 1, reason), cameras)
     assert failed.fault is fault
 
 
@@ -255,7 +255,7 @@ def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str,
     [([], CameraMissing), ([seen(may_open=False)], CameraPermission), ([seen()], DriverFailed)],
 )
 def test_why_the_driver_lists_no_camera(cameras: list[UsbCamera], fault: type[CarpusFault]) -> None:
-    assert why_unlisted(cameras).fault is fault
+    assert camera_unlisted_error(cameras).fault is fault
 
 
 def test_the_modes_of_an_xtion() -> None:
@@ -270,10 +270,10 @@ def test_the_modes_of_an_xtion() -> None:
 
 
 def test_slots_of_pictures_before_the_opening_are_given_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    early, opened = Arrived(Sensor.DEPTH, 3, 1, 0), Opened({}, {}, None, {})
-    reports, freed = deque([Alive(), early, opened]), list[Arrived]()
+    early, opened = ImageArrived(Sensor.DEPTH, 3, 1, 0), DeviceOpened({}, {}, None, {})
+    reports, freed = deque([Heartbeat(), early, opened]), list[ImageArrived]()
     monkeypatch.setattr(CaptureProcess, "report", lambda *_: reports.popleft())
     monkeypatch.setattr(CaptureProcess, "free", lambda _, arrived: freed.append(arrived))
     process = object.__new__(CaptureProcess)
-    assert process.wait_open(threading.Event(), 1.0) is opened
+    assert process.receive_opened(threading.Event(), 1.0) is opened
     assert freed == [early]

@@ -12,7 +12,7 @@ import pytest
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture import doctor
 from carpus.core.capture.devices import openni2_camera, realsense
-from carpus.core.capture.devices.cameras import CameraKind, camera_kind
+from carpus.core.capture.devices.cameras import CameraKind, load_camera_kind
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import examine
 from carpus.core.capture.source import SourceInfo
@@ -31,8 +31,8 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
     ]  # fmt: skip
     for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera rights, Asus Xtion"):
         assert findings[name].state == "good", findings[name]
-    assert "OpenNI2 2.2" in findings["Driver"].found
-    assert "320x240" in findings["Pictures"].found
+    assert "OpenNI2 2.2" in findings["Driver"].observation
+    assert "320x240" in findings["Pictures"].observation
     assert not (tmp_path / "data").exists()
 
 
@@ -40,17 +40,17 @@ def test_a_remedy_wherever_something_is_wrong_and_without_a_camera_nothing_is_me
     findings = examine(tmp_path)
     for finding in findings:
         assert (finding.state == "good") == (finding.remedy == ""), finding
-        assert finding.found
+        assert finding.observation
     assert "Pictures" not in [finding.name for finding in findings]
 
 
 def test_old_python() -> None:
-    assert doctor.python_finding((3, 10, 9)).state == "bad"
-    assert doctor.python_finding((3, 11, 0)).state == "good"
+    assert doctor.check_python((3, 10, 9)).state == "bad"
+    assert doctor.check_python((3, 11, 0)).state == "good"
 
 
 def test_missing_packages() -> None:
-    finding = doctor.packages_finding(("numpy", "a-package-nobody-has"))
+    finding = doctor.check_packages(("numpy", "a-package-nobody-has"))
     assert finding == Finding(
         "Packages",
         "bad",
@@ -62,29 +62,29 @@ def test_missing_packages() -> None:
 def test_the_window_library_that_aborts(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(doctor, "version", lambda name: "6.12.0")
     monkeypatch.setattr(doctor.sys, "version_info", (3, 11, 7))
-    assert doctor.window_finding().state == "bad"
+    assert doctor.check_window().state == "bad"
 
 
 def test_a_folder_that_others_can_read(tmp_path: Path) -> None:
     folder = tmp_path / "data"
     folder.mkdir(mode=0o755)
     folder.chmod(0o755)
-    finding = doctor.data_folder_finding(folder)
+    finding = doctor.check_data_folder(folder)
     assert finding.state == "warning"
     assert "chmod 700" in finding.remedy
     folder.chmod(0o700)
-    assert doctor.data_folder_finding(folder).state == "good"
+    assert doctor.check_data_folder(folder).state == "good"
 
 
 def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    assert doctor.data_folder_finding(tmp_path / "file" / "data").state == "bad"
+    assert doctor.check_data_folder(tmp_path / "file" / "data").state == "bad"
 
 
 def test_a_full_disk(tmp_path: Path) -> None:
-    assert doctor.disk_finding(tmp_path, 1_000_000_000).state == "warning"
-    finding = doctor.disk_finding(tmp_path, 60_000_000_000)
-    assert (finding.state, finding.found) == ("good", "60.0 GB free, about 545 minutes with pictures")
+    assert doctor.check_disk_space(tmp_path, 1_000_000_000).state == "warning"
+    finding = doctor.check_disk_space(tmp_path, 60_000_000_000)
+    assert (finding.state, finding.observation) == ("good", "60.0 GB free, about 545 minutes with pictures")
 
 
 def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -92,18 +92,18 @@ def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
         raise DriverMissing("libOpenNI2.so.0", "cannot open shared object file")
 
     monkeypatch.setattr(openni2_camera, "load_library", missing)
-    finding = openni2_camera.driver_finding()
-    assert (finding.state, finding.found) == ("bad", "cannot open shared object file")
+    finding = openni2_camera.check_driver()
+    assert (finding.state, finding.observation) == ("bad", "cannot open shared object file")
     assert "libopenni2-0" in finding.remedy
 
 
 def test_rules_of_the_system(tmp_path: Path) -> None:
-    assert doctor.rules_finding(openni2_camera.KIND, (tmp_path / "none", tmp_path)).state == "warning"
+    assert doctor.check_udev_rules(openni2_camera.KIND, (tmp_path / "none", tmp_path)).state == "warning"
     (tmp_path / "60-camera.rules").write_text('SUBSYSTEM=="usb", ATTR{idVendor}=="1D27", MODE="0666"\n')
-    assert doctor.rules_finding(openni2_camera.KIND, (tmp_path,)).state == "good"
-    assert doctor.rules_finding(camera_kind("orbbec"), (tmp_path,)).state == "warning"
+    assert doctor.check_udev_rules(openni2_camera.KIND, (tmp_path,)).state == "good"
+    assert doctor.check_udev_rules(load_camera_kind("orbbec"), (tmp_path,)).state == "warning"
     (tmp_path / "70-graphics.rules").write_text('SUBSYSTEM=="drm", ATTRS{vendor}=="0x8086"\n')
-    assert doctor.rules_finding(camera_kind("realsense"), (tmp_path,)).state == "warning"
+    assert doctor.check_udev_rules(load_camera_kind("realsense"), (tmp_path,)).state == "warning"
 
 
 @pytest.mark.parametrize(
@@ -112,9 +112,9 @@ def test_rules_of_the_system(tmp_path: Path) -> None:
 )
 def test_the_camera_on_the_bus(speed: int, may_open: bool, claimed: bool, state: str) -> None:
     camera = UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), speed, may_open, claimed)
-    finding = doctor.camera_finding(openni2_camera.KIND, camera)
+    finding = doctor.check_camera(openni2_camera.KIND, camera)
     assert finding.state == state
-    assert "1d27:0601" in finding.found
+    assert "1d27:0601" in finding.observation
 
 
 def frames(period_s: float, *, missing: int = 0, depth: bool = True) -> list[Frame]:
@@ -134,7 +134,7 @@ def frames(period_s: float, *, missing: int = 0, depth: bool = True) -> list[Fra
     ],
 )
 def test_what_comes_from_the_camera(some: list[Frame], state: str) -> None:
-    assert doctor.frames_finding(some).state == state
+    assert doctor.check_frames(some).state == state
 
 
 @pytest.mark.parametrize(
@@ -148,14 +148,14 @@ def test_what_comes_from_the_camera(some: list[Frame], state: str) -> None:
 def test_registration_mirror_and_clock(settings: dict[str, str], states: list[str]) -> None:
     info = SourceInfo("a camera", DEFAULT_CAMERA, True, None, 30.0, settings)
     some = frames(1 / 30)
-    findings = doctor.standing_findings(info, some, [frame.timestamp_s for frame in some])
+    findings = doctor.check_camera_settings(info, some, [frame.timestamp_s for frame in some])
     assert [finding.name for finding in findings] == ["Registration", "Mirror", "Clock"]
     assert [finding.state for finding in findings] == states
 
 
 def test_a_clock_that_runs_wrong() -> None:
-    assert doctor.clock_finding(3.0, 3.1, "camera").state == "good"
-    assert doctor.clock_finding(1.5, 3.0, "camera").state == "warning"
+    assert doctor.check_clock(3.0, 3.1, "camera").state == "good"
+    assert doctor.check_clock(1.5, 3.0, "camera").state == "warning"
 
 
 def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -163,7 +163,7 @@ def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None
         raise CameraBusy("camera", "Failed to set USB interface!")
 
     monkeypatch.setattr(doctor, "open_camera", busy)
-    (finding,) = doctor.opened_findings("", 1.0)
+    (finding,) = doctor.check_open_camera("", 1.0)
     assert (finding.state, finding.remedy) == ("bad", "Close the other program that uses the camera.")
 
 
@@ -172,11 +172,11 @@ def test_a_camera_of_one_kind_excuses_what_another_lacks(monkeypatch: pytest.Mon
         return Finding("Driver", "bad", "not found", "Install it.")
 
     there = UsbCamera("Intel RealSense D435", "8086", "0b07", Path("/dev/bus/usb/002/003"), 480, True, False)
-    without = replace(openni2_camera.KIND, driver=lacking)
+    without = replace(openni2_camera.KIND, check_driver=lacking)
     monkeypatch.setattr(CameraKind, "seen", lambda kind: [there] if kind is realsense.KIND else [])
     monkeypatch.setattr(doctor, "_kinds", lambda: [without, realsense.KIND])
-    assert [each.state for each in doctor.drivers_findings(asks_version=False)] == ["warning", "good"]
+    assert [each.state for each in doctor.check_drivers(loads_library=False)] == ["warning", "good"]
     monkeypatch.setattr(doctor, "_kinds", lambda: [without])
-    assert [each.state for each in doctor.drivers_findings(asks_version=False)] == ["bad"]
-    slow = doctor.camera_finding(realsense.KIND, there)
+    assert [each.state for each in doctor.check_drivers(loads_library=False)] == ["bad"]
+    slow = doctor.check_camera(realsense.KIND, there)
     assert (slow.state, "USB 3" in slow.remedy) == ("warning", True)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.calibrated import keep_name, with_given_name
+from carpus.core.capture.calibrated import save_camera_name, with_given_name
 from carpus.core.capture.source import SERIAL, SourceInfo
 from carpus.core.errors import OutputNotWritable
 from carpus.core.types import Frame
@@ -30,13 +30,13 @@ class Camera:
 def test_only_a_camera_without_a_number_takes_the_name_of_its_kind(tmp_path: Path) -> None:
     plain, numbered = Camera("Xtion"), Camera("Xtion", serial="77")
     assert with_given_name(plain, tmp_path) is plain
-    keep_name(tmp_path, "Xtion", "  room\n3 ")
+    save_camera_name(tmp_path, "Xtion", "  room\n3 ")
     named = with_given_name(plain, tmp_path).info
     assert (named.serial, named.is_nameless) == ("room 3", True)
     assert with_given_name(numbered, tmp_path) is numbered
     assert not numbered.info.is_nameless
     assert SERIAL not in with_given_name(Camera("Carmine"), tmp_path).info.settings
-    assert keep_name(tmp_path, "Carmine", "room\t 3") == "room 3 (Carmine)"
+    assert save_camera_name(tmp_path, "Carmine", "room\t 3") == "room 3 (Carmine)"
     of_both = [with_given_name(Camera(kind), tmp_path).info.serial for kind in ("Xtion", "Carmine")]
     assert of_both == ["room 3", "room 3 (Carmine)"], "one would be seen through the other's calibration"
 
@@ -52,4 +52,4 @@ def test_a_damaged_list_of_names_keeps_nobody_from_measuring(tmp_path: Path, con
 def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
     (tmp_path / "cameras").write_text("a file")
     with pytest.raises(OutputNotWritable):
-        keep_name(tmp_path, "Xtion", "room 3")
+        save_camera_name(tmp_path, "Xtion", "room 3")

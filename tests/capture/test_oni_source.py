@@ -16,9 +16,9 @@ from carpus.core.capture.files.oni_source import OniSource
 from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
+    DamagedFramesExcluded,
     DepthNotRegistered,
-    PicturesEnlarged,
-    PicturesLost,
+    FramesEnlarged,
     RecordingDamaged,
     RecordingUnsupported,
     RegistrationAssumed,
@@ -163,7 +163,7 @@ def test_small_colour_is_enlarged(tmp_path: Path) -> None:
     write_camera_info(sidecar_path(path), small, registered=True)
     told: list[CarpusFault] = []
     source = OniSource(path, notice=told.append)
-    assert [type(fault) for fault in told] == [PicturesEnlarged]
+    assert [type(fault) for fault in told] == [FramesEnlarged]
     assert source.info.camera == CAMERA.__class__(52.5, 52.5, 31.5, 23.5, WIDTH, HEIGHT, origin="file")
     frames = list(source.frames())
     assert len(frames) == 3
@@ -201,7 +201,7 @@ def test_a_damaged_colour_picture_is_left_out_and_counted(tmp_path: Path, occurr
     kept = [number for number in range(1, 7) if number != occurrence + 1]
     assert [int(frame.depth_raw[0, 0]) - 5000 for frame in frames if frame.depth_raw is not None] == kept
     assert sum(frame.dropped_before for frame in frames) == (1 if occurrence == 2 else 0)
-    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 6 colour")]
+    assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 6 colour")]
 
 
 def test_a_damaged_depth_picture_leaves_its_frame_without_depth(tmp_path: Path) -> None:

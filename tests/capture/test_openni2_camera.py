@@ -13,7 +13,7 @@ from itertools import islice, pairwise
 import pytest
 
 from carpus.core.camera import Camera
-from carpus.core.capture.devices.capture_child import CameraPlan
+from carpus.core.capture.devices.capture_child import CameraConfig
 from carpus.core.capture.devices.openni2_camera import open_openni2
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.errors import (
@@ -25,7 +25,7 @@ from carpus.core.errors import (
     DepthNotRegistered,
     DriverFailed,
     DriverMissing,
-    ExposureNotHeld,
+    ExposureUnstable,
 )
 from carpus.core.types import Frame
 
@@ -68,10 +68,10 @@ def test_frames_of_a_running_camera(camera: ProcessCamera, told: list[CarpusFaul
     camera.lock_exposure()
     for frame in islice(again, 10):
         frames.append(frame)
-        if isinstance(told[-1], ExposureNotHeld):
+        if isinstance(told[-1], ExposureUnstable):
             break
     assert_rising(frames)
-    assert [type(fault) for fault in told] == [DepthNotRegistered, ExposureNotHeld]
+    assert [type(fault) for fault in told] == [DepthNotRegistered, ExposureUnstable]
 
 
 def test_facts_about_a_camera(camera: ProcessCamera) -> None:
@@ -154,7 +154,7 @@ def test_a_camera_that_stays_away_is_a_fault(camera: ProcessCamera, told: list[C
     camera._patience_s = 0.1
     frames = camera.frames()
     next(frames)
-    camera._plan = CameraPlan(uri="1d27/0601@9/9")
+    camera._plan = CameraConfig(uri="1d27/0601@9/9")
     blow(camera, signal.SIGKILL)
     with pytest.raises(CameraLost):
         list(frames)
@@ -172,7 +172,7 @@ def test_a_camera_that_only_crashes_is_given_up_and_one_without_a_library_not_ev
             yield
 
         monkeypatch.setattr(camera, "_run", crash)
-        monkeypatch.setattr(camera, "_wait_for_return", lambda lost, waited=waited: waited.append(lost) or 0.0)
+        monkeypatch.setattr(camera, "_reconnect", lambda lost, waited=waited: waited.append(lost) or 0.0)
         with pytest.raises(type(fault)):
             list(camera.frames())
         assert bool(waited) == isinstance(fault, DriverFailed)
@@ -181,7 +181,7 @@ def test_a_camera_that_only_crashes_is_given_up_and_one_without_a_library_not_ev
 def test_closing_ends_the_wait_for_a_lost_camera(camera: ProcessCamera) -> None:
     frames = camera.frames()
     next(frames)
-    camera._plan = CameraPlan(uri="1d27/0601@9/9")
+    camera._plan = CameraConfig(uri="1d27/0601@9/9")
     blow(camera, signal.SIGKILL)
     reader = threading.Thread(target=lambda: list(frames))
     reader.start()

@@ -17,30 +17,30 @@ import pytest
 
 from carpus.core.capture.devices import orbbec
 from carpus.core.capture.devices.cameras import open_camera
-from carpus.core.capture.devices.capture_child import CameraPlan, GaveUp
+from carpus.core.capture.devices.capture_child import CameraConfig, CaptureFailed
 from carpus.core.capture.devices.color_lock import ColorLock
 from carpus.core.capture.devices.orbbec import (
     _OrbbecControls,
+    check_driver,
     choose_streams,
-    driver_finding,
-    find_camera,
-    library,
+    find_device,
+    find_sensor,
+    import_sdk,
     open_orbbec,
-    sensor_named,
 )
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.capture.doctor import opened_findings, rules_finding
+from carpus.core.capture.doctor import check_open_camera, check_udev_rules
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import (
     CameraBusy,
+    CameraMismatch,
     CameraMissing,
     CameraUnsuited,
     CarpusFault,
     DriverMissing,
-    OtherCamera,
 )
 from carpus.core.installing import Finding
-from carpus.core.words import one_sentence
+from carpus.core.words import format_fault_line
 from tests.capture import orbbec_stand_in
 from tests.capture.lost_and_back import assert_comes_back
 from tests.capture.orbbec_stand_in import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, StandInList
@@ -91,7 +91,7 @@ def test_a_camera_streams_is_lost_and_comes_back(
         assert frame.depth_unit_m == 1e-3
         for row in (90, 240, 400):
             seen = lens.undistort(np.array([[np.argmax(frame.depth_raw[row] > 0) - 0.5, row]]))
-            assert lens.back_project(seen, np.array([depth_m]))[0, 0] == pytest.approx(edge_m, abs=2 * depth_m / 525.0)
+            assert lens.backproject(seen, np.array([depth_m]))[0, 0] == pytest.approx(edge_m, abs=2 * depth_m / 525.0)
     assert_comes_back(camera, frames, first, told, tmp_path / "unplugged")
     assert told[0].detail == "unplugged"
 
@@ -101,39 +101,39 @@ def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     orbbec_stand_in.record(bag, small=True)
     opened = partial(open_orbbec, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
     monkeypatch.setattr(orbbec, "KIND", replace(orbbec.KIND, open=opened))
-    findings = {each.name: each for each in opened_findings("orbbec", 0.5)}
+    findings = {each.name: each for each in check_open_camera("orbbec", 0.5)}
     assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
-    assert findings["Registration"].found == "depth lies on colour, by the library"
+    assert findings["Registration"].observation == "depth lies on colour, by the library"
     assert (findings["Firmware"].state, findings["USB"].state) == ("good", "good")
 
 
 def found_driver() -> Finding:
-    found = driver_finding()
+    found = check_driver()
     assert found is not None
     return found
 
 
 def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert found_driver().state == "good"
-    assert orbbec.further_findings({"usb": "2.1"})[0].state == "warning"
-    (tmp_path / "60-carpus-cameras.rules").write_text(orbbec.KIND.rules)
-    assert rules_finding(orbbec.KIND, (tmp_path,)).state == "good"
+    assert orbbec.check_firmware_and_usb({"usb": "2.1"})[0].state == "warning"
+    (tmp_path / "60-carpus-cameras.rules").write_text(orbbec.KIND.udev_rules)
+    assert check_udev_rules(orbbec.KIND, (tmp_path,)).state == "good"
 
     def missing(name: str) -> str:
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
-    assert driver_finding(wanted=False) is None
+    assert check_driver(wanted=False) is None
     assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
     monkeypatch.setattr(orbbec, "find_spec", lambda _: None)
     with pytest.raises(DriverMissing) as told:
         open_camera(f"orbbec:{SERIAL}")
-    assert "(pyorbbecsdk2). Nothing was changed." in one_sentence(told.value)
-    assert "“carpus doctor” says what is missing" in one_sentence(told.value)
+    assert "(pyorbbecsdk2). Nothing was changed." in format_fault_line(told.value)
+    assert "“carpus doctor” says what is missing" in format_fault_line(told.value)
 
 
 def test_the_stand_ins_speak_as_the_library_does() -> None:
-    ob = library()
+    ob = import_sdk()
     for stand_in, real in (
         (StandInList, ob.DeviceList),
         (orbbec_stand_in.StandInContext, ob.Context),
@@ -145,27 +145,27 @@ def test_the_stand_ins_speak_as_the_library_does() -> None:
 
 
 def test_the_camera_that_is_asked_for() -> None:
-    ob, state = library(), library().OBDeviceAccessState
+    ob, state = import_sdk(), import_sdk().OBDeviceAccessState
     free, held = state.OB_DEVICE_ACCESS_STATE_AVAILABLE, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE
 
     def found(serials: str, wanted: str, as_it_is: Any = free) -> Any:
         listed = StandInList({each: each for each in serials}, as_it_is)
-        return find_camera(ob, SimpleNamespace(query_devices=lambda: listed), CameraPlan(wanted))
+        return find_device(ob, SimpleNamespace(query_devices=lambda: listed), CameraConfig(wanted))
 
     assert found("ab", "") == "a"
     assert found("ab", "b") == "b"
     for serials, wanted, as_it_is, fault in (
         ("", "", free, CameraMissing),
-        ("ab", "c", free, OtherCamera),
+        ("ab", "c", free, CameraMismatch),
         ("a", "", held, CameraBusy),
     ):
-        with pytest.raises(GaveUp) as told:
+        with pytest.raises(CaptureFailed) as told:
             found(serials, wanted, as_it_is)
         assert told.value.fault is fault
 
 
 def test_the_streams_that_are_chosen() -> None:
-    ob = library()
+    ob = import_sdk()
 
     def chosen(colors: list[tuple[int, int]], depths: list[tuple[int, int]]) -> tuple[int, int, int]:
         def listed(sensor: Any) -> Any:
@@ -179,14 +179,14 @@ def test_the_streams_that_are_chosen() -> None:
                 ),
             )
 
-        streams = choose_streams(ob, SimpleNamespace(get_stream_profile_list=listed), CameraPlan())
-        return streams.color.get_width(), streams.depth.get_width(), streams.shrink
+        streams = choose_streams(ob, SimpleNamespace(get_stream_profile_list=listed), CameraConfig())
+        return streams.color.get_width(), streams.depth.get_width(), streams.downscale
 
     gemini = [(1280, 720), (848, 480), (640, 480), (640, 360)]
     assert chosen(gemini, [(1280, 800), (848, 480), (640, 480), (424, 240)]) == (640, 640, 1)
     assert chosen([(3840, 2160), (1280, 960), (1280, 720)], [(1024, 1024), (640, 576), (320, 288)]) == (1280, 640, 2)
     for colors, depths in (([(3840, 2160)], [(640, 576)]), (gemini, [])):
-        with pytest.raises(GaveUp) as told:
+        with pytest.raises(CaptureFailed) as told:
             chosen(colors, depths)
         assert told.value.fault is CameraUnsuited
 
@@ -200,25 +200,25 @@ def test_the_streams_that_are_chosen() -> None:
     ],
 )
 def test_what_its_depth_is_worth(name: str, kind: str, origin: str) -> None:
-    sensor = sensor_named({"camera": name, "depth_focal_px": "370.0"})
+    sensor = find_sensor({"camera": name, "depth_focal_px": "370.0"})
     assert (sensor.kind, sensor.origin) == (kind, origin)
     assert sensor.baseline_m == {"Orbbec Gemini 335": 0.050, "Orbbec Gemini 335L": 0.095}.get(name, 0.0)
 
 
 def test_exposure_and_white_balance_are_held_as_they_look() -> None:
-    ob, device, sent = library(), FakeDevice(), list[Any]()
+    ob, device, sent = import_sdk(), FakeDevice(), list[Any]()
     streams = SimpleNamespace(color=Profile(640, 480, ob.OBFormat.RGB))
     lock = ColorLock(SimpleNamespace(send=sent.append), _OrbbecControls(ob, device, streams))  # type: ignore[arg-type]
-    lock.look(device._picture())
+    lock.add_frame(device._picture())
     before = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
-    assert lock.begin() is None
+    assert lock.start() is None
     for _ in range(120):
-        lock.look(device._picture())
+        lock.add_frame(device._picture())
     assert [each.done for each in sent] == [True]
     after = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
     assert after == pytest.approx(before, rel=0.05)
     device._lacks = "EXPOSURE"
-    assert lock.begin() is False
+    assert lock.start() is False
 
 
 class Profile:

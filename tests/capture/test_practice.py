@@ -41,7 +41,7 @@ def test_the_hand_rests_until_let_go_and_then_moves_on_from_where_it_was_still()
     before = list(islice(frames, 40))
     assert set(numbers(before)) == set(range(STILL))
     assert np.abs(np.diff(numbers(before))).max() == 1
-    source.let_go()
+    source.start_movement()
     moving = list(islice(frames, TOTAL - STILL))
     assert numbers(moving) == list(range(STILL, TOTAL))
     assert [frame.dropped_before for frame in moving] == [0, 0, 0, 0, 0, 0, 1, 0, 0]
@@ -49,13 +49,13 @@ def test_the_hand_rests_until_let_go_and_then_moves_on_from_where_it_was_still()
 
 def test_after_the_take_the_hand_rests_until_let_go_again_and_times_rise_all_the_while() -> None:
     source = PracticeSource(Take(), still_s=0.55)
-    source.let_go()
+    source.start_movement()
     walk = source.frames()
     moved, rest = TOTAL - STILL, 25
     frames = list(islice(walk, moved + rest))
     assert numbers(frames[:moved]) == list(range(STILL, TOTAL))
     assert set(numbers(frames[moved:])) == set(range(STILL))
-    source.let_go()
+    source.start_movement()
     frames += islice(walk, TOTAL + 5)
     assert numbers(frames[moved + rest : moved + rest + TOTAL]) == list(range(TOTAL))
     assert set(numbers(frames[moved + rest + TOTAL :])) <= set(range(STILL))
@@ -69,12 +69,12 @@ def test_another_take_of_the_same_hand_is_played_from_the_next_time_on() -> None
     take = Take()
     other = Take()
     source = PracticeSource(take, 0.55)
-    source.let_go()
+    source.start_movement()
     walk = source.frames()
     list(islice(walk, TOTAL - STILL + 3))
     other.frames = lambda: iter(list(Take().frames())[::-1])  # type: ignore[method-assign]
-    source.play_next(other)
-    source.let_go()
+    source.set_next_recording(other)
+    source.start_movement()
     assert numbers(list(islice(walk, TOTAL))) == list(range(TOTAL))[::-1]
     source.close()
     assert take.closed
@@ -95,18 +95,18 @@ def test_closing_ends_it_and_gives_the_take_back() -> None:
 def test_the_hand_rests_until_its_movement_is_there() -> None:
     beginning, whole = Take(), Take()
     beginning.frames = lambda: islice(Take().frames(), STILL)  # type: ignore[method-assign]
-    source = PracticeSource(beginning, 0.55, begins_only=True)
+    source = PracticeSource(beginning, 0.55, is_still_only=True)
     walk = source.frames()
-    source.let_go()
+    source.start_movement()
     assert numbers(list(islice(walk, STILL))) == list(range(STILL)), "each as soon as it is there"
     assert not source.can_move
     assert set(numbers(list(islice(walk, 30)))) <= set(range(STILL)), "nothing to show yet"
-    source.play_next(whole)
+    source.set_next_recording(whole)
     assert source.can_move
     moving = list(islice(walk, TOTAL))
     assert numbers(moving) == list(range(TOTAL))
-    source.play_next(None)
-    source.let_go()
+    source.set_next_recording(None)
+    source.start_movement()
     assert set(numbers(list(islice(walk, 30)))) <= set(range(STILL)), "the next one is not drawn either"
     source.close()
     assert whole.closed

@@ -17,15 +17,15 @@ import pytest
 
 from carpus.core.camera import Camera
 from carpus.core.capture.files.pictures import decode_color, decode_depth, encode_color, encode_depth
-from carpus.core.capture.files.raw import MAX_FRAMES, RawRecording, RawWriter, _record, is_raw_recording
+from carpus.core.capture.files.raw import MAX_FRAMES, RawRecording, RawWriter, _pack_record, is_raw_recording
 from carpus.core.capture.source import SourceInfo
 from carpus.core.depth_sensor import D435
 from carpus.core.errors import (
     CarpusFault,
+    DamagedFramesExcluded,
+    FrameSizeChanged,
     OutputExists,
     OutputNotWritable,
-    PictureSizeChanged,
-    PicturesLost,
     RecordingDamaged,
     RecordingEmpty,
     RecordingMissing,
@@ -84,7 +84,7 @@ def test_frames_come_back_exactly(tmp_path: Path) -> None:
             assert not read.color_rgb.flags.writeable
     recording.close()
     recording.close()
-    assert recording.complete
+    assert recording.is_complete
 
 
 def test_facts_come_back(tmp_path: Path) -> None:
@@ -141,7 +141,7 @@ def test_a_file_cut_anywhere_keeps_its_whole_frames(tmp_path: Path) -> None:
             continue
         back = list(recording.frames())
         seen.add(len(back))
-        assert not recording.complete
+        assert not recording.is_complete
         for read, written in zip(back, whole, strict=False):
             assert_same(read, written)
     assert seen == {0, 1, 2, 3, 4}
@@ -158,7 +158,7 @@ def test_an_altered_frame_is_left_out_and_counted(tmp_path: Path) -> None:
     assert [frame.timestamp_s for frame in back] == [f.timestamp_s for f in frames(6) if f.index != 2]
     assert [frame.dropped_before for frame in back] == [0, 0, 3 + 1, 0, 0]
     assert [frame.index for frame in back] == [0, 1, 2, 3, 4]
-    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 6 frames")]
+    assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 6 frames")]
 
 
 def records(data: bytes) -> list[bytes]:
@@ -190,12 +190,12 @@ def test_one_damaged_byte_of_a_record_loses_that_frame_alone(tmp_path: Path, pla
         damaged = bytearray(parts[2 + number])
         damaged[place] ^= bit
         recording, back, told = read_back(path, [*parts[: 2 + number], bytes(damaged), *parts[3 + number :]])
-        assert recording.complete
+        assert recording.is_complete
         others = [frame for frame in frames(8) if frame.index != number]
         for read, written in zip(back, others, strict=True):
             assert_same(read, written)
             assert read.dropped_before == written.dropped_before + (written.index == number + 1)
-        assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 8 frames")]
+        assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 8 frames")]
 
 
 def test_frames_that_a_damaged_size_covers_are_found(tmp_path: Path) -> None:
@@ -216,7 +216,7 @@ def test_missing_frames_are_counted_and_told(tmp_path: Path, gone: tuple[int, ..
     assert len(back) == given
     own = sum(frame.dropped_before for frame in frames(8) if frame.index not in gone)
     assert sum(frame.dropped_before for frame in back) == own + sum(number < 7 for number in gone)
-    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, f"{len(gone)} of 8 frames")]
+    assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, f"{len(gone)} of 8 frames")]
 
 
 def test_a_frame_twice_is_told(tmp_path: Path) -> None:
@@ -232,7 +232,7 @@ def test_what_follows_the_end_is_told(tmp_path: Path) -> None:
     parts = records(path.read_bytes())
     for surplus in (b"hello", b"".join(parts)):
         recording, back, told = read_back(path, [*parts, surplus])
-        assert (recording.complete, len(back)) == (True, 3)
+        assert (recording.is_complete, len(back)) == (True, 3)
         assert [type(fault) for fault in told] == [RecordingDamaged]
         assert str(len(surplus)) in told[0].detail
 
@@ -244,7 +244,7 @@ def test_a_damaged_end_is_none(tmp_path: Path, place: int) -> None:
     end = bytearray(parts[-1])
     end[place] ^= 1
     recording, back, told = read_back(path, [*parts[:-1], bytes(end)])
-    assert (recording.complete, len(back), told) == (False, 3, [])
+    assert (recording.is_complete, len(back), told) == (False, 3, [])
 
 
 @pytest.mark.parametrize(("dropped", "number"), [(2**32 - 1, 2), (MAX_FRAMES + 1, 2), (0, 2**32 - 1), (0, MAX_FRAMES)])
@@ -252,7 +252,7 @@ def test_a_frame_that_says_more_than_can_be_is_left_out(tmp_path: Path, dropped:
     path = write(tmp_path / "take.carpusraw", 6)
     parts = records(path.read_bytes())
     time_s, size = frames(6)[2].timestamp_s, struct.unpack_from("<I", parts[4], COLOR_SIZE)[0]
-    altered = _record(b"FRAM", time_s, dropped, number, parts[4][32 : 32 + size], parts[4][32 + size :])
+    altered = _pack_record(b"FRAM", time_s, dropped, number, parts[4][32 : 32 + size], parts[4][32 + size :])
     _, back, told = read_back(path, [*parts[:4], altered, *parts[5:]])
     assert [frame.dropped_before for frame in back] == [0, 0, 3 + 1, 0, 0]
     assert [fault.detail for fault in told] == ["1 of 6 frames"]
@@ -276,7 +276,7 @@ def test_the_search_for_a_record_takes_time_with_the_size_alone(tmp_path: Path) 
     false = [struct.pack("<4sIdIIII", b"FRAM", 1, 9.0, 0, 7, 32 * (count - at - 1), 0) for at in range(count)]
     began_s = time.process_time()
     recording, back, _ = read_back(path, [*parts[:3], *false])
-    assert (recording.complete, len(back)) == (False, 1)
+    assert (recording.is_complete, len(back)) == (False, 1)
     assert time.process_time() - began_s < 5.0  # 0.1 s; each sum to the end would be 58 GB
 
 
@@ -322,7 +322,7 @@ for frame in frames(100_000):
         process.kill()
         said = process.communicate()[0].split()
         recording = RawRecording(path)
-        assert not recording.complete
+        assert not recording.is_complete
         count = len(list(recording.frames()))
         assert count >= (int(said[-1]) if said else 5 + 7 * attempt)
 
@@ -411,7 +411,7 @@ def test_a_head_that_no_camera_wrote_is_refused(tmp_path: Path, said: dict[str, 
     size = struct.unpack_from("<I", data, 12 + 24)[0]
     head = json.loads(data[44 : 44 + size])
     (head if "depth_unit_m" in said else head["camera"]).update(said)
-    path.write_bytes(data[:12] + _record(b"HEAD", 0.0, 0, 0, json.dumps(head).encode(), b"") + data[44 + size :])
+    path.write_bytes(data[:12] + _pack_record(b"HEAD", 0.0, 0, 0, json.dumps(head).encode(), b"") + data[44 + size :])
     with pytest.raises(RecordingUnreadable, match="head"):
         RawRecording(path)
 
@@ -429,7 +429,7 @@ def test_pictures_of_another_size_than_the_camera_are_refused(tmp_path: Path, wh
         writer.append_frame(Frame(1, 9.0, color, depth, 1e-3))
     walk = RawRecording(path).frames()
     assert_same(next(walk), next(RawRecording(path).frames()))
-    with pytest.raises(PictureSizeChanged):
+    with pytest.raises(FrameSizeChanged):
         next(walk)
 
 
@@ -442,7 +442,7 @@ def test_a_frame_of_no_time_is_left_out_and_told(tmp_path: Path, time_s: float) 
             writer.append_frame(replace(frame, timestamp_s=time_s) if number == 2 else frame)
     read = list(RawRecording(path, notice=told.append).frames())
     assert [frame.timestamp_s for frame in read] == [written[number].timestamp_s for number in (0, 1, 3)]
-    assert [type(fault) for fault in told] == [PicturesLost]
+    assert [type(fault) for fault in told] == [DamagedFramesExcluded]
 
 
 @pytest.mark.parametrize("lossless", [False, True])

@@ -12,7 +12,7 @@ import pytest
 
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.files.tum import TumFolder, TumWriter, tum_depth
+from carpus.core.capture.files.tum import TumFolder, TumWriter, to_tum_depth
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.types import Frame
@@ -118,7 +118,7 @@ def test_the_files_are_what_the_format_says(tmp_path: Path) -> None:
     ("unit_m", "raw", "expected"), [(1e-3, 13107, 65535), (1e-3, 13108, 0), (1e-4, 3, 2), (2e-4, 7, 7)]
 )
 def test_depth_in_the_counts_of_the_format(unit_m: float, raw: int, expected: int) -> None:
-    assert tum_depth(np.full((1, 1), raw, np.uint16), unit_m)[0, 0] == expected
+    assert to_tum_depth(np.full((1, 1), raw, np.uint16), unit_m)[0, 0] == expected
 
 
 def test_nothing_is_overwritten_and_nothing_left(tmp_path: Path) -> None:

@@ -18,28 +18,28 @@ import pytest
 import carpus
 from carpus.app.sources import open_recording
 from carpus.core.capture.devices import realsense
-from carpus.core.capture.devices.cameras import further_findings, open_camera
-from carpus.core.capture.devices.capture_child import why_not_opened, why_unlisted
-from carpus.core.capture.devices.color_lock import MOST_ROUNDS, ColorHold, SeenColors
+from carpus.core.capture.devices.cameras import check_firmware_and_usb, open_camera
+from carpus.core.capture.devices.capture_child import camera_open_error, camera_unlisted_error
+from carpus.core.capture.devices.color_lock import MAX_ROUNDS, ColorController, ColorStatistics
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.capture.devices.realsense import driver_finding, open_realsense
+from carpus.core.capture.devices.realsense import check_driver, open_realsense
 from carpus.core.capture.devices.usb_devices import UsbCamera
-from carpus.core.capture.doctor import opened_findings
+from carpus.core.capture.doctor import check_open_camera
 from carpus.core.capture.files.realsense_recording import RealSenseRecording
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import (
     CameraBusy,
     CameraLost,
+    CameraMismatch,
     CameraMissing,
     CameraPermission,
     CameraReturned,
     CarpusFault,
     DriverFailed,
     ExtraMissing,
-    OtherCamera,
     RecordingDamaged,
 )
-from carpus.core.words import one_sentence
+from carpus.core.words import format_fault_line
 from tests.capture import realsense_stand_in
 from tests.capture.lost_and_back import assert_comes_back
 from tests.capture.realsense_stand_in import DEPTH_FX, EDGE_PX, FX, HEIGHT, NEAR_MM, SHIFT_M, WIDTH
@@ -148,15 +148,15 @@ def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
 
     def put_back(fault: CarpusFault) -> None:
         told.append(fault)
-        if isinstance(fault, OtherCamera):
+        if isinstance(fault, CameraMismatch):
             (tmp_path / "other").unlink()
 
     camera._notice = put_back
     for _ in frames:  # the crash takes a moment; pictures of before may still come
         if told and isinstance(told[-1], CameraReturned):
             break
-    assert [type(fault) for fault in told] == [CameraLost, OtherCamera, CameraReturned]
-    assert one_sentence(told[1]).startswith(
+    assert [type(fault) for fault in told] == [CameraLost, CameraMismatch, CameraReturned]
+    assert format_fault_line(told[1]).startswith(
         "A different camera is connected (Intel RealSense D435 815412070124). "
         "Carpus expects Intel RealSense D435 815412070123."
     )
@@ -167,14 +167,14 @@ def test_why_a_camera_named_by_its_serial_number_is_not_opened() -> None:
         return UsbCamera(name, "8086", "0b07", Path("/dev/bus/usb/001/007"), 5000, may_open, is_claimed)
 
     wanted, other = seen("D435"), "D435 815412070124"
-    assert why_unlisted([], []).fault is CameraMissing
-    assert why_unlisted([wanted], [other]).fault is OtherCamera
-    assert why_unlisted([wanted, seen("D435", may_open=False)], [other]).fault is CameraPermission
-    assert why_unlisted([wanted, seen("D435", is_claimed=True)], [other]).fault is CameraBusy
-    assert why_unlisted([wanted], []).fault is DriverFailed
-    assert why_not_opened("errno=16 Last Error: Device or resource busy", [wanted]).fault is CameraBusy
-    assert why_not_opened("failed to open interface, RS2_USB_STATUS_ACCESS", [wanted]).fault is CameraPermission
-    assert why_not_opened("hwmon command timed out", [seen("D435", is_claimed=True)]).fault is DriverFailed
+    assert camera_unlisted_error([], []).fault is CameraMissing
+    assert camera_unlisted_error([wanted], [other]).fault is CameraMismatch
+    assert camera_unlisted_error([wanted, seen("D435", may_open=False)], [other]).fault is CameraPermission
+    assert camera_unlisted_error([wanted, seen("D435", is_claimed=True)], [other]).fault is CameraBusy
+    assert camera_unlisted_error([wanted], []).fault is DriverFailed
+    assert camera_open_error("errno=16 Last Error: Device or resource busy", [wanted]).fault is CameraBusy
+    assert camera_open_error("failed to open interface, RS2_USB_STATUS_ACCESS", [wanted]).fault is CameraPermission
+    assert camera_open_error("hwmon command timed out", [seen("D435", is_claimed=True)]).fault is DriverFailed
 
 
 def test_exposure_and_white_balance_are_held_as_they_look(camera: ProcessCamera, told: list[CarpusFault]) -> None:
@@ -195,52 +195,52 @@ def test_a_camera_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(realsense, "find_spec", lambda _: None)
     with pytest.raises(ExtraMissing) as told:
         open_camera("realsense:815412070123")
-    assert one_sentence(told.value).endswith("-m pip install pyrealsense2”. (C-001)")
+    assert format_fault_line(told.value).endswith("-m pip install pyrealsense2”. (C-001)")
 
 
 @pytest.mark.parametrize("slope", [1.0 / 8000.0, -1.0 / 3000.0])
 @pytest.mark.parametrize("true", [(60.0, 3500.0), (300.0, 5000.0), (120.0, 6000.0)])
 def test_a_hold_finds_what_looks_the_same(true: tuple[float, float], slope: float) -> None:
-    def look(exposure: float, kelvin: float) -> SeenColors:
-        return SeenColors(80.0 * exposure / true[0], slope * (kelvin - true[1]))
+    def look(exposure: float, kelvin: float) -> ColorStatistics:
+        return ColorStatistics(80.0 * exposure / true[0], slope * (kelvin - true[1]))
 
     exposure, kelvin = 156.0, 4600.0
-    hold = ColorHold(look(*true), exposure, (1.0, 320.0), kelvin, (2800.0, 6500.0))
-    for _ in range(10 * MOST_ROUNDS):
-        step = hold.step(look(exposure, kelvin))
+    hold = ColorController(look(*true), exposure, (1.0, 320.0), kelvin, (2800.0, 6500.0))
+    for _ in range(10 * MAX_ROUNDS):
+        step = hold.update(look(exposure, kelvin))
         if step is not None:
             exposure, kelvin = step.exposure, step.kelvin
-    assert hold.is_over
-    assert hold.is_like_before
+    assert hold.is_done
+    assert hold.has_converged
     assert exposure == pytest.approx(true[0], rel=0.03)
 
 
 def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     opened = partial(open_realsense, context=partial(realsense_stand_in.plugged_in, tmp_path))
     monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, open=opened))
-    findings = {each.name: each for each in opened_findings("realsense", 0.5)}
+    findings = {each.name: each for each in check_open_camera("realsense", 0.5)}
     assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
-    assert findings["Registration"].found == "depth lies on colour, by the library"
+    assert findings["Registration"].observation == "depth lies on colour, by the library"
     assert findings["Firmware"].state == "warning"
     assert findings["USB"].state == "good"
 
 
 def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = driver_finding()
+    found = check_driver()
     assert found is not None
     assert found.state == "good"
     states = {
         each.name: each.state
-        for each in further_findings({"firmware": "5.12.1.0", "firmware_wanted": "5.16.0.1", "usb": "2.1"})
+        for each in check_firmware_and_usb({"firmware": "5.12.1.0", "firmware_wanted": "5.16.0.1", "usb": "2.1"})
     }
     assert states == {"Firmware": "warning", "USB": "warning"}
-    assert {each.state for each in further_findings({"firmware": "5.16.0.1", "usb": "3.2"})} == {"good"}
+    assert {each.state for each in check_firmware_and_usb({"firmware": "5.16.0.1", "usb": "3.2"})} == {"good"}
 
     def missing(name: str) -> str:
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
-    assert driver_finding(wanted=False) is None, "no obstacle, and nothing to tick"
-    told = driver_finding(wanted=True)
+    assert check_driver(wanted=False) is None, "no obstacle, and nothing to tick"
+    told = check_driver(wanted=True)
     assert told is not None
     assert (told.state, told.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")

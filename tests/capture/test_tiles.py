@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.files.pictures import (
-    SIDE_PX,
-    Tiled,
+    TILE_PX,
+    TiledImage,
     decode_color,
     decode_depth,
     encode_color,
     encode_depth,
-    packed,
+    pack_tiles,
 )
 from carpus.core.errors import RecordingUnreadable
 from carpus.core.types import ByteImage, Region
@@ -28,20 +28,22 @@ def noisy_color() -> ByteImage:
     return np.random.default_rng(3).integers(1, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
 
 
-def color_from(data: bytes) -> Tiled[ByteImage]:
-    return Tiled(Path("take"), data, COLOR, decode_color)
+def color_from(data: bytes) -> TiledImage[ByteImage]:
+    return TiledImage(Path("take"), data, COLOR, decode_color)
 
 
 def test_jpeg_by_tiles_is_the_same_as_jpeg_whole() -> None:
     color = noisy_color()
-    back = color_from(packed(color, encode_color)).seen(None)
+    back = color_from(pack_tiles(color, encode_color)).decode(None)
     np.testing.assert_array_equal(back, decode_color(encode_color(color)))
     assert not back.flags.writeable
 
 
 def test_depth_comes_back_exactly() -> None:
     depth = np.random.default_rng(4).integers(0, 1 << 16, (HEIGHT, WIDTH), dtype=np.uint16)
-    np.testing.assert_array_equal(Tiled(Path("t"), packed(depth, encode_depth), DEPTH, decode_depth).seen(None), depth)
+    np.testing.assert_array_equal(
+        TiledImage(Path("t"), pack_tiles(depth, encode_depth), DEPTH, decode_depth).decode(None), depth
+    )
 
 
 @pytest.mark.parametrize(
@@ -53,20 +55,20 @@ def test_depth_comes_back_exactly() -> None:
 )  # fmt: skip
 def test_what_is_looked_at_is_there_and_the_rest_comes_later(part: Region) -> None:
     color = noisy_color()
-    tiled = color_from(packed(color, partial(encode_color, lossless=True)))
-    seen = tiled.seen(part)
+    tiled = color_from(pack_tiles(color, partial(encode_color, lossless=True)))
+    seen = tiled.decode(part)
     inside = np.s_[max(part.top, 0) : max(part.bottom, 0), max(part.left, 0) : max(part.right, 0)]
     np.testing.assert_array_equal(seen[inside], color[inside])
-    columns = min(part.right, WIDTH) // SIDE_PX - max(part.left, 0) // SIDE_PX + 1
-    assert seen.any(axis=-1).sum() <= max(columns, 0) * SIDE_PX * HEIGHT
-    np.testing.assert_array_equal(tiled.seen(None), color)
+    columns = min(part.right, WIDTH) // TILE_PX - max(part.left, 0) // TILE_PX + 1
+    assert seen.any(axis=-1).sum() <= max(columns, 0) * TILE_PX * HEIGHT
+    np.testing.assert_array_equal(tiled.decode(None), color)
 
 
 def test_a_tile_without_anything_has_no_byte() -> None:
     color = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
-    assert len(packed(color, encode_color)) == 4 + 4 * 8
+    assert len(pack_tiles(color, encode_color)) == 4 + 4 * 8
     color[100, 200] = 9
-    np.testing.assert_array_equal(color_from(packed(color, encode_color)).seen(None)[:80], color[:80])
+    np.testing.assert_array_equal(color_from(pack_tiles(color, encode_color)).decode(None)[:80], color[:80])
 
 
 @pytest.mark.parametrize(
@@ -82,6 +84,6 @@ def test_a_tile_without_anything_has_no_byte() -> None:
     ],
 )
 def test_what_is_no_picture_is_told(damaged: object) -> None:
-    data = packed(noisy_color(), encode_color)
+    data = pack_tiles(noisy_color(), encode_color)
     with pytest.raises(RecordingUnreadable, match="take"):
-        color_from(damaged(data)).seen(None)  # type: ignore[operator]
+        color_from(damaged(data)).decode(None)  # type: ignore[operator]

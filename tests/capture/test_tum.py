@@ -14,20 +14,20 @@ from hypothesis import strategies as st
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.camera_info import write_camera_info
-from carpus.core.capture.files.tum import SIMULATED_REMARK, TumFolder, missing_before, nearest_pairs
+from carpus.core.capture.files.tum import SIMULATED_REMARK, TumFolder, count_dropped_frames, pair_by_time
 from carpus.core.capture.source import FrameSource
 from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
+    DamagedFramesExcluded,
     DepthMissing,
-    FirstPictureDamaged,
-    PictureDamaged,
-    PictureSizeChanged,
-    PicturesLost,
+    FrameDamaged,
+    FrameSizeChanged,
+    InitialFrameDamaged,
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
-    TimesTwice,
+    RepeatedTimesExcluded,
     TimesUnordered,
     UnitAssumed,
 )
@@ -121,7 +121,7 @@ def test_lists_with_windows_line_ends_and_blank_lines_are_read(take: Path) -> No
 
 def test_a_folder_of_colour_only_is_read_when_depth_is_not_needed(take: Path) -> None:
     (take / "depth.txt").unlink()
-    source = TumFolder(take, need_depth=False)
+    source = TumFolder(take, requires_depth=False)
     assert not source.info.has_depth
     assert all(frame.depth_raw is None for frame in source.frames())
 
@@ -191,19 +191,19 @@ BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
         CameraFileUnreadable, "depth_unit_m",
     ),
     "depth times swapped": (swapped("depth.txt"), TimesUnordered, "line 6"),
-    "colour picture gone": (lambda f: sorted((f / "rgb").iterdir())[3].unlink(), PictureDamaged, "missing"),
-    "depth picture gone": (lambda f: sorted((f / "depth").iterdir())[3].unlink(), PictureDamaged, "missing"),
-    "colour picture cut": (lambda f: cut(f, "rgb", 0.5), PictureDamaged, "cut off"),
-    "depth picture cut": (lambda f: cut(f, "depth", 0.9), PictureDamaged, "cut off"),
-    "picture empty": (lambda f: cut(f, "rgb", 0.0), PictureDamaged, "empty"),
-    "picture is text": (lambda f: sorted((f / "rgb").iterdir())[1].write_text("a"), PictureDamaged, "not a picture"),
-    "one bit altered": (flip_a_bit, PictureDamaged, "altered"),
-    "depth of 8 bits": (picture("depth", 2, GREY), PictureDamaged, "8 bits"),
-    "depth in colour": (picture("depth", 2, color_picture(0)), PictureDamaged, "in colour"),
-    "colour of 16 bits": (picture("rgb", 2, np.zeros((HEIGHT, WIDTH, 3), np.uint16)), PictureDamaged, "16 bits"),
-    "colour is grey": (picture("rgb", 0, GREY), FirstPictureDamaged, "grey"),
-    "colour size changes": (picture("rgb", 2, SMALL), PictureSizeChanged, "32 x 24"),
-    "depth of another size": (picture("depth", 0, np.zeros((24, 32), np.uint16)), PictureSizeChanged, "32 x 24"),
+    "colour picture gone": (lambda f: sorted((f / "rgb").iterdir())[3].unlink(), FrameDamaged, "missing"),
+    "depth picture gone": (lambda f: sorted((f / "depth").iterdir())[3].unlink(), FrameDamaged, "missing"),
+    "colour picture cut": (lambda f: cut(f, "rgb", 0.5), FrameDamaged, "cut off"),
+    "depth picture cut": (lambda f: cut(f, "depth", 0.9), FrameDamaged, "cut off"),
+    "picture empty": (lambda f: cut(f, "rgb", 0.0), FrameDamaged, "empty"),
+    "picture is text": (lambda f: sorted((f / "rgb").iterdir())[1].write_text("a"), FrameDamaged, "not a picture"),
+    "one bit altered": (flip_a_bit, FrameDamaged, "altered"),
+    "depth of 8 bits": (picture("depth", 2, GREY), FrameDamaged, "8 bits"),
+    "depth in colour": (picture("depth", 2, color_picture(0)), FrameDamaged, "in colour"),
+    "colour of 16 bits": (picture("rgb", 2, np.zeros((HEIGHT, WIDTH, 3), np.uint16)), FrameDamaged, "16 bits"),
+    "colour is grey": (picture("rgb", 0, GREY), InitialFrameDamaged, "grey"),
+    "colour size changes": (picture("rgb", 2, SMALL), FrameSizeChanged, "32 x 24"),
+    "depth of another size": (picture("depth", 0, np.zeros((24, 32), np.uint16)), FrameSizeChanged, "32 x 24"),
     "camera file of another size": (camera_file(DEFAULT_CAMERA), CameraFileUnreadable, "640 x 480"),
     "mirrored": (camera_file(OWN_CAMERA, mirrored=True), CameraFileUnreadable, "mirrored"),
     "depth at other times": (
@@ -229,7 +229,7 @@ def test_the_pictures_before_a_damaged_one_are_still_yielded(take: Path) -> None
     cut(take, "rgb", 0.5)
     frames = TumFolder(take, read_ahead=4).frames()
     assert [next(frames).index for _ in range(2)] == [0, 1]
-    with pytest.raises(PictureDamaged):
+    with pytest.raises(FrameDamaged):
         next(frames)
 
 
@@ -254,7 +254,7 @@ rising = st.lists(st.integers(0, 400), unique=True, max_size=12).map(lambda ms: 
 def test_pairing_keeps_the_limit_uses_each_depth_once_and_leaves_no_better_pair(
     color_s: np.ndarray, depth_s: np.ndarray
 ) -> None:
-    partner = nearest_pairs(color_s, depth_s)
+    partner = pair_by_time(color_s, depth_s)
     used = [d for d in partner if d is not None]
     assert len(used) == len(set(used))
     for c, d in enumerate(partner):
@@ -273,9 +273,9 @@ def test_pairing_keeps_the_limit_uses_each_depth_once_and_leaves_no_better_pair(
 
 def test_missing_frames_are_judged_by_the_median_period() -> None:
     times = np.array([0.0, 0.033, 0.067, 0.1, 0.232, 0.266, 0.36])
-    assert missing_before(times) == [0, 0, 0, 0, 3, 0, 2]
-    assert missing_before(np.array([0.0, 0.03, 0.07, 0.10, 0.145])) == [0, 0, 0, 0, 0]
-    assert missing_before(np.empty(0)) == []
+    assert count_dropped_frames(times) == [0, 0, 0, 0, 3, 0, 2]
+    assert count_dropped_frames(np.array([0.0, 0.03, 0.07, 0.10, 0.145])) == [0, 0, 0, 0, 0]
+    assert count_dropped_frames(np.empty(0)) == []
 
 
 def test_a_simulated_recording_says_so_and_no_other_does(take: Path) -> None:
@@ -292,7 +292,7 @@ def test_damaged_and_missing_pictures_can_be_left_out_and_are_told(take: Path, r
     color[3].unlink()
     depth[2].write_bytes(b"")
     told: list[CarpusFault] = []
-    source = TumFolder(take, read_ahead=read_ahead, leave_out_damaged=True, notice=told.append)
+    source = TumFolder(take, read_ahead=read_ahead, skip_damaged=True, notice=told.append)
     frames = list(source.frames())
     assert [frame.index for frame in frames] == [0, 1, 2]
     assert [frame.timestamp_s for frame in frames] == [round(TIMES_S[k], 6) for k in (0, 2, 4)]
@@ -300,7 +300,7 @@ def test_damaged_and_missing_pictures_can_be_left_out_and_are_told(take: Path, r
         np.testing.assert_array_equal(frame.color_rgb, color_picture(number))
     assert frames[1].depth_raw is None
     assert frames[1].dropped_before == 1, "the damaged one"
-    assert all(isinstance(fault, PicturesLost) for fault in told)
+    assert all(isinstance(fault, DamagedFramesExcluded) for fault in told)
     assert [fault.detail for fault in told] == ["1 colour missing", "1 colour and 1 depth damaged"]
 
 
@@ -309,8 +309,8 @@ def test_the_first_picture_must_be_there_whole(tmp_path: Path) -> None:
         folder = write_recording(tmp_path / f"take {spoil}")
         spoil(sorted((folder / "rgb").iterdir())[0])
         for leave_out in (False, True):  # and nobody is told to go on without it
-            with pytest.raises(FirstPictureDamaged):
-                TumFolder(folder, leave_out_damaged=leave_out)
+            with pytest.raises(InitialFrameDamaged):
+                TumFolder(folder, skip_damaged=leave_out)
 
 
 @pytest.mark.parametrize(("unit", "counts"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
@@ -336,7 +336,7 @@ def test_a_slow_recording_in_seconds_stays_one(tmp_path: Path, step_s: float) ->
     told: list[CarpusFault] = []
     source = TumFolder(write_recording(tmp_path / "slow", [step_s * k for k in range(4)]), notice=told.append)
     assert not told
-    assert source.stored[3].timestamp_s == pytest.approx(3.0 * step_s)
+    assert source.stored_frames[3].timestamp_s == pytest.approx(3.0 * step_s)
 
 
 def test_a_time_twice_is_left_out_and_counted(take: Path) -> None:
@@ -345,7 +345,10 @@ def test_a_time_twice_is_left_out_and_counted(take: Path) -> None:
     told: list[CarpusFault] = []
     frames = list(TumFolder(take, notice=told.append).frames())
     assert [frame.timestamp_s for frame in frames] == [round(time_s, 6) for time_s in TIMES_S]
-    assert [(type(fault), fault.detail) for fault in told] == [(TimesTwice, "2"), (TimesTwice, "2")]
+    assert [(type(fault), fault.detail) for fault in told] == [
+        (RepeatedTimesExcluded, "2"),
+        (RepeatedTimesExcluded, "2"),
+    ]
 
 
 def test_backslashes_in_lists_are_read(take: Path) -> None:

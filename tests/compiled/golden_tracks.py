@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.calibration.calibrate import calibrate
+from carpus.core.calibration.calibrate import calibrate_hand
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.pipeline.track import TrackSettings, build_pipeline, learnt_from
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.pipeline.track import TrackSettings, build_pipeline, noise_from_neutral
+from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, Frame
 from tests.rendered import LEFT_DEVIATION, WHOLE_HAND
@@ -59,12 +59,12 @@ def tracked(folder: Path, *, in_trouble: bool) -> dict[str, np.ndarray]:
         frames = damaged(frames, clicks.pixel)
     camera, settings = TumFolder(folder).info.camera, TrackSettings()
     opening = [frame for frame in frames if frame.timestamp_s - frames[0].timestamp_s <= settings.calibration.still_s]
-    outcome = calibrate(clicks, opening, camera, settings.calibration, settings.detection, None)
+    outcome = calibrate_hand(clicks, opening, camera, settings.calibration, settings.detection, None)
     ends_s = opening[max(outcome.capture_frames, 1) - 1].timestamp_s
-    pipeline = build_pipeline(outcome, camera, settings, learnt_from(outcome.noise, ends_s, settings.tracker))
+    pipeline = build_pipeline(outcome, camera, settings, noise_from_neutral(outcome.noise, ends_s, settings.tracker))
     found = [pipeline(frame) for frame in frames if frame.timestamp_s > ends_s]
-    moments = [frame.moment for frame in found]
-    back = pipeline.tracker.smoothed()
+    moments = [frame.kinematics for frame in found]
+    back = pipeline.tracker.smooth()
     return {
         "pictures": np.array(seen, dtype=np.uint32),
         "status": np.array([list(type(frame.status)).index(frame.status) for frame in found], dtype=np.uint8),
@@ -91,7 +91,7 @@ def main() -> None:
     """Write the file."""
     out = {}
     for case in CASES:
-        folder = cached_recording(SPECS[case.removesuffix(IN_TROUBLE)])
+        folder = render_cached(SPECS[case.removesuffix(IN_TROUBLE)])
         out |= {f"{case}/{key}": value for key, value in tracked(folder, in_trouble=case.endswith(IN_TROUBLE)).items()}
     np.savez_compressed(PLACE, **out)
     print(f"{PLACE.name}: {PLACE.stat().st_size} bytes")

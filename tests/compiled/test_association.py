@@ -6,13 +6,18 @@ import numpy as np
 import pytest
 
 from carpus.core.compiled import association as compiled
-from carpus.core.tracking.association import DEPTH_OUTLIER, IMPOSSIBLE, AssociationSettings, log_densities
+from carpus.core.tracking.association import (
+    DEPTH_OUTLIER_PROBABILITY,
+    LOG_IMPOSSIBLE,
+    AssociationSettings,
+    log_densities,
+)
 from tests.compiled.comparing import LAYOUTS, assert_same
 from tests.compiled.oracle import association as oracle
 from tests.compiled.test_mixture import covariances
 
 SETTINGS = AssociationSettings()
-REST = log_densities(3e5, DEPTH_OUTLIER, SETTINGS), SETTINGS.gate_sd**2, IMPOSSIBLE
+REST = log_densities(3e5, DEPTH_OUTLIER_PROBABILITY, SETTINGS), SETTINGS.gate_sd**2, LOG_IMPOSSIBLE
 
 
 def asked(blobs: int) -> tuple[np.ndarray, ...]:

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from carpus.core.compiled import blobs as compiled
 from carpus.core.compiled.blobs import BlobWindows
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.detection.components import Components, components
+from carpus.core.detection.components import Components, find_components
 from carpus.core.detection.detector import ColorTable
-from carpus.core.detection.stencil import Stencil, stencil_for
+from carpus.core.detection.stencil import Stencil, get_stencil
 from carpus.core.types import ByteImage, DepthImage
 from tests.compiled.comparing import LAYOUTS, assert_same
 from tests.compiled.oracle import blobs as oracle
@@ -76,7 +76,7 @@ def test_blobs_of_small_pictures_are_the_oracles(seed: int, height: int, width: 
 def test_whole_blobs_are_those_of_opencv() -> None:
     mask = mask_of("discs", 0.5, np.random.default_rng(9))
     _, labels, stats, middle = cv2.connectedComponentsWithStats(mask, connectivity=8)
-    found = components(mask, lambda place: np.full(len(place), 1e3))
+    found = find_components(mask, lambda place: np.full(len(place), 1e3))
     row, column = np.nonzero(mask)
     same = labels[row, column] - 1
     of = found.labels[row, column] - 1
@@ -88,7 +88,7 @@ def test_whole_blobs_are_those_of_opencv() -> None:
 def test_more_blobs_than_sixteen_bits_number_are_found() -> None:
     mask = np.zeros((600, 1000), dtype=np.uint8)
     mask[::2, ::2] = 1
-    assert components(mask, radius_at).label.size == 150_000
+    assert find_components(mask, radius_at).label.size == 150_000
 
 
 def test_a_picture_of_nothing_has_no_blobs() -> None:
@@ -98,7 +98,7 @@ def test_a_picture_of_nothing_has_no_blobs() -> None:
 def test_a_disc_of_no_size_takes_nothing_apart() -> None:
     mask = mask_of("discs", 0.5, np.random.default_rng(9))
     for radius_px in (0.0, -1.0, np.nan):
-        assert not components(mask, lambda place, r=radius_px: np.full(len(place), r), 0.1, 2.0).label.size
+        assert not find_components(mask, lambda place, r=radius_px: np.full(len(place), r), 0.1, 2.0).label.size
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
@@ -147,8 +147,8 @@ class Scene:
         raw = 3500 + np.rint(8.0 * rng.normal(size=u.shape)) + 250.0 * (u > 125) + 12.0 * (u - 60) * (v < 35)
         raw[(rng.uniform(size=u.shape) < 0.2) | ((u > 84) & (u < 95))] = 0
         self.raw: DepthImage = raw.astype(np.uint16)
-        self.blobs = components((share[..., 0] > 0.5).astype(np.uint8), radius_at)
-        self.stencil = stencil_for(RADIUS_PX)
+        self.blobs = find_components((share[..., 0] > 0.5).astype(np.uint8), radius_at)
+        self.stencil = get_stencil(RADIUS_PX)
         self.table = ColorTable(
             rng.integers(0, 256, 1 << 16).astype(np.uint8),
             rng.uniform(size=1 << 16) < 0.5,
@@ -187,7 +187,7 @@ def test_measured_blobs_are_the_oracles(sensor: DepthSensor) -> None:
 def test_windows_of_any_size_measure_as_the_oracles(radius_px: float) -> None:
     """The largest is wider than the picture."""
     scene = Scene()
-    scene.stencil = stencil_for(radius_px, 2)
+    scene.stencil = get_stencil(radius_px, 2)
     assert_same(scene.measured(D435), scene.expected(D435))
 
 
@@ -195,7 +195,7 @@ def test_windows_of_any_size_measure_as_the_oracles(radius_px: float) -> None:
 def test_blobs_of_any_shape_measure_as_the_oracles(shapes: str) -> None:
     """Of random colours: windows without a core or a rim, and cores with a single reading."""
     rng, scene = np.random.default_rng(4), Scene()
-    scene.blobs = components(mask_of(shapes, 0.35, rng), radius_at)
+    scene.blobs = find_components(mask_of(shapes, 0.35, rng), radius_at)
     scene.color = rng.integers(0, 256, (150, 200, 3)).astype(np.uint8)
     scene.hsv = rng.integers(0, 256, (150, 200, 3)).astype(np.uint8)
     scene.raw = (rng.integers(3500, 3530, (150, 200)) * rng.integers(0, 2, (150, 200))).astype(np.uint16)
@@ -210,7 +210,7 @@ def test_pictures_stored_otherwise_measure_the_same(layout: Callable[[Any], Any]
 
 def test_no_blobs_measure_nothing() -> None:
     scene = Scene()
-    scene.blobs = scene.blobs.select(np.empty(0, dtype=np.int64))
+    scene.blobs = scene.blobs.subset(np.empty(0, dtype=np.int64))
     assert [len(numbers) for numbers in scene.measured(PRIMESENSE)] == [0] * 6
 
 

@@ -14,26 +14,26 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.compiled import digit_images
 from carpus.core.compiled import digits as compiled
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.association import DEPTH_OUTLIER, IMPOSSIBLE, log_densities
-from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
+from carpus.core.tracking.association import DEPTH_OUTLIER_PROBABILITY, LOG_IMPOSSIBLE, log_densities
+from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
 from carpus.core.tracking.digit_filter import (
-    SEEN,
-    DigitPoints,
-    DigitsLinearisation,
-    bent_weights,
-    digits_linearised,
-    spread_points,
+    OBSERVED,
+    DigitLinearisation,
+    DigitSigmaPoints,
+    digit_sigma_weights,
+    draw_sigma_points,
+    linearise_digits,
 )
-from carpus.core.tracking.digit_readout import Seat, seat_of
-from carpus.core.tracking.fingers import Fingers
+from carpus.core.tracking.digit_readout import DigitBase, base_from_estimate
+from carpus.core.tracking.fingers import FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.hand_geometry import palm_of
-from carpus.core.tracking.joint_limits import _DIRECTION, NEAR_SD, SOFT_RAD, slot_limits_rad
+from carpus.core.tracking.hand_geometry import palm_calibration
+from carpus.core.tracking.joint_limits import _DIRECTION, LIMIT_GATE_SD, LIMIT_SD_RAD, slot_limits_rad
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.types import FloatArray
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import digit_images as seen_oracle
@@ -52,8 +52,8 @@ Laid = Callable[[np.ndarray], np.ndarray]
 class Hand:
     """A calibrated hand whose palm sits somewhere, its digits bent at random."""
 
-    fingers: Fingers
-    seat: Seat
+    fingers: FingerFilter
+    seat: DigitBase
     mean: FloatArray
     covariance: FloatArray
 
@@ -61,15 +61,15 @@ class Hand:
     def root_m(self) -> FloatArray:
         return self.seat.palm.disc_m[1:]
 
-    def points(self) -> DigitPoints:
-        return spread_points(self.mean, self.covariance, self.root_m, Spread())
+    def points(self) -> DigitSigmaPoints:
+        return draw_sigma_points(self.mean, self.covariance, self.root_m, UnscentedParameters())
 
-    def linearised(self) -> DigitsLinearisation:
-        return digits_linearised(self.points(), self.seat.view, Spread())
+    def linearised(self) -> DigitLinearisation:
+        return linearise_digits(self.points(), self.seat.view, UnscentedParameters())
 
     def limited(self, mixture: ModeMixture) -> tuple[Any, ...]:
         """What the limits are asked with."""
-        return mixture, slot_limits_rad(mixture.mean[:, 0, :5]), _DIRECTION, SOFT_RAD, NEAR_SD
+        return mixture, slot_limits_rad(mixture.mean[:, 0, :5]), _DIRECTION, LIMIT_SD_RAD, LIMIT_GATE_SD
 
 
 @cache
@@ -86,13 +86,13 @@ def known(side: str) -> Calibration:
 def hand(side: str = "right", seed: int = 1, is_lost: bool = False) -> Hand:
     """``is_lost``: its joints may be anywhere."""
     rng = np.random.default_rng(seed)
-    fingers = Fingers(known(side), CAMERA, SETTINGS)
+    fingers = FingerFilter(known(side), CAMERA, SETTINGS)
     view = HandFilter(known(side), CAMERA, SETTINGS).view
     estimate = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
-    seat = seat_of(estimate, view, Readout(palm_of(known(side)), view.camera, 6e-3))
-    mean, covariance = fingers.model.at_neutral().merged()
+    seat = base_from_estimate(estimate, view, Readout(palm_calibration(known(side)), view.camera, 6e-3))
+    mean, covariance = fingers.model.neutral_mixture().merge()
     if is_lost:
-        return Hand(fingers, seat, *fingers.model.anywhere(mean, covariance).merged())
+        return Hand(fingers, seat, *fingers.model.diffuse_mixture(mean, covariance).merge())
     scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
     mean = mean + scale * rng.normal(size=mean.shape)
     mean[:, :5] += rng.uniform(0.0, 1.2, size=(5, 5))
@@ -106,9 +106,9 @@ HANDS = [("right", 0, False), ("right", 1, False), ("left", 1, False), ("right",
 def test_points_and_their_images_are_the_oracles(which: tuple[str, int, bool]) -> None:
     it = hand(*which)
     points = it.points()
-    assert_same(points, oracle.spread_points(it.mean, it.covariance, it.root_m, Spread()))
+    assert_same(points, oracle.spread_points(it.mean, it.covariance, it.root_m, UnscentedParameters()))
     linearised = it.linearised()
-    assert_same(linearised, seen_oracle.linearise_images(points, it.seat.view, Spread()))
+    assert_same(linearised, seen_oracle.linearise_images(points, it.seat.view, UnscentedParameters()))
     tilted = digit_images.compute_tilts(points.normal, it.covariance, linearised, it.seat.view)
     for name, of in {
         "project_discs": (points, it.seat.view, 1.5),
@@ -139,20 +139,20 @@ def test_what_named_blobs_measure_is_the_oracles(blobs: int) -> None:
             it.seat.view, 0.2, np.arange(5) < 4,
         )  # fmt: skip
         expected = seen_oracle.measured_as_named(scene, names, SETTINGS)
-        assert_same(measured_as_named(scene, names, SETTINGS), expected)
+        assert_same(measurements_from_assignment(scene, names, SETTINGS), expected)
         scene = replace(scene, free=rng.uniform(size=blobs) < 0.7)
-        asked = scene, log_densities(3e5, DEPTH_OUTLIER, SETTINGS.association), 25.0, IMPOSSIBLE, 2.2
+        asked = scene, log_densities(3e5, DEPTH_OUTLIER_PROBABILITY, SETTINGS.association), 25.0, LOG_IMPOSSIBLE, 2.2
         assert_same(digit_images.compute_disc_odds(*asked), seen_oracle.compute_disc_odds(*asked))
         for layout in LAYOUTS:
             scene_so, names_so = laid_out(scene, layout), laid_out(names, layout)
             odds = digit_images.compute_disc_odds(scene_so, *asked[1:])
             assert_same(odds, digit_images.compute_disc_odds(*asked), 0.0)
-            assert_same(measured_as_named(scene_so, names_so, SETTINGS), expected)
+            assert_same(measurements_from_assignment(scene_so, names_so, SETTINGS), expected)
         with pytest.raises(ValueError, match="is read"):
             digit_images.compute_disc_odds(replace(scene, visible=scene.visible[:4]), *asked[1:])
         for wrong in (replace(names, assigned=assigned[:4]), replace(names, assigned=np.full((5, 3), blobs))):
             with pytest.raises(ValueError, match="names"):
-                measured_as_named(scene, wrong, SETTINGS)
+                measurements_from_assignment(scene, wrong, SETTINGS)
 
 
 @pytest.mark.parametrize("dt_s", [0.0, 0.033, 0.2])
@@ -160,16 +160,16 @@ def test_a_step_of_digits_is_the_oracles(dt_s: float) -> None:
     it, rng = hand(), np.random.default_rng(21)
     unseen_s = np.where(rng.uniform(size=(5, 5)) < 0.5, 0.0, rng.uniform(0.0, 1.0, size=(5, 5)))
     motion, scale2 = it.fingers.model.motion, rng.uniform(0.1, 4.0, size=(5, 2))
-    for forgetting in (None, it.fingers.model.forgetting(it.mean, unseen_s, dt_s)):
-        found = compiled.move_digits(motion, dt_s, scale2, forgetting)
+    for forgetting in (None, it.fingers.model.compute_forgetting(it.mean, unseen_s, dt_s)):
+        found = compiled.compute_digit_transition(motion, dt_s, scale2, forgetting)
         assert_same(found, oracle.move_digits(motion, dt_s, scale2, forgetting))
-        assert_same(compiled.move_digits(motion, dt_s, np.asfortranarray(scale2), forgetting), found, 0.0)
+        assert_same(compiled.compute_digit_transition(motion, dt_s, np.asfortranarray(scale2), forgetting), found, 0.0)
     with pytest.raises(ValueError, match="is read"):
-        compiled.move_digits(motion, dt_s, scale2[:4], None)
+        compiled.compute_digit_transition(motion, dt_s, scale2[:4], None)
 
 
 def test_bones_joints_and_discs_are_the_oracles() -> None:
-    it, pose = hand(), hand().mean[:, SEEN]
+    it, pose = hand(), hand().mean[:, OBSERVED]
     bone, normal, joint_m, disc_m = compiled.place_digits(pose, it.root_m)
     frames = oracle.digit_frames(pose)
     expected_m = oracle.digit_discs_m(it.root_m, pose[:, None])
@@ -205,9 +205,9 @@ def test_limits_far_from_all_angles_change_nothing() -> None:
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_arrays_stored_otherwise_give_the_same(layout: Laid) -> None:
-    it, weights = hand(), bent_weights(Spread())
-    points, linearised, pose = it.points(), it.linearised(), it.mean[:, SEEN]
-    mixture = it.fingers.model.alike(it.mean, it.covariance)
+    it, weights = hand(), digit_sigma_weights(UnscentedParameters())
+    points, linearised, pose = it.points(), it.linearised(), it.mean[:, OBSERVED]
+    mixture = it.fingers.model.mixture_from_gaussian(it.mean, it.covariance)
     steps: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
         (compiled.place_digits, (pose, it.root_m)),
         (compiled.place_discs, (pose[1:3, None], it.root_m[1:3], [1, 2])),
@@ -227,32 +227,32 @@ def test_an_unknown_digit_leaves_the_others_known() -> None:
     it, others = hand(), [0, 1, 3, 4]
     mean = it.mean.copy()
     mean[2, 1] = np.nan
-    points = spread_points(mean, it.covariance, it.root_m, Spread())
-    linearised = digits_linearised(points, it.seat.view, Spread())
+    points = draw_sigma_points(mean, it.covariance, it.root_m, UnscentedParameters())
+    linearised = linearise_digits(points, it.seat.view, UnscentedParameters())
     for found, whole in ((points, it.points()), (linearised, it.linearised())):
         assert_same(laid_out(found, lambda one: one[others]), laid_out(whole, lambda one: one[others]), 0.0)
-    expected = oracle.spread_points(mean, it.covariance, it.root_m, Spread())
+    expected = oracle.spread_points(mean, it.covariance, it.root_m, UnscentedParameters())
     assert_same((points.disc_m, points.normal), (expected.disc_m, expected.normal))
-    assert_same(linearised.value, seen_oracle.linearise_images(expected, it.seat.view, Spread()).value)
+    assert_same(linearised.value, seen_oracle.linearise_images(expected, it.seat.view, UnscentedParameters()).value)
     of = points.normal, it.covariance, linearised, it.seat.view
     assert np.isnan(digit_images.compute_tilts(*of)[0][2]).any()
     assert_same(digit_images.compute_tilts(*of), seen_oracle.compute_tilts(*of))
-    asked = it.limited(it.fingers.model.alike(mean, it.covariance))
+    asked = it.limited(it.fingers.model.mixture_from_gaussian(mean, it.covariance))
     assert_same(compiled.apply_limits(*asked), oracle.apply_limits(*asked))
 
 
 def test_what_is_no_covariance_is_refused() -> None:
     it = hand()
     with pytest.raises(np.linalg.LinAlgError):
-        spread_points(it.mean, -it.covariance, it.root_m, Spread())
+        draw_sigma_points(it.mean, -it.covariance, it.root_m, UnscentedParameters())
     with pytest.raises(np.linalg.LinAlgError):
         digit_images.compute_inherited(-it.covariance, it.seat, it.linearised(), it.points().normal)
 
 
 def test_sizes_that_do_not_fit_are_refused() -> None:
-    it, weights = hand(), bent_weights(Spread())
-    points, linearised, pose, view = it.points(), it.linearised(), it.mean[:, SEEN], it.seat.view
-    mixture = it.fingers.model.alike(it.mean, it.covariance)
+    it, weights = hand(), digit_sigma_weights(UnscentedParameters())
+    points, linearised, pose, view = it.points(), it.linearised(), it.mean[:, OBSERVED], it.seat.view
+    mixture = it.fingers.model.mixture_from_gaussian(it.mean, it.covariance)
     _, limits, *rest = it.limited(mixture)
     wrong: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
         (compiled.place_digits, (it.mean, it.root_m)),

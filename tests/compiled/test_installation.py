@@ -36,7 +36,7 @@ def test_doctor_tells_what_is_not_compiled(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr(doctor, "import_module", broken)
     finding = doctor.check_compiled_parts()
-    assert (finding.state, "mixture" in finding.found) == ("bad", True)
+    assert (finding.state, "mixture" in finding.observation) == ("bad", True)
     assert finding.remedy
 
 

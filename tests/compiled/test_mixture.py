@@ -13,12 +13,12 @@ from carpus.core.tracking.kernel import (
     Linearisation,
     ModeMixture,
     Transition,
-    corrected,
-    mixed,
-    partial_update,
-    predicted,
-    switching,
-    transitioned,
+    mix_modes,
+    mode_transition_matrix,
+    partial_update_shares,
+    predict_mixture,
+    propagate_mixture,
+    update_mixture,
 )
 from carpus.core.types import FloatArray
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
@@ -70,20 +70,20 @@ ONES = np.ones((1, 4))
 @pytest.mark.parametrize("size", SIZES)
 def test_merged_of_any_size_is_the_oracles(size: tuple[int, ...]) -> None:
     mixture = mixture_of(np.random.default_rng(7), *size[:3])
-    assert_same(compiled.merged(mixture), oracle.merged(mixture))
+    assert_same(compiled.merge_modes(mixture), oracle.merged(mixture))
 
 
 @pytest.mark.parametrize("size", SIZES)
 def test_steps_ahead_of_any_size_are_the_oracles(size: tuple[int, ...]) -> None:
     rng = np.random.default_rng(12)
     chains, modes, n, _ = size
-    mixture, switch = mixture_of(rng, chains, modes, n), switching(modes, 0.5, 0.03)
-    assert_same(mixed(mixture, switch), oracle.mixed(mixture, switch))
+    mixture, switch = mixture_of(rng, chains, modes, n), mode_transition_matrix(modes, 0.5, 0.03)
+    assert_same(mix_modes(mixture, switch), oracle.mixed(mixture, switch))
     forward, noise = rng.normal(size=(chains, n, n)), covariances(rng, chains, modes, n)
     forward[rng.uniform(size=forward.shape) < 0.6] = 0.0
-    assert_same(predicted(mixture, forward, noise, switch), oracle.predicted(mixture, forward, noise, switch))
+    assert_same(predict_mixture(mixture, forward, noise, switch), oracle.predicted(mixture, forward, noise, switch))
     step, nominal = step_of(rng, modes, n), rng.normal(size=n)
-    assert_same(transitioned(mixture, step, nominal, switch), oracle.transitioned(mixture, step, nominal, switch))
+    assert_same(propagate_mixture(mixture, step, nominal, switch), oracle.transitioned(mixture, step, nominal, switch))
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -96,8 +96,8 @@ def test_correction_of_any_size_is_the_oracles(size: tuple[int, ...], unseen: fl
     measured = np.where(rng.uniform(size=(chains, m)) < unseen, np.nan, rng.normal(size=(chains, m)))
     variance = np.where(np.isnan(measured), np.nan, rng.uniform(1e-6, 2.0, size=(chains, m)))
     shared = covariances(rng, chains, m) if extras else None
-    partial = partial_update(n, slice(1, 3), 0.3) if extras else None
-    found = corrected(mixture, line, measured, variance, shared, partial)
+    partial = partial_update_shares(n, slice(1, 3), 0.3) if extras else None
+    found = update_mixture(mixture, line, measured, variance, shared, partial)
     assert_same(found, oracle.corrected(mixture, line, measured, variance, shared, partial))
     assert (found.dof == np.isfinite(measured).sum(axis=1)).all()
 
@@ -112,10 +112,10 @@ def test_a_number_unknown_is_not_passed_over_where_nothing_depends_on_it(size: t
     mixture.covariance[:, :, n - 1, n - 2] = mixture.covariance[:, :, n - 2, n - 1] = unknown
     measured, variance = rng.normal(size=(chains, m)), rng.uniform(1e-6, 2.0, size=(chains, m))
     with np.errstate(invalid="ignore"):
-        for how in (corrected, oracle.corrected):
+        for how in (update_mixture, oracle.corrected):
             assert not np.isfinite(how(mixture, line, measured, variance).mixture.mean).any()
         forward, noise = np.repeat(np.eye(n)[None], chains, axis=0), covariances(rng, chains, modes, n)
-        found, expected = (how(mixture, forward, noise).covariance for how in (predicted, oracle.predicted))
+        found, expected = (how(mixture, forward, noise).covariance for how in (predict_mixture, oracle.predicted))
         assert not np.isfinite(found[:, :, n - 1]).any()
         assert (np.isfinite(found) <= np.isfinite(expected)).all()
 
@@ -123,7 +123,7 @@ def test_a_number_unknown_is_not_passed_over_where_nothing_depends_on_it(size: t
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_arrays_stored_otherwise_give_the_same(layout: Callable[[np.ndarray], np.ndarray]) -> None:
     rng = np.random.default_rng(8)
-    mixture, line, switch = mixture_of(rng, 5, 2, 21), line_of(rng, 5, 21, 9), switching(2, 0.5, 0.03)
+    mixture, line, switch = mixture_of(rng, 5, 2, 21), line_of(rng, 5, 21, 9), mode_transition_matrix(2, 0.5, 0.03)
     measured, variance = rng.normal(size=(5, 9)), rng.uniform(1e-6, 2.0, size=(5, 9))
     step, nominal, forward, noise = (
         step_of(rng, 2, 21),
@@ -132,11 +132,11 @@ def test_arrays_stored_otherwise_give_the_same(layout: Callable[[np.ndarray], np
         covariances(rng, 5, 2, 21),
     )
     other = laid_out(mixture, layout)
-    assert_same(compiled.merged(other), oracle.merged(mixture))
-    assert_same(mixed(other, layout(switch)), oracle.mixed(mixture, switch))
-    assert_same(predicted(other, layout(forward), layout(noise)), oracle.predicted(mixture, forward, noise))
-    assert_same(transitioned(other, laid_out(step, layout), nominal), oracle.transitioned(mixture, step, nominal))
-    found = corrected(other, laid_out(line, layout), layout(measured), layout(variance))
+    assert_same(compiled.merge_modes(other), oracle.merged(mixture))
+    assert_same(mix_modes(other, layout(switch)), oracle.mixed(mixture, switch))
+    assert_same(predict_mixture(other, layout(forward), layout(noise)), oracle.predicted(mixture, forward, noise))
+    assert_same(propagate_mixture(other, laid_out(step, layout), nominal), oracle.transitioned(mixture, step, nominal))
+    found = update_mixture(other, laid_out(line, layout), layout(measured), layout(variance))
     assert_same(found, oracle.corrected(mixture, line, measured, variance))
 
 
@@ -145,7 +145,7 @@ def test_no_correction_by_what_is_no_covariance_and_unknown_stays_unknown() -> N
     negative = replace(line, error=line.error - 1e3 * np.eye(4))
     no_scatter = replace(line, slope=np.zeros((1, 4, 6)), error=-np.eye(4)[None])
     unknown = replace(line, error=np.where(np.eye(4) > 0.0, np.nan, line.error))
-    for how in (corrected, oracle.corrected):
+    for how in (update_mixture, oracle.corrected):
         for bad in (negative, no_scatter):
             with pytest.raises(np.linalg.LinAlgError):
                 how(mixture, bad, ONES, ONES)
@@ -155,7 +155,7 @@ def test_no_correction_by_what_is_no_covariance_and_unknown_stays_unknown() -> N
 def test_a_mode_that_is_far_off_keeps_the_same_little_chance() -> None:
     mixture, line = small(modes=3)
     mixture.mean[0, 2] += 1e3
-    found = corrected(mixture, line, ONES, ONES)
+    found = update_mixture(mixture, line, ONES, ONES)
     assert_same(found, oracle.corrected(mixture, line, ONES, ONES))
     assert found.mixture.probability[0, 2] == pytest.approx(1e-6, rel=1e-3)
 
@@ -170,12 +170,12 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
         replace(mixture, mean=mixture.mean[0]),
     ):
         with pytest.raises(ValueError, match=r"size|dtype|dimensions"):
-            compiled.merged(wrong)
+            compiled.merge_modes(wrong)
     square = np.ones((2, 5, 5))
     with pytest.raises(ValueError, match="size"):
-        predicted(mixture, square[:1], covariances(np.random.default_rng(1), 2, 3, 5))
+        predict_mixture(mixture, square[:1], covariances(np.random.default_rng(1), 2, 3, 5))
     with pytest.raises(ValueError, match="row"):
-        mixed(mixture, np.ones((2, 2)))
+        mix_modes(mixture, np.ones((2, 2)))
     step = step_of(np.random.default_rng(2), 3, 5)
     wide = np.ones((3, 9, 9))
     for wrong_step in (
@@ -186,7 +186,7 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
         replace(step, relaxing=wide),
     ):
         with pytest.raises(ValueError, match="size"):
-            transitioned(mixture, wrong_step, np.ones(5))
+            propagate_mixture(mixture, wrong_step, np.ones(5))
 
 
 @pytest.mark.parametrize("wrong", ["covariance", "about", "measured", "variance", "shared", "partial"])
@@ -203,4 +203,4 @@ def test_a_measurement_of_another_size_is_refused(wrong: str) -> None:
     else:
         given[wrong] = given[wrong][:1]
     with pytest.raises(ValueError, match="size"):
-        corrected(mixture, line, **given)
+        update_mixture(mixture, line, **given)

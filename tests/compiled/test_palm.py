@@ -12,28 +12,28 @@ from carpus.core import so3
 from carpus.core.compiled import palm as compiled
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import MotionNoise, PalmMotion
-from carpus.core.tracking.palm_state import SIZE, PalmEstimate, View
+from carpus.core.tracking.palm_state import SIZE, PalmEstimate, PalmView
 from carpus.core.tracking.soft_tissue import (
     DigitSpeeds,
     SoftTissue,
     TissueModes,
-    always_pushed,
-    moved_by_joints,
-    resting_or_moving,
+    joint_driven_modes,
+    resting_and_moving_modes,
+    single_moving_mode,
 )
-from carpus.core.tracking.unscented import Spread, weights_for
+from carpus.core.tracking.unscented import UnscentedParameters, compute_weights
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import palm as oracle
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 from tests.tracking.test_palm_filter import moving
 
-SPEEDS, WEIGHTS = DigitSpeeds(0.7, 1.3), weights_for(6, Spread())
-TISSUES = (always_pushed, resting_or_moving, moved_by_joints)
+SPEEDS, WEIGHTS = DigitSpeeds(0.7, 1.3), compute_weights(6, UnscentedParameters())
+TISSUES = (single_moving_mode, resting_and_moving_modes, joint_driven_modes)
 
 
-def view_of(rng: np.random.Generator) -> View:
+def view_of(rng: np.random.Generator) -> PalmView:
     turned = FROM_ABOVE @ so3.exp(0.2 * rng.normal(size=3))
-    return View(CAMERA, turned, MIDDLE_M, RIGHT_PALM_M, 0.3 * rng.normal(size=(6, 18)))
+    return PalmView(CAMERA, turned, MIDDLE_M, RIGHT_PALM_M, 0.3 * rng.normal(size=(6, 18)))
 
 
 def mixture_about(estimate: PalmEstimate, rng: np.random.Generator, modes: int) -> ModeMixture:
@@ -58,9 +58,9 @@ def test_step_of_any_motion_is_the_oracles(
     motion, along = motion_of(tissue, scales), np.random.default_rng(13).normal(size=3)
     unseen = np.outer(along, along) / (along @ along)
     for rate, hidden in ((moving(1).rate_rad_s, None), (moving(2).rate_rad_s, unseen), (np.zeros(3), None)):
-        found = compiled.move_palm(motion, rate, dt_s, hidden, SPEEDS)
+        found = compiled.compute_palm_transition(motion, rate, dt_s, hidden, SPEEDS)
         assert_same(found, oracle.move_palm(motion, rate, dt_s, hidden, SPEEDS))
-        switch = compiled.switch_modes(motion, rate, dt_s, SPEEDS)
+        switch = compiled.compute_mode_transition(motion, rate, dt_s, SPEEDS)
         assert_same(switch, oracle.switch_modes(motion, rate, dt_s, SPEEDS))
         assert np.allclose(switch.sum(axis=1), 1.0)
 
@@ -71,20 +71,25 @@ def test_sight_and_reset_of_any_palm_are_the_oracles(seed: int, modes: int) -> N
     rng = np.random.default_rng(seed)
     estimate, view = moving(seed), view_of(rng)
     mixture = mixture_about(estimate, rng, modes)
-    assert_same(compiled.see_palm(estimate, mixture, view, WEIGHTS), oracle.see_palm(estimate, mixture, view, WEIGHTS))
+    assert_same(
+        compiled.predict_palm_measurement(estimate, mixture, view, WEIGHTS),
+        oracle.see_palm(estimate, mixture, view, WEIGHTS),
+    )
     assert_same(compiled.reset_errors(estimate, mixture), oracle.reset_errors(estimate, mixture))
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_arrays_stored_otherwise_are_read_as_they_are(layout: Callable[[np.ndarray], np.ndarray]) -> None:
-    rng, motion = np.random.default_rng(4), motion_of(moved_by_joints, (0.5, 4.0))
+    rng, motion = np.random.default_rng(4), motion_of(joint_driven_modes, (0.5, 4.0))
     estimate, view = moving(4), view_of(rng)
     mixture, unseen = mixture_about(estimate, rng, 3), np.diag([1.0, 0.0, 0.0])
     palm, modes = laid_out(estimate, layout), laid_out(mixture, layout)
     seen = replace(view, palm_m=layout(view.palm_m), hidden=layout(view.hidden))
-    assert_same(compiled.see_palm(palm, modes, seen, WEIGHTS), oracle.see_palm(estimate, mixture, view, WEIGHTS))
+    assert_same(
+        compiled.predict_palm_measurement(palm, modes, seen, WEIGHTS), oracle.see_palm(estimate, mixture, view, WEIGHTS)
+    )
     assert_same(compiled.reset_errors(palm, modes), oracle.reset_errors(estimate, mixture))
-    found = compiled.move_palm(motion, layout(estimate.rate_rad_s), 0.03, layout(unseen), SPEEDS)
+    found = compiled.compute_palm_transition(motion, layout(estimate.rate_rad_s), 0.03, layout(unseen), SPEEDS)
     assert_same(found, oracle.move_palm(motion, estimate.rate_rad_s, 0.03, unseen, SPEEDS))
 
 
@@ -96,7 +101,7 @@ def test_an_unknown_number_is_unknown_where_the_oracles_is() -> None:
     shaky = replace(estimate, value=moving(5).value, covariance=estimate.covariance.copy())
     shaky.covariance[-1, :3] = shaky.covariance[:3, -1] = np.nan
     for palm, part in ((estimate, 3), (shaky, 4)):
-        found = compiled.see_palm(palm, mixture, view, WEIGHTS)
+        found = compiled.predict_palm_measurement(palm, mixture, view, WEIGHTS)
         assert np.isnan(found[part]).any()
         assert_same(found, oracle.see_palm(palm, mixture, view, WEIGHTS))
     assert_same(compiled.reset_errors(estimate, mixture), oracle.reset_errors(estimate, mixture))
@@ -107,11 +112,11 @@ def test_a_palm_that_is_not_known_at_all_is_no_covariance(sign: float) -> None:
     rng, estimate = np.random.default_rng(0), moving()
     broken = replace(estimate, covariance=sign * estimate.covariance)
     with pytest.raises(np.linalg.LinAlgError):
-        compiled.see_palm(broken, mixture_about(estimate, rng, 2), view_of(rng), WEIGHTS)
+        compiled.predict_palm_measurement(broken, mixture_about(estimate, rng, 2), view_of(rng), WEIGHTS)
 
 
 def test_sizes_and_types_that_do_not_fit_are_refused() -> None:
-    rng, estimate, motion = np.random.default_rng(6), moving(6), motion_of(resting_or_moving, (0.5, 4.0))
+    rng, estimate, motion = np.random.default_rng(6), moving(6), motion_of(resting_and_moving_modes, (0.5, 4.0))
     view, mixture = view_of(rng), mixture_about(estimate, rng, 2)
     for palm, modes, seen in (
         (replace(estimate, value=estimate.value[:-1]), mixture, view),
@@ -123,11 +128,14 @@ def test_sizes_and_types_that_do_not_fit_are_refused() -> None:
         (estimate, mixture, replace(view, hidden=view.hidden[:5])),
     ):
         with pytest.raises(ValueError, match=r"where|dtype"):
-            compiled.see_palm(palm, modes, seen, WEIGHTS)
+            compiled.predict_palm_measurement(palm, modes, seen, WEIGHTS)
     with pytest.raises(ValueError, match="where"):
         compiled.reset_errors(replace(estimate, value=estimate.value[:-1]), mixture)
-    for step in (compiled.switch_modes, lambda *those: compiled.move_palm(*those[:3], None, those[3])):
+    for step in (
+        compiled.compute_mode_transition,
+        lambda *those: compiled.compute_palm_transition(*those[:3], None, those[3]),
+    ):
         with pytest.raises(ValueError, match="where"):
             step(motion, np.zeros(2), 0.03, SPEEDS)
     with pytest.raises(ValueError, match="where"):
-        compiled.move_palm(motion, np.zeros(3), 0.03, np.eye(2), SPEEDS)
+        compiled.compute_palm_transition(motion, np.zeros(3), 0.03, np.eye(2), SPEEDS)

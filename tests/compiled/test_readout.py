@@ -11,7 +11,7 @@ import pytest
 
 from carpus.core import so3
 from carpus.core.compiled import readout as compiled
-from carpus.core.hand.clinical_angles import ZYZ_UNDEFINED_BELOW_RAD, side_sign, wrist_axes_sensitivity
+from carpus.core.hand.clinical_angles import ZYZ_MIN_BETA_RAD, side_sign, wrist_axes_sensitivity
 from carpus.core.tracking.palm_state import SIZE, PalmEstimate
 from carpus.core.tracking.readout import METACARPAL_M, WristAxes
 from carpus.core.types import FloatArray, Side
@@ -34,7 +34,7 @@ def read(
     known: WristAxes, estimate: PalmEstimate, start: FloatArray | None, stays: FloatArray | None, side: Side
 ) -> Any:
     sign = side_sign(side)
-    return compiled.read_wrist(known, RIGHT_PALM_M, estimate, start, stays, sign, ZYZ_UNDEFINED_BELOW_RAD)
+    return compiled.read_wrist(known, RIGHT_PALM_M, estimate, start, stays, sign, ZYZ_MIN_BETA_RAD)
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -47,7 +47,7 @@ def test_reading_of_any_palm_is_the_oracles(side: Side, seed: int) -> None:
         expected = oracle.read_wrist(known, RIGHT_PALM_M, estimate, start, stays, side)
         assert np.isnan(expected[6]).all() == (seed == 2 and start is None)
         assert_same(read(known, estimate, start, stays, side), expected)
-    found = compiled.seat_fingers(known, RIGHT_PALM_M, estimate, view, side_sign(side), METACARPAL_M)
+    found = compiled.compute_finger_base(known, RIGHT_PALM_M, estimate, view, side_sign(side), METACARPAL_M)
     assert_same(found, oracle.seat_fingers(known, RIGHT_PALM_M, estimate, view, side, METACARPAL_M))
 
 
@@ -57,7 +57,7 @@ def test_arrays_stored_otherwise_are_read_as_they_are(layout: Callable[[np.ndarr
     palm, axes = laid_out(estimate, layout), laid_out(known, layout)
     found = read(axes, palm, layout(START), layout(STAYS), "right")
     assert_same(found, oracle.read_wrist(known, RIGHT_PALM_M, estimate, START, STAYS, "right"))
-    found = compiled.seat_fingers(axes, layout(RIGHT_PALM_M), palm, view, 1.0, METACARPAL_M)
+    found = compiled.compute_finger_base(axes, layout(RIGHT_PALM_M), palm, view, 1.0, METACARPAL_M)
     assert_same(found, oracle.seat_fingers(known, RIGHT_PALM_M, estimate, view, "right", METACARPAL_M))
 
 
@@ -67,7 +67,7 @@ def test_an_unknown_number_is_unknown_where_the_oracles_is() -> None:
     found = read(known, estimate, None, None, "right")
     assert np.isnan(found[5]).all()
     assert_same(found, oracle.read_wrist(known, RIGHT_PALM_M, estimate, None, None, "right"))
-    found = compiled.seat_fingers(known, RIGHT_PALM_M, estimate, view, 1.0, METACARPAL_M)
+    found = compiled.compute_finger_base(known, RIGHT_PALM_M, estimate, view, 1.0, METACARPAL_M)
     assert np.isnan(found[8]).all()
     assert_same(found, oracle.seat_fingers(known, RIGHT_PALM_M, estimate, view, "right", METACARPAL_M))
 
@@ -87,4 +87,4 @@ def test_sizes_and_types_that_do_not_fit_are_refused() -> None:
             read(axes, palm, start, stays, "right")
         if start is None and stays is None:
             with pytest.raises(ValueError, match=r"where|dtype"):
-                compiled.seat_fingers(axes, RIGHT_PALM_M, palm, view, 1.0, METACARPAL_M)
+                compiled.compute_finger_base(axes, RIGHT_PALM_M, palm, view, 1.0, METACARPAL_M)

@@ -11,10 +11,10 @@ import pytest
 from carpus.core import so3
 from carpus.core.compiled import surface as compiled
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.hand.back_surface import BackSurface
-from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, PalmEstimate, View
+from carpus.core.hand.back_surface import DorsalSurface
+from carpus.core.tracking.palm_state import RELIEF, SIZE, SURFACE, PalmEstimate, PalmView
 from carpus.core.tracking.predicted_measurement import shape_partial_update
-from carpus.core.tracking.surface_fit import SurfaceSettings, reset_and_levelled
+from carpus.core.tracking.surface_fit import SurfaceSettings, reset_and_surface_update
 from carpus.core.types import FloatArray, SurfaceSamples
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import surface as oracle
@@ -32,20 +32,20 @@ def seen_of(seed: int, every: int = 9) -> tuple[PalmEstimate, SurfaceSamples]:
     rng = np.random.default_rng(seed)
     rotation, position = so3.exp(rng.normal(0.0, 0.1, 3)), rng.normal(0.0, 0.005, 3)
     estimate = moving(seed)
-    estimate.value[RELIEF], estimate.value[BACK] = 0.01 * rng.normal(size=(2, 3))
+    estimate.value[RELIEF], estimate.value[SURFACE] = 0.01 * rng.normal(size=(2, 3))
     estimate.value[:3] = position
     samples = place_on(rotation, position)
     some = SurfaceSamples(samples.pixel[::every].copy(), samples.depth_m[::every] + 1e-3 * rng.normal(size=1))
     return replace(estimate, rotation_w2_w0=rotation @ so3.exp(0.01 * rng.normal(size=3))), some
 
 
-def view_by(sensor: DepthSensor = PRIMESENSE) -> View:
-    return View(replace(CAMERA, sensor=sensor), FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
+def view_by(sensor: DepthSensor = PRIMESENSE) -> PalmView:
+    return PalmView(replace(CAMERA, sensor=sensor), FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
 
 
 @pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.name)
 @pytest.mark.parametrize("seed", range(2))
-def test_fit_of_any_readings_is_the_oracles(surface: BackSurface, sensor: DepthSensor, seed: int) -> None:
+def test_fit_of_any_readings_is_the_oracles(surface: DorsalSurface, sensor: DepthSensor, seed: int) -> None:
     for every in (7, 8, 900):  # an odd and an even number of readings, and too few
         estimate, samples = seen_of(seed, every)
         found = compiled.measure_surface(estimate, samples, surface, view_by(sensor), SETTINGS)
@@ -53,7 +53,7 @@ def test_fit_of_any_readings_is_the_oracles(surface: BackSurface, sensor: DepthS
         assert_same(found, oracle.measure_surface(estimate, samples, surface, view_by(sensor), SETTINGS))
 
 
-def test_readings_of_something_else_are_no_surface(surface: BackSurface) -> None:
+def test_readings_of_something_else_are_no_surface(surface: DorsalSurface) -> None:
     estimate, samples = seen_of(0)
     elsewhere, none = replace(samples, pixel=samples.pixel + 1e4), SurfaceSamples(np.empty((0, 2)), np.empty(0))
     unknown = replace(samples, depth_m=np.full(len(samples.depth_m), np.nan))
@@ -62,7 +62,7 @@ def test_readings_of_something_else_are_no_surface(surface: BackSurface) -> None
         assert compiled.measure_surface(estimate, some, surface, view_by(), replace(SETTINGS, steps=1)) is None
 
 
-def test_an_unknown_reading_leaves_all_unknown_as_the_oracles_does(surface: BackSurface) -> None:
+def test_an_unknown_reading_leaves_all_unknown_as_the_oracles_does(surface: DorsalSurface) -> None:
     estimate, samples = seen_of(1)
     samples.depth_m[3] = np.nan
     settings = replace(SETTINGS, steps=1)
@@ -76,7 +76,7 @@ def test_an_unknown_reading_leaves_all_unknown_as_the_oracles_does(surface: Back
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_arrays_stored_otherwise_are_read_as_they_are(
-    surface: BackSurface, layout: Callable[[np.ndarray], np.ndarray]
+    surface: DorsalSurface, layout: Callable[[np.ndarray], np.ndarray]
 ) -> None:
     estimate, samples = seen_of(2)
     expected = oracle.measure_surface(estimate, samples, surface, view_by(), SETTINGS)
@@ -85,7 +85,7 @@ def test_arrays_stored_otherwise_are_read_as_they_are(
     assert_same(found, expected)
 
 
-def test_sizes_and_types_that_do_not_fit_are_refused(surface: BackSurface) -> None:
+def test_sizes_and_types_that_do_not_fit_are_refused(surface: DorsalSurface) -> None:
     estimate, samples = seen_of(0)
     for palm, some in (
         (estimate, replace(samples, pixel=samples.pixel[1:])),
@@ -97,14 +97,14 @@ def test_sizes_and_types_that_do_not_fit_are_refused(surface: BackSurface) -> No
             compiled.measure_surface(palm, some, surface, view_by(), SETTINGS)
 
 
-def test_a_surface_corrects_the_palm_only_where_it_can_be_this_one(surface: BackSurface) -> None:
+def test_a_surface_corrects_the_palm_only_where_it_can_be_this_one(surface: DorsalSurface) -> None:
     estimate, samples = seen_of(0)
     mixture, partial = mixture_about(estimate, np.random.default_rng(0), 3), shape_partial_update(0.2)
     off = mixture.mean + np.where(np.arange(SIZE) == RELIEF.start, 0.5, 0.0)
     far = replace(mixture, mean=off, covariance=1e-6 * mixture.covariance)
 
     def levels(some: SurfaceSamples | None, of: object = mixture, partial: FloatArray | None = partial) -> bool:
-        return reset_and_levelled(estimate, of, some, surface, view_by(), partial, SETTINGS)[2]  # type: ignore[arg-type]
+        return reset_and_surface_update(estimate, of, some, surface, view_by(), partial, SETTINGS)[2]  # type: ignore[arg-type]
 
     assert levels(samples)
     assert levels(samples, partial=None)

@@ -22,7 +22,7 @@ def random_hsv(seed: int, hue: tuple[int, int] = (0, 180)) -> ByteImage:
 def test_histogram_counts_what_the_mask_shows() -> None:
     hsv = random_hsv(0)
     mask = np.random.default_rng(1).random((20, 30)) < 0.4
-    found = ch.histogram(hsv, mask)
+    found = ch.compute_histogram(hsv, mask)
     counts = np.zeros((ch.BINS, ch.BINS))
     for hue, saturation, _ in hsv[mask]:
         counts[int(int(hue) * ch.BINS / 180), int(saturation) * ch.BINS // 256] += 1
@@ -30,14 +30,16 @@ def test_histogram_counts_what_the_mask_shows() -> None:
 
 
 def test_nothing_shown_is_an_empty_histogram_not_a_division_by_zero() -> None:
-    assert np.array_equal(ch.histogram(random_hsv(0), np.zeros((20, 30), dtype=bool)), np.zeros((ch.BINS, ch.BINS)))
+    assert np.array_equal(
+        ch.compute_histogram(random_hsv(0), np.zeros((20, 30), dtype=bool)), np.zeros((ch.BINS, ch.BINS))
+    )
 
 
 def test_smoothing_keeps_the_sum_and_wraps_the_hue() -> None:
     """Red lies at both ends of the hue circle: smoothed, one end reaches the other."""
     hsv = np.full((4, 4, 3), 128, dtype=np.uint8)
     hsv[..., 0] = 179
-    found = ch.histogram(hsv, np.ones((4, 4), dtype=bool), smooth_bins=1.2)
+    found = ch.compute_histogram(hsv, np.ones((4, 4), dtype=bool), smooth_bins=1.2)
     assert found.sum() == pytest.approx(1.0)
     assert found[0].sum() > 0.15
     assert found[0].sum() == pytest.approx(found[-2].sum(), rel=0.01)
@@ -47,15 +49,15 @@ def test_smoothing_keeps_the_sum_and_wraps_the_hue() -> None:
 @given(st.integers(0, 1000), st.integers(0, 1000))
 def test_coefficient_is_opencvs(a: int, b: int) -> None:
     mask = np.ones((20, 30), dtype=bool)
-    one, other = ch.histogram(random_hsv(a, (0, 60)), mask), ch.histogram(random_hsv(b, (20, 90)), mask)
+    one, other = ch.compute_histogram(random_hsv(a, (0, 60)), mask), ch.compute_histogram(random_hsv(b, (20, 90)), mask)
     distance = cv2.compareHist(one.astype(np.float32), other.astype(np.float32), cv2.HISTCMP_BHATTACHARYYA)
-    assert float(ch.bhattacharyya(one.ravel(), other.ravel())) == pytest.approx(1.0 - distance**2, abs=1e-4)
+    assert float(ch.compute_bhattacharyya(one.ravel(), other.ravel())) == pytest.approx(1.0 - distance**2, abs=1e-4)
 
 
 def test_back_projection_is_a_look_in_the_table() -> None:
     hsv = random_hsv(2)
     table = np.random.default_rng(3).integers(0, 256, (ch.BINS, ch.BINS)).astype(np.float32)
-    found = ch.back_project(hsv, table)
+    found = ch.backproject_histogram(hsv, table)
     at_hue = np.minimum((hsv[..., 0] / (180 / ch.BINS)).astype(int), ch.BINS - 1)
     assert np.array_equal(found, table[at_hue, hsv[..., 1].astype(int) * ch.BINS // 256].astype(np.uint8))
 
@@ -63,5 +65,8 @@ def test_back_projection_is_a_look_in_the_table() -> None:
 def test_brightness_does_not_enter() -> None:
     color = np.full((8, 8, 3), (40, 90, 180), dtype=np.uint8)
     mask = np.ones((8, 8), dtype=bool)
-    bright, dim = ch.histogram(ch.to_hsv(color), mask, 1.2), ch.histogram(ch.to_hsv(color // 2), mask, 1.2)
-    assert float(ch.bhattacharyya(bright.ravel(), dim.ravel())) > 0.97
+    bright, dim = (
+        ch.compute_histogram(ch.to_hsv(color), mask, 1.2),
+        ch.compute_histogram(ch.to_hsv(color // 2), mask, 1.2),
+    )
+    assert float(ch.compute_bhattacharyya(bright.ravel(), dim.ravel())) > 0.97

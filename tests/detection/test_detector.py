@@ -12,8 +12,14 @@ import pytest
 from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
-from carpus.core.detection.appearance import MarkerAppearance, learn_appearance, paper_looks, paper_mask, to_hsv
-from carpus.core.detection.components import components
+from carpus.core.detection.appearance import (
+    MarkerAppearance,
+    build_paper_mask,
+    classify_paper_colors,
+    learn_appearance,
+    to_hsv,
+)
+from carpus.core.detection.components import find_components
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.types import Detections, FloatArray, Frame, Region
@@ -180,22 +186,25 @@ def test_only_the_region_given_is_searched() -> None:
 def test_predicted_region_holds_every_disc_and_little_more() -> None:
     detector = detector_for()
     covariance = np.broadcast_to(4.0 * np.eye(2), (6, 2, 2))
-    region = detector.region_about(PALM_PX, covariance, np.full(6, DISTANCE_M))
+    region = detector.compute_search_region(PALM_PX, covariance, np.full(6, DISTANCE_M))
     low, high = PALM_PX.min(axis=0), PALM_PX.max(axis=0)
     for side, room in ((low - [region.left, region.top], "low"), ([region.right, region.bottom] - high, "high")):
         assert (side > 2.0 * 3.0 + RADIUS_PX).all(), room
         assert (side < 40.0).all(), room
-    wider = detector.region_about(PALM_PX, 16.0 * covariance, np.full(6, DISTANCE_M))
+    wider = detector.compute_search_region(PALM_PX, 16.0 * covariance, np.full(6, DISTANCE_M))
     assert wider.left < region.left
     assert wider.bottom > region.bottom
 
 
 def test_an_unsure_hand_is_looked_for_only_so_far_away(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("carpus.core.detection.detector.MAX_UNSURE_PX", 60.0)
+    monkeypatch.setattr("carpus.core.detection.detector.MAX_SEARCH_RADIUS_PX", 60.0)
     settings = DetectionSettings()
     detector = Detector(learnt(BLUE, np.random.default_rng(13))[0], CAMERA, settings)
     middle = np.array([[0.5 * CAMERA.width_px, 0.5 * CAMERA.height_px]])
-    found = [detector.region_about(middle, sd_px**2 * np.eye(2)[None], np.array([DISTANCE_M])) for sd_px in (5.0, 1e4)]
+    found = [
+        detector.compute_search_region(middle, sd_px**2 * np.eye(2)[None], np.array([DISTANCE_M]))
+        for sd_px in (5.0, 1e4)
+    ]
     assert found[0].right - found[0].left < found[1].right - found[1].left, "at 5 pixels it is not the limit"
     disc_px = CAMERA.fx_px * settings.marker_radius_m / DISTANCE_M
     reach_px = 60.0 + 2.2 * disc_px + 3.0
@@ -207,7 +216,7 @@ def test_a_place_that_is_not_known_has_no_region() -> None:
     pixel = PALM_PX.copy()
     pixel[-1, 0] = np.nan
     with pytest.raises(ValueError, match="NaN"):
-        detector_for().region_about(pixel, np.broadcast_to(np.eye(2), (6, 2, 2)), np.full(6, DISTANCE_M))
+        detector_for().compute_search_region(pixel, np.broadcast_to(np.eye(2), (6, 2, 2)), np.full(6, DISTANCE_M))
 
 
 def test_a_depth_picture_of_another_size_is_refused() -> None:
@@ -220,7 +229,7 @@ def test_a_depth_picture_of_another_size_is_refused() -> None:
 
 
 def test_of_too_many_blobs_the_largest_are_told() -> None:
-    detector = Detector(detector_for()._looks, CAMERA, replace(SETTINGS, most_blobs=4))
+    detector = Detector(detector_for()._appearance, CAMERA, replace(SETTINGS, most_blobs=4))
     extras = [Extra((float(u), float(v)), 3.2, PAPERS["blue"]) for u, v in ((140, 140), (160, 140), (180, 140))]
     found = detector.detect(seen(5, extras=extras), WHOLE)
     assert len(found) == 4
@@ -228,17 +237,19 @@ def test_of_too_many_blobs_the_largest_are_told() -> None:
 
 
 def test_paper_looks_as_opencv_projects_it_back() -> None:
-    looks, hsv = detector_for()._looks, to_hsv(seen(6).color_rgb)
+    looks, hsv = detector_for()._appearance, to_hsv(seen(6).color_rgb)
     likely = cv2.calcBackProject([hsv], [0, 1], looks.paper_lookup, [0.0, 180.0, 0.0, 256.0], 1.0)
-    expected = ((likely > 127.5) & (hsv[..., 2] > looks.darkest_value)).astype(np.uint8)
+    expected = ((likely > 127.5) & (hsv[..., 2] > looks.min_brightness)).astype(np.uint8)
     expected = cv2.morphologyEx(expected, cv2.MORPH_OPEN, cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3)))
     assert expected.any()
-    np.testing.assert_array_equal(paper_mask(hsv, paper_looks(looks), looks.darkest_value), 255 * expected)
+    np.testing.assert_array_equal(
+        build_paper_mask(hsv, classify_paper_colors(looks), looks.min_brightness), 255 * expected
+    )
 
 
 def taken_apart(is_blob: NDArray[np.bool_], radius_px: float) -> FloatArray:
     """Centres (P, 2) of the discs that are found of one blob."""
-    return components(is_blob.astype(np.uint8), lambda at: np.full(len(at), radius_px)).centre_px
+    return find_components(is_blob.astype(np.uint8), lambda at: np.full(len(at), radius_px)).centre_px
 
 
 @pytest.mark.parametrize(

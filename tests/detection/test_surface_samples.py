@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from carpus.core.detection import surface_samples as surface_samples_module
-from carpus.core.detection.surface_samples import STEP_PX, finger_samples, surface_samples
-from carpus.core.types import FINGER_STEP_PX, Frame
+from carpus.core.detection.surface_samples import SURFACE_SAMPLE_STEP_PX, sample_fingers, sample_surface
+from carpus.core.types import FINGER_SAMPLE_STEP_PX, Frame
 
 FULL = Frame(0, 0.0, np.zeros((480, 640, 3), np.uint8), np.full((480, 640), 700, np.uint16), 1e-3)
 
@@ -15,21 +15,21 @@ FULL = Frame(0, 0.0, np.zeros((480, 640, 3), np.uint8), np.full((480, 640), 700,
 @pytest.mark.parametrize("shift_px", [0.0, 0.7, 1.9])
 def test_the_lattice_of_the_back_stays_where_it_is_while_the_hand_moves(shift_px: float) -> None:
     corners = np.array([[300.0, 200.0], [340.0, 205.0], [345.0, 260.0], [298.0, 255.0]]) + shift_px
-    found = surface_samples(FULL, corners)
+    found = sample_surface(FULL, corners)
     assert found is not None
-    assert not np.any(found.pixel % STEP_PX)
+    assert not np.any(found.pixel % SURFACE_SAMPLE_STEP_PX)
 
 
 def test_of_too_many_readings_about_the_fingers_those_nearest_to_a_disc_are_taken(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     discs = np.array([[300.0, 200.0], [360.0, 210.0]])
-    every = finger_samples(FULL, discs)
+    every = sample_fingers(FULL, discs)
     monkeypatch.setattr(surface_samples_module, "MAX_FINGER_READINGS", 20)
-    some = finger_samples(FULL, discs)
+    some = sample_fingers(FULL, discs)
     assert every is not None
     assert some is not None
-    assert not np.any(every.pixel % FINGER_STEP_PX)
+    assert not np.any(every.pixel % FINGER_SAMPLE_STEP_PX)
     assert len(every.pixel) > 40
     assert len(some.pixel) == 20
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.provenance import provenance
-from carpus.core.formats.take import Take
+from carpus.core.formats.provenance import build_provenance
+from carpus.core.formats.take import ExportItem
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.results.figures import session_figures
-from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.results.figures import compute_session_results
+from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
@@ -85,17 +85,17 @@ def _stopping(path: Path) -> Path:
                 )
             )  # fmt: skip
         writer.add_event(time_of(7), "note", "stops on the way")
-        writer.write_repetitions(repetitions_of(writer.read_back()))
+        writer.write_repetitions(compute_repetitions(writer.read_session()))
     return path
 
 
-def take_of(session: Session, name: str = "one") -> Take:
-    return Take(session, session_figures(session), name, provenance(session))
+def take_of(session: Session, name: str = "one") -> ExportItem:
+    return ExportItem(session, compute_session_results(session), name, build_provenance(session))
 
 
-def wrist_take(folder: Path) -> Take:
+def wrist_take(folder: Path) -> ExportItem:
     return take_of(read_session(stored(folder)))
 
 
-def hand_take(folder: Path) -> Take:
+def hand_take(folder: Path) -> ExportItem:
     return take_of(read_session(stored(folder, HAND21)))

@@ -15,7 +15,7 @@ import pytest
 from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats import c3d_write
 from carpus.core.formats.c3d_read import read_c3d
-from carpus.core.formats.take import Take, joint_centres_cam_m
+from carpus.core.formats.take import ExportItem, joint_centres_cam_m
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 from carpus.core.types import TrackStatus
@@ -34,7 +34,7 @@ def by_c3d(path: Path) -> tuple[list[str], np.ndarray, float]:
 
 @pytest.mark.parametrize("make", [wrist_take, hand_take])
 def test_places_and_residuals_come_back_as_they_are(make: object, tmp_path: Path) -> None:
-    take: Take = make(tmp_path)  # type: ignore[operator]
+    take: ExportItem = make(tmp_path)  # type: ignore[operator]
     session = take.session
     (path,) = c3d_write.write(take, tmp_path / "out")
     labels, points, rate = by_c3d(path)
@@ -83,10 +83,10 @@ def test_repetitions_are_events(tmp_path: Path) -> None:
     event = ezc3d.c3d(str(path))["parameters"]["EVENT"]
     said = list(zip(event["LABELS"]["value"], event["DESCRIPTIONS"]["value"], event["TIMES"]["value"][1], strict=True))
     wanted = []
-    for number, one in enumerate(take.figures.repetitions, 1):
+    for number, one in enumerate(take.results.repetitions, 1):
         assert one.row is not None
         for kind in ("start", "peak", "end"):
-            time_s = getattr(one.row, f"{kind}_s") + take.session.timestamp_s[0] - take.even.start_s
+            time_s = getattr(one.row, f"{kind}_s") + take.session.timestamp_s[0] - take.times.start_s
             wanted.append((f"repetition_{kind}", str(number), pytest.approx(time_s, abs=1e-4)))
     assert [row for row in said if row[0] != "note"] == wanted
     assert len(wanted) == 9
@@ -116,7 +116,7 @@ def test_an_hour_keeps_its_last_frame(tmp_path: Path) -> None:
         markers=replace(repeated.markers, position_cam_m=wandering_m),
         events=session.events[:1] * (300 - times),
     )
-    take = Take(long, take_of(session).figures, "long", take_of(session).provenance)
+    take = ExportItem(long, take_of(session).results, "long", take_of(session).provenance)
     (path,) = c3d_write.write(take, tmp_path / "out")
     with path.open("rb") as file:
         reader = c3d.Reader(file)

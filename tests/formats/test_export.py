@@ -13,10 +13,10 @@ import pytest
 from carpus.core.camera import Camera
 from carpus.core.errors import OutputExists, OutputNotWritable, SessionUnreadable
 from carpus.core.formats import formats
-from carpus.core.formats.formats import FORMATS, Wanted
-from carpus.core.formats.provenance import Deidentification, move_pixels
+from carpus.core.formats.formats import FORMATS, ExportRequest
+from carpus.core.formats.provenance import Deidentifier, reproject_pixels
 from carpus.core.hand.protocols import HAND21
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.writer import SessionWriter
 from tests.formats.takes import stored
@@ -28,7 +28,7 @@ export_sessions = formats.export_sessions
 @pytest.mark.parametrize("deidentified", [False, True])
 def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bool, tmp_path: Path) -> None:
     path = stored(tmp_path, HAND21)
-    done = export_sessions([Wanted.stored(path)], tmp_path / "out", list(FORMATS), deidentified=deidentified)
+    done = export_sessions([ExportRequest.from_file(path)], tmp_path / "out", list(FORMATS), deidentified=deidentified)
     assert not done.refused
     (copy,) = (tmp_path / "out").glob("*.h5")
     old, new = read_session(path), read_session(copy)
@@ -38,10 +38,10 @@ def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bo
         assert np.array_equal(getattr(new.motion, name), getattr(old.motion, name), equal_nan=True)
     seen = read_detections(path).blobs.pixel
     if deidentified:
-        seen = move_pixels(seen, old.camera, new.camera)
+        seen = reproject_pixels(seen, old.camera, new.camera)
     assert np.allclose(read_detections(copy).blobs.pixel, seen, atol=1e-3)
-    mine, theirs = session_figures(old), session_figures(new)
-    for one, other in zip(mine.group("range"), theirs.group("range"), strict=True):
+    mine, theirs = compute_session_results(old), compute_session_results(new)
+    for one, other in zip(mine.measures_in_group("range"), theirs.measures_in_group("range"), strict=True):
         assert (one.key, one.count) == (other.key, other.count)
         assert np.allclose(one.mean, other.mean, atol=1e-4, equal_nan=True)
 
@@ -52,7 +52,7 @@ def test_each_session_of_an_export_to_a_disk_that_can_only_be_read_is_told(
     def refuses(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, "Read-only file system")
 
-    wanted = [Wanted.stored(stored(tmp_path, name=name)) for name in ("one", "two")]
+    wanted = [ExportRequest.from_file(stored(tmp_path, name=name)) for name in ("one", "two")]
     (tmp_path / "out").mkdir()
     monkeypatch.setattr(Path, "unlink", refuses)
     monkeypatch.setattr(SessionWriter, "create", lambda path, *_: (_ for _ in ()).throw(OutputNotWritable(path)))
@@ -63,7 +63,7 @@ def test_each_session_of_an_export_to_a_disk_that_can_only_be_read_is_told(
 
 def test_nobody_is_found_in_what_was_deidentified(tmp_path: Path) -> None:
     path = stored(tmp_path)
-    export_sessions([Wanted.stored(path)], tmp_path / "out", list(FORMATS), deidentified=True)
+    export_sessions([ExportRequest.from_file(path)], tmp_path / "out", list(FORMATS), deidentified=True)
     header = read_session(path).header
     secret = ["Linden", "Miller", "clinic-cam", "A00365", "2026-11-13", "20261113", header.session_id, "13050311"]
     files = [file for file in (tmp_path / "out").rglob("*") if file.is_file()]
@@ -84,11 +84,11 @@ def test_a_deidentified_export_tells_no_camera_from_another_of_its_kind(tmp_path
     session, said = read_session(path), []
     place = session.markers.position_cam_m[0]
     for camera in cameras:
-        said.append(Deidentification().session(replace(session, camera=camera)).camera)
-        moved = move_pixels(camera.distort(camera.project(place)), camera, said[-1])
+        said.append(Deidentifier().deidentify(replace(session, camera=camera)).camera)
+        moved = reproject_pixels(camera.distort(camera.project(place)), camera, said[-1])
         assert np.allclose(moved, said[-1].project(place), atol=0.05)
     assert said[0] == said[1]
-    export_sessions([Wanted.stored(path)], tmp_path / "out", ["h5", "json"], deidentified=True)
+    export_sessions([ExportRequest.from_file(path)], tmp_path / "out", ["h5", "json"], deidentified=True)
     (copy,) = (tmp_path / "out").glob("*.h5")
     camera = read_session(copy).camera
     assert (camera.fx_px, camera.cx_px, camera.is_distorted) == (575.0, 319.5, False)
@@ -103,7 +103,7 @@ def test_one_patient_stays_one_and_days_count_from_the_first(tmp_path: Path) -> 
         header = replace(header, recorded=f"2026-11-{day}T09:00:00+01:00", recording_id=str(uuid.uuid4()))
         paths.append(tmp_path / f"day{day}.h5")
         begun(paths[-1], header, 1).close()
-    export_sessions([Wanted.stored(path) for path in paths], tmp_path / "out", ["h5"], deidentified=True)
+    export_sessions([ExportRequest.from_file(path) for path in paths], tmp_path / "out", ["h5"], deidentified=True)
     found = [read_session(path).header for path in sorted((tmp_path / "out").glob("*.h5"))]
     assert len({header.subject_id for header in found}) == 1
     assert [header.recorded[:10] for header in found] == ["1900-01-01", "1900-01-08"]
@@ -114,7 +114,7 @@ def test_nothing_is_overwritten_and_the_others_go_on(tmp_path: Path) -> None:
     good, missing = stored(tmp_path), tmp_path / "missing.h5"
     heard: list[tuple[int, int]] = []
     done = export_sessions(
-        [Wanted.stored(missing), Wanted.stored(good)],
+        [ExportRequest.from_file(missing), ExportRequest.from_file(good)],
         tmp_path / "out",
         ["mot", "json"],
         progress=lambda *at: heard.append(at),
@@ -123,7 +123,7 @@ def test_nothing_is_overwritten_and_the_others_go_on(tmp_path: Path) -> None:
     assert isinstance(done.refused[0].fault, SessionUnreadable)
     assert heard[-1] == (2, 4)
     before = {path: path.read_bytes() for path in done.files}
-    again = export_sessions([Wanted.stored(good)], tmp_path / "out", ["mot"])
+    again = export_sessions([ExportRequest.from_file(good)], tmp_path / "out", ["mot"])
     assert isinstance(again.refused[0].fault, OutputExists)
     assert {path: path.read_bytes() for path in done.files} == before
     assert not list((tmp_path / "out").rglob("*.half"))
@@ -133,14 +133,14 @@ def test_two_sessions_of_one_name_lie_beside_each_other(tmp_path: Path) -> None:
     for folder in ("a", "b"):
         (tmp_path / folder).mkdir()
     paths = [stored(tmp_path / "a"), stored(tmp_path / "b")]
-    export_sessions([Wanted.stored(path) for path in paths], tmp_path / "out", ["c3d"])
+    export_sessions([ExportRequest.from_file(path) for path in paths], tmp_path / "out", ["c3d"])
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"one.c3d", "one-2.c3d"}
 
 
 def test_it_stops_when_asked(tmp_path: Path) -> None:
     asked = iter((False, True))
     done = export_sessions(
-        [Wanted.stored(stored(tmp_path))], tmp_path / "out", ["mot", "trc"], cancelled=lambda: next(asked)
+        [ExportRequest.from_file(stored(tmp_path))], tmp_path / "out", ["mot", "trc"], cancelled=lambda: next(asked)
     )
     assert done.cancelled
     assert {path.suffix for path in done.files} == {".mot", ".json", ".txt"}

@@ -11,18 +11,18 @@ import pytest
 from PySide6.QtCore import QLocale
 
 from carpus.core.formats.csv_tables import write
-from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
+from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
 from carpus.core.formats.table_read import read_table
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.core.session.reader import read_session
-from carpus.ui.saved_table import OFFERED, form_of, own_region, save_table
+from carpus.ui.saved_table import OFFERED_REGIONS, regional_table_form, save_table, user_region
 from tests.commands import Command
 from tests.formats.takes import stored, take_of
 
 
-def cells(path: Path, form: TableForm) -> list[list[str]]:
+def cells(path: Path, form: TableDialect) -> list[list[str]]:
     with path.open(encoding="utf-8", newline="") as file:
-        assert file.read(1) == "\ufeff" or not form.has_mark
+        assert file.read(1) == "\ufeff" or not form.has_bom
         file.seek(0)
         rows = list(csv.reader(file, delimiter=form.separator))
     rows[0][0] = rows[0][0].removeprefix("\ufeff")
@@ -54,9 +54,9 @@ def test_a_spreadsheet_counts_the_forearm_as_clinics_do_and_calls_it_so(
     start_deg = math.degrees(session.calibration.start_angles_rad[2])
     take = take_of(session, "s")
     write(take, tmp_path / "plain")
-    write(replace(take, form=form_of("en_GB")), tmp_path / "sheet")
-    plain = cells(tmp_path / "plain" / "s.wrist.for-programs.csv", FOR_PROGRAMS)
-    sheet = cells(tmp_path / "sheet" / "s.wrist.csv", form_of("en_GB"))
+    write(replace(take, form=regional_table_form("en_GB")), tmp_path / "sheet")
+    plain = cells(tmp_path / "plain" / "s.wrist.for-programs.csv", MACHINE_DIALECT)
+    sheet = cells(tmp_path / "sheet" / "s.wrist.csv", regional_table_form("en_GB"))
     column = plain[0].index("filter_pronosupination_deg")
     assert sheet[0][column] == f"filter_{name}_deg"
     assert not any("pronosupination" in one for one in sheet[0])
@@ -64,14 +64,14 @@ def test_a_spreadsheet_counts_the_forearm_as_clinics_do_and_calls_it_so(
     assert read_deg == pytest.approx(stored_deg + off_deg - (start_deg if not off_deg else 0.0), abs=1e-3)
 
 
-@pytest.mark.parametrize("region", OFFERED)
+@pytest.mark.parametrize("region", OFFERED_REGIONS)
 def test_a_spreadsheet_of_a_region_finds_the_same_numbers(region: str, tmp_path: Path) -> None:
-    take, form = take_of(read_session(stored(tmp_path, HAND21)), "s"), form_of(region)
+    take, form = take_of(read_session(stored(tmp_path, HAND21)), "s"), regional_table_form(region)
     plain = [path for path in write(take, tmp_path / "plain") if path.suffix == ".csv"]
     assert all(path.name.endswith(".for-programs.csv") for path in plain)
     numbers = 0
     for path in plain:
-        wanted = cells(path, FOR_PROGRAMS)[:200]
+        wanted = cells(path, MACHINE_DIALECT)[:200]
         if not (tmp_path / region).exists():
             write(replace(take, form=form), tmp_path / region)
         found = cells(tmp_path / region / path.name.replace(".for-programs", ""), form)[:200]
@@ -90,19 +90,19 @@ def test_the_rules_of_a_region_see_the_fault_that_they_are_for() -> None:
 @pytest.mark.parametrize(
     ("region", "form"),
     [
-        ("de_DE", TableForm(";", ",", has_mark=True)), ("it-IT", TableForm(";", ",", has_mark=True)),
-        ("en_GB", TableForm(",", ".", has_mark=True)), ("de_CH", TableForm(";", ".", has_mark=True)),
-        ("fr", TableForm(";", ",", has_mark=True)),
+        ("de_DE", TableDialect(";", ",", has_bom=True)), ("it-IT", TableDialect(";", ",", has_bom=True)),
+        ("en_GB", TableDialect(",", ".", has_bom=True)), ("de_CH", TableDialect(";", ".", has_bom=True)),
+        ("fr", TableDialect(";", ",", has_bom=True)),
     ],
 )  # fmt: skip
-def test_a_region_has_its_form(region: str, form: TableForm) -> None:
-    assert form_of(region) == form
+def test_a_region_has_its_form(region: str, form: TableDialect) -> None:
+    assert regional_table_form(region) == form
 
 
 @pytest.mark.parametrize("region", ["", "xx_YY", "de_XX", "C", "germany", "de_DE; rm"])
 def test_a_region_that_there_is_not_is_refused(region: str) -> None:
     with pytest.raises(ValueError, match="no region"):
-        form_of(region)
+        regional_table_form(region)
 
 
 def test_the_command_writes_in_the_form_of_a_region(tmp_path: Path, command: Command) -> None:
@@ -116,7 +116,7 @@ def test_the_command_writes_in_the_form_of_a_region(tmp_path: Path, command: Com
 
 
 def test_a_table_saved_in_the_window_is_in_the_persons_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("carpus.ui.saved_table.own_region", lambda: "it_IT")
+    monkeypatch.setattr("carpus.ui.saved_table.user_region", lambda: "it_IT")
     save_table(tmp_path / "t.csv", ("angle", "mean_deg"), [("flexion", -1.5), ("=1+1", 91.947)])
     assert (tmp_path / "t.csv").read_text(encoding="utf-8-sig").split() == [
         "angle;mean_deg", "flexion;-1,5", "'=1+1;91,947",
@@ -125,4 +125,4 @@ def test_a_table_saved_in_the_window_is_in_the_persons_form(tmp_path: Path, monk
 
 
 def test_the_persons_region_is_one_that_there_is() -> None:
-    form_of(own_region())
+    regional_table_form(user_region())

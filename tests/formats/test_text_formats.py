@@ -13,7 +13,7 @@ import pytest
 
 from carpus.core.errors import OutputExists
 from carpus.core.formats import bids_motion, csv_tables, json_measures, mot, trc
-from carpus.core.formats.formats import Wanted, export_sessions
+from carpus.core.formats.formats import ExportRequest, export_sessions
 from carpus.core.hand.protocols import HAND21, WRIST_ANGLES
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
@@ -141,14 +141,14 @@ def test_the_measures_are_json_that_every_reader_takes(tmp_path: Path) -> None:
     assert content["session"]["subject_id"] == take.session.header.subject_id
     (arc,) = [row for row in content["measures"] if (row["measure"], row["of"]) == ("arc", "flexion")]
     assert arc["unit"] == "deg"
-    assert arc["mean"] == take.figures.find("flexion", "arc").mean  # type: ignore[union-attr]
+    assert arc["mean"] == take.results.find("flexion", "arc").mean  # type: ignore[union-attr]
     assert len(content["provenance"]["tracked_by"]["settings_sha256"]) in (0, 64)
     assert content["provenance"]["camera"]["fx_px"] == take.session.camera.fx_px
 
 
 def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -> None:
     one, two = stored(tmp_path), stored(tmp_path, HAND21, name="two")
-    export_sessions([Wanted.stored(one), Wanted.stored(two)], tmp_path / "set", ["bids"])
+    export_sessions([ExportRequest.from_file(one), ExportRequest.from_file(two)], tmp_path / "set", ["bids"])
     command = [sys.executable, "-c", "import sys, bids_validator_deno as b; sys.exit(b.cli())"]
     done = subprocess.run(
         [*command, str(tmp_path / "set"), "--format", "json"], capture_output=True, text=True, check=False, timeout=120
@@ -157,7 +157,7 @@ def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -
     assert [issue for issue in issues if issue["severity"] == "error"] == []
     for _ in range(2):
         with pytest.raises(OutputExists):
-            export_sessions([Wanted.stored(one)], tmp_path / "set", ["bids"])
+            export_sessions([ExportRequest.from_file(one)], tmp_path / "set", ["bids"])
         (tmp_path / "set" / "dataset_description.json").unlink(missing_ok=True)  # of a killed export there is none yet
     assert not list((tmp_path / "set").rglob("*_run-2_*"))
 
@@ -165,7 +165,7 @@ def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -
 def test_what_is_no_data_set_of_carpus_stays_beside_one(tmp_path: Path) -> None:
     (tmp_path / "sub-notes.txt").touch()
     (tmp_path / "sub-other" / "ses-1" / "anat").mkdir(parents=True)
-    done = export_sessions([Wanted.stored(stored(tmp_path))], tmp_path, ["bids"])
+    done = export_sessions([ExportRequest.from_file(stored(tmp_path))], tmp_path, ["bids"])
     assert (bool(done.files), done.refused) == (True, ())
 
 
@@ -217,7 +217,7 @@ def test_every_column_says_whose_estimate_it_is_and_every_row_has_one_sign(tmp_p
 
 def test_repetitions_are_in_every_format_that_can_say_them(tmp_path: Path) -> None:
     take = take_of(read_session(stopping(tmp_path)), "stops")
-    figures = take.figures
+    figures = take.results
     for module in (csv_tables, json_measures, bids_motion):
         module.write(take, tmp_path / "out")
     table = rows_of(tmp_path / "out" / "stops.repetitions.for-programs.csv")

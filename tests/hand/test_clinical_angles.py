@@ -149,7 +149,7 @@ def test_rates_of_the_angles_against_finite_differences(
 @example(0.0, 90.0, 0.0, "left")
 def test_one_rotation_is_read_as_many_are(deviation: float, flexion: float, supination: float, side: Side) -> None:
     rotation = clinical_angles.rotation_from_angles(np.radians([deviation, flexion, supination]), side)
-    angles, rates, zyz = clinical_angles.read_one(rotation, side)
+    angles, rates, zyz = clinical_angles.compute_wrist_angles(rotation, side)
     assert np.allclose(angles, clinical_angles.angles_from_rotation(rotation, side), rtol=0.0, atol=1e-12)
     assert np.allclose(rates, clinical_angles.angle_rates_matrix(rotation, side), rtol=1e-9, atol=1e-12)
     assert np.allclose(zyz, clinical_angles.zyz_from_rotation(rotation), rtol=0.0, atol=1e-12, equal_nan=True)

@@ -11,8 +11,8 @@ import pytest
 from scipy.optimize import least_squares
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
-from carpus.core.hand.anatomy_prior import AnatomyPrior, constants_of, with_constants
-from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
+from carpus.core.hand.anatomy_prior import AnatomyPrior, constants_from_anatomy, with_constants
+from carpus.core.hand.fitting import AnatomyFit, MeasuredDiscs, fit_anatomy
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.types import FloatArray, Side
@@ -80,14 +80,14 @@ def _fist(count: int) -> FloatArray:
     return angles
 
 
-def _seen(hand: HandAnatomy, angles: FloatArray, seed: int, depth_sd_m: float) -> SeenDiscs:
+def _seen(hand: HandAnatomy, angles: FloatArray, seed: int, depth_sd_m: float) -> MeasuredDiscs:
     """The discs as a camera above the hand measures them; the wrist frame is given by WRIST and MCP3."""
     discs = disc_centres(hand, np.atleast_2d(angles))
     noise = np.random.default_rng(2000 + seed).normal(0.0, [LATERAL_M, LATERAL_M, depth_sd_m], discs.shape)
     noise[:, [HAND21.markers.index("WRIST"), HAND21.markers.index("MCP3")]] = 0.0
     ones = np.ones(discs.shape[:2])
     view = np.broadcast_to([0.0, 0.0, -1.0], discs.shape)
-    return SeenDiscs(discs + noise, view, LATERAL_M * ones, depth_sd_m * ones)
+    return MeasuredDiscs(discs + noise, view, LATERAL_M * ones, depth_sd_m * ones)
 
 
 @functools.cache
@@ -129,7 +129,7 @@ def test_stated_uncertainty_of_lengths_covers_the_truth() -> None:
         hand = _stuck_off(seed)
         fit = fit_anatomy(_seen(hand, _neutral(seed), seed, 0.001), hand.side)
         sd = np.sqrt(np.diagonal(fit.digits.covariance, axis1=1, axis2=2))
-        scores.append(((fit.digits.mean - constants_of(hand)) / sd)[1:, :3])
+        scores.append(((fit.digits.mean - constants_from_anatomy(hand)) / sd)[1:, :3])
     assert 0.5 < np.sqrt(np.mean(np.square(scores))) < 1.4
     assert np.mean(np.abs(scores) < 2.0) > 0.9
 
@@ -146,7 +146,7 @@ def test_bent_neutral_pose_is_not_taken_as_straight() -> None:
     angles[NAMES.index("PIP3_flexion")] = math.radians(25.0)
     fit = fit_anatomy(_seen(hand, angles, 5, 0.0005), hand.side)
     assert np.degrees(_angles(fit)[0][NAMES.index("PIP3_flexion")]) == pytest.approx(25.0, abs=6.0)
-    assert fit.absurd_depth == ()
+    assert fit.outlier_depth == ()
 
 
 def test_left_hand_is_the_mirror_of_the_right() -> None:
@@ -169,7 +169,7 @@ def test_missing_depth_and_missing_disc_are_told_by_the_uncertainty() -> None:
     partial = fit_anatomy(dataclasses.replace(seen, disc_m=disc, depth_sd_m=depth_sd), hand.side)
     assert np.all(np.isfinite(_angles(partial)[0]))
     assert np.isnan(partial.residual_m[no_disc]).all()
-    assert partial.absurd_depth == ()
+    assert partial.outlier_depth == ()
     # The height of the PIP disc itself is what is known worst of that joint: another disc more or less says little.
     for name in ("PIP3_flexion", "PIP4_flexion"):
         joint = NAMES.index(name)
@@ -199,7 +199,7 @@ def test_what_a_person_says_of_straight_fingers_is_evidence_against_thick_joints
     for seed in range(4):
         hand = _thick(seed)
         straight = np.zeros(17)
-        fit = fit_anatomy(_seen(hand, straight, seed, 0.0005), hand.side, straight=said)
+        fit = fit_anatomy(_seen(hand, straight, seed, 0.0005), hand.side, is_straight=said)
         off.append(_angles(fit)[0][flexions])
         sd.append(_angles(fit)[1][flexions])
     rms_deg, sd_deg = np.degrees(np.sqrt(np.mean(np.square(off)))), np.degrees(np.mean(sd))
@@ -217,7 +217,7 @@ def test_a_disc_stuck_askew_costs_no_depth(off_mm: tuple[float, float]) -> None:
         disc = seen.disc_m.copy()
         disc[:, HAND21.markers.index(marker), :2] += 1e-3 * np.array(off_mm)
         fit = fit_anatomy(dataclasses.replace(seen, disc_m=disc), hand.side)
-        assert not fit.absurd_depth
+        assert not fit.outlier_depth
         flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
         assert np.abs(np.degrees(_angles(fit)[0] - _neutral(6))[flexions]).max() < 6.0
 
@@ -227,8 +227,8 @@ def test_a_finger_that_is_evidently_bent_is_not_drawn_to_straight(said: tuple[bo
     hand, angles = _person(6), np.zeros(17)
     bent = NAMES.index("PIP4_flexion")
     angles[bent] = math.radians(35.0)
-    fit = fit_anatomy(_seen(hand, angles, 6, 0.0005), hand.side, straight=said)
-    free = fit_anatomy(_seen(hand, angles, 6, 0.0005), hand.side, straight=(True, True, True, False, True))
+    fit = fit_anatomy(_seen(hand, angles, 6, 0.0005), hand.side, is_straight=said)
+    free = fit_anatomy(_seen(hand, angles, 6, 0.0005), hand.side, is_straight=(True, True, True, False, True))
     assert _angles(fit)[0][bent] == pytest.approx(_angles(free)[0][bent], abs=math.radians(0.1))
     other = NAMES.index("PIP3_flexion")
     assert _angles(fit)[1][other] < 0.9 * _angles(fit)[1][bent]
@@ -240,7 +240,7 @@ def test_absurd_depth_is_left_out_and_named(marker: str) -> None:
     disc = seen.disc_m.copy()
     disc[:, HAND21.markers.index(marker), 2] -= 0.035  # the table instead of the finger
     fit = fit_anatomy(dataclasses.replace(seen, disc_m=disc), hand.side)
-    assert fit.absurd_depth == (marker,)
+    assert fit.outlier_depth == (marker,)
     off_deg = np.degrees(_angles(fit)[0] - _neutral(8))
     assert np.max(np.abs(off_deg[5:])) < 12.0
 
@@ -259,13 +259,13 @@ def test_chain_of_the_papers_has_no_offsets(stays_m: float, most_m: float) -> No
 
 def test_constants_and_anatomy_are_two_forms_of_one_hand() -> None:
     hand = _person(2)
-    again = with_constants(hand, constants_of(hand))
+    again = with_constants(hand, constants_from_anatomy(hand))
     for field in dataclasses.fields(hand):
         value = getattr(hand, field.name)
         assert value == again.side if field.name == "side" else np.allclose(value, getattr(again, field.name)), (
             field.name
         )
-    moved = constants_of(hand)
+    moved = constants_from_anatomy(hand)
     moved[2, 5] += 0.004
     assert np.linalg.norm(with_constants(hand, moved).palm_joint_m[3] - hand.palm_joint_m[3]) == pytest.approx(0.004)
 

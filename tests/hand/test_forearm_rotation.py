@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.clinical_angles import angles_from_rotation, side_sign, wrist_axes
-from carpus.core.hand.exercises import EXERCISES, exercise_named
+from carpus.core.hand.exercises import EXERCISES, get_exercise
 from carpus.core.hand.forearm_rotation import (
-    is_from_thumb_up,
+    from_clinical_targets_deg,
+    is_counted_from_thumb_up,
     pronosupination_from_palm_down,
-    read_targets_deg,
-    read_wrist_angles,
-    stored_targets_deg,
     supination_from_thumb_up,
+    to_clinical_targets_deg,
+    to_clinical_wrist_angles,
 )
 from carpus.core.types import FloatArray, Side
 
@@ -65,21 +65,21 @@ def test_a_start_that_was_measured_with_a_goniometer_is_part_of_the_angle() -> N
     """A forearm that starts at 60 degrees of pronation has + 30 from palm down in the file, and so reads 60."""
     stored = np.radians([[0.0, 0.0, 30.0], [0.0, 0.0, 90.0]])
     start = np.radians([0.0, 0.0, 30.0])
-    turned = read_wrist_angles(stored, exercise_named("FOREARM_PS"), start)
+    turned = to_clinical_wrist_angles(stored, get_exercise("FOREARM_PS"), start)
     assert np.degrees(turned[:, 2]) == pytest.approx([-60.0, 0.0])
-    aside = read_wrist_angles(stored, exercise_named("WRIST_FE"), start)
+    aside = to_clinical_wrist_angles(stored, get_exercise("WRIST_FE"), start)
     assert np.degrees(aside[:, 2]) == pytest.approx([0.0, 60.0])  # rotation from the start
     assert np.array_equal(aside[:, :2], stored[:, :2])
 
 
 def test_pronation_is_read_where_it_is_trained_or_nothing_in_particular_is() -> None:
-    read = {one.id for one in EXERCISES if is_from_thumb_up(one)}
+    read = {one.id for one in EXERCISES if is_counted_from_thumb_up(one)}
     assert read == {"FOREARM_PS", "REACH_GRASP", "FREE_HAND", "FREE"}
 
 
 def test_targets_of_an_older_version_are_converted_and_those_of_other_exercises_stay() -> None:
-    turn, bend = exercise_named("FOREARM_PS"), exercise_named("WRIST_FE")
-    assert read_targets_deg((60.0, -20.0), turn) == (-30.0, -110.0)
-    assert read_targets_deg((60.0, -20.0), bend) == (60.0, -20.0)
-    assert stored_targets_deg(read_targets_deg((60.0, math.nan), turn), turn)[0] == 60.0
-    assert math.isnan(read_targets_deg((60.0, math.nan), turn)[1])
+    turn, bend = get_exercise("FOREARM_PS"), get_exercise("WRIST_FE")
+    assert to_clinical_targets_deg((60.0, -20.0), turn) == (-30.0, -110.0)
+    assert to_clinical_targets_deg((60.0, -20.0), bend) == (60.0, -20.0)
+    assert from_clinical_targets_deg(to_clinical_targets_deg((60.0, math.nan), turn), turn)[0] == 60.0
+    assert math.isnan(to_clinical_targets_deg((60.0, math.nan), turn)[1])

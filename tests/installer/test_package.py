@@ -23,9 +23,9 @@ import pytest
 
 from carpus import __version__
 from carpus.app.commands import COMMANDS
-from carpus.core.about import bundled_parts, licence_texts
+from carpus.core.about import licence_texts, list_bundled_parts
 from carpus.core.installing import CAMERAS_EXTRA
-from carpus.ui.icons import program_icon
+from carpus.ui.icons import program_icon_image
 
 ROOT = Path(__file__).parents[2]
 HERE = ROOT / "installer" / "package"
@@ -167,7 +167,7 @@ def test_the_man_page_has_every_command(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_every_need_is_among_the_parts_with_its_licence(monkeypatch: pytest.MonkeyPatch) -> None:
-    parts = {re.sub(r"[-_.]+", "-", part.name).lower(): part for part in bundled_parts()}
+    parts = {re.sub(r"[-_.]+", "-", part.name).lower(): part for part in list_bundled_parts()}
     assert next(iter(parts)) == "carpus"
     lock = (ROOT / "requirements.lock").read_text(encoding="utf-8")
     pinned = {line.partition("==")[0].lower() for line in lock.splitlines() if "==" in line}
@@ -189,9 +189,9 @@ def test_windows_is_told_version_and_icon(tmp_path: Path, monkeypatch: pytest.Mo
     assert resources.four_numbers("0.1.0") == (0, 1, 0, 0)
     assert resources.four_numbers("1.12.3rc4") == (1, 12, 3, 4)
     assert "filevers=(1, 2, 0, 0)" in resources.version_resource("1.2")
-    assert program_icon(256).save(str(tmp_path / "carpus.ico"))
+    assert program_icon_image(256).save(str(tmp_path / "carpus.ico"))
     assert (tmp_path / "carpus.ico").read_bytes()[:6] == b"\x00\x00\x01\x00\x01\x00"
-    assert program_icon(64).pixelColor(32, 53).blue() > 180, "a disc"
+    assert program_icon_image(64).pixelColor(32, 53).blue() > 180, "a disc"
 
 
 def test_a_payload_with_a_path_too_long_for_windows_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

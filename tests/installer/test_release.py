@@ -13,7 +13,7 @@ from types import ModuleType
 import pytest
 
 from carpus import __version__
-from carpus.core.about import is_newer, newest_version
+from carpus.core.about import find_latest_version, is_newer
 
 ROOT = Path(__file__).parents[2]
 GOOD = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-11-22\n\n### Added\n- Something.\n\n"
@@ -121,10 +121,10 @@ def test_the_folder_of_packages_is_what_apt_and_the_program_read(release: Module
     assert hashlib.sha256(listed).hexdigest() in (folder / "Release").read_text()
     for path in packages:
         assert hashlib.sha256(path.read_bytes()).hexdigest().encode() in listed
-    assert newest_version(folder) == "1.10.0rc1"
+    assert find_latest_version(folder) == "1.10.0rc1"
     assert is_newer("1.10.0rc1", "1.9.3")
     assert not is_newer("1.10.0rc1", "1.10.0")
-    assert newest_version(write(tmp_path / "empty")) == ""
+    assert find_latest_version(write(tmp_path / "empty")) == ""
 
 
 def write(folder: Path) -> Path:

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from carpus.app.desktop.looks import application
+from carpus.app.desktop.looks import create_application
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.pipeline import looking_back
@@ -37,10 +37,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested. Nor is how
     smoothly it is drawn: a core that draws thirty times a second is one less for all that is waited for."""
-    monkeypatch.setattr(looking_back, "END_S", 150.0)
+    monkeypatch.setattr(looking_back, "FINISH_TIMEOUT_S", 150.0)
     monkeypatch.setattr(live_recording, "HASTY_S", 0.0)  # a take is over in a few seconds
-    monkeypatch.setattr(live_screen, "DRAW_AFTER_MS", DRAWN_EVERY_MS)
-    monkeypatch.setattr(live_screen, "TICK_EVERY_MS", DRAWN_EVERY_MS)
+    monkeypatch.setattr(live_screen, "MIN_DRAW_INTERVAL_MS", DRAWN_EVERY_MS)
+    monkeypatch.setattr(live_screen, "MAX_TICK_INTERVAL_MS", DRAWN_EVERY_MS)
     monkeypatch.setattr(markers_screen, "PREVIEW_EVERY_MS", DRAWN_EVERY_MS)
 
 
@@ -59,7 +59,7 @@ def data(tmp_path: Path) -> Path:
 @pytest.fixture
 def open_desktop(open_desktop: Open, take: Path) -> Open:
     """As that of all tests, with the take in the simulated patient's place; may be called again after closing."""
-    application([])
+    create_application([])
     usual = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(keep_pictures=False))
 
     def open_one(settings: Settings = usual, **options: Any) -> Desktop:

@@ -9,13 +9,13 @@ from pathlib import Path
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import SessionSetup
 from carpus.core.simulation.motions import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, Frame
 
-Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
+Take = Callable[[SessionSetup, Callable[[int, int], None]], tuple[FrameSource, float]]
 
 SPEC = RecordingSpec(
     seed=5, motion="flexion", seconds=4.9, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.6,

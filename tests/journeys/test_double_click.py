@@ -28,28 +28,28 @@ def test_a_session_of_nobody_here_is_shown_once_somebody_has_the_pin_and_stays_w
     qtbot: QtBot, open_desktop: Open, session: Path, data: Path, tmp_path: Path
 ) -> None:
     before = session.read_bytes()
-    journey = (desktop := open_desktop()).journey
+    journey = (desktop := open_desktop()).controller
     other = tmp_path / "other.h5"
     other.write_bytes(b"\x89HDF\r\n\x1a\nnothing")
-    desktop.called(other)
+    desktop.on_second_instance(other)
     assert journey.place == "patients"
-    assert journey.messages.busy, "what is no session is told"
-    journey.messages.card.answers[-1].click()
-    locking = desktop.safe.locking
+    assert journey.messages.is_busy, "what is no session is told"
+    journey.messages.dialog.answer_buttons[-1].click()
+    locking = desktop.data_protection.locking
     locking.pin.set("4711")
-    locking.lock_by_key()
-    assert locking.locked
-    desktop.called(session)
-    assert (journey.place, journey.now.patient) == ("patients", None)
-    locking.sheet.tried.emit("4711")
-    qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
+    locking.lock_or_set_pin()
+    assert locking.is_locked
+    desktop.on_second_instance(session)
+    assert (journey.place, journey.current.patient) == ("patients", None)
+    locking.lock_screen.pin_entered.emit("4711")
+    qtbot.waitUntil(lambda: journey.review.screen.is_loaded, timeout=30_000)
     assert journey.place == "review"
-    assert journey.now.patient.pseudonym == "Linden 42"
-    assert journey.review.screen.card.again_button.isHidden(), "there is nobody to measure"
+    assert journey.current.patient.pseudonym == "Linden 42"
+    assert journey.review.screen.card.repeat_button.isHidden(), "there is nobody to measure"
     for tab in range(4):  # every tab of the bar leads somewhere
-        journey.take_tab(tab)
+        journey.open_tab(tab)
         assert journey.place == ("sessions", "review", "progress", "report")[tab] or tab == 3
-    journey.patients.show()
+    journey.patients.open()
     assert not list((data / "sessions").rglob("*.h5"))
     assert session.read_bytes() == before
     assert [path.name for path in session.parent.iterdir()] == [session.name]
@@ -60,11 +60,11 @@ def test_a_session_of_a_patient_is_opened_as_theirs_also_by_a_copy(
 ) -> None:
     (data / "sessions").mkdir(parents=True)
     shutil.copyfile(session, data / "sessions" / "copied.h5")
-    journey = (desktop := open_desktop()).journey
-    desktop.called(session)
-    qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
-    assert journey.now.patient.patient_id
-    assert journey.now.patient.session_count == 1
+    journey = (desktop := open_desktop()).controller
+    desktop.on_second_instance(session)
+    qtbot.waitUntil(lambda: journey.review.screen.is_loaded, timeout=30_000)
+    assert journey.current.patient.patient_id
+    assert journey.current.patient.session_count == 1
 
 
 def test_a_file_alone_is_as_good_as_the_command(

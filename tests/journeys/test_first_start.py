@@ -27,11 +27,11 @@ def test_the_first_session_is_led_from_control_to_control(
     qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path
 ) -> None:
     desktop = open_desktop()
-    journey, tour, panel = desktop.journey, desktop.tour, desktop.welcome.panel
+    journey, tour, panel = desktop.controller, desktop.tour, desktop.welcome.panel
     qtbot.waitUntil(panel.isVisible)
     assert desktop.shell.focusWidget() in (journey.patients.screen.search, None), "the search keeps the keyboard"
-    qtbot.waitUntil(lambda: len(panel.checks) >= 5)
-    assert {"Camera driver", "Data folder", "Disk", "Fonts", "Screen"} <= {row.check.name for row in panel.checks}
+    qtbot.waitUntil(lambda: len(panel.check_rows) >= 5)
+    assert {"Camera driver", "Data folder", "Disk", "Fonts", "Screen"} <= {row.check.name for row in panel.check_rows}
     click(qtbot, panel.tour_button)
     assert desktop.welcome.panel is None
     order = []
@@ -44,7 +44,7 @@ def test_the_first_session_is_led_from_control_to_control(
         click(qtbot, view.next_button)
 
     go_on("patient")
-    at(qtbot, desktop.journey, "markers")
+    at(qtbot, desktop.controller, "markers")
     still_hand(qtbot, desktop)
     go_on("aim")
     qtbot.waitUntil(lambda: shown(desktop, "click"))
@@ -52,7 +52,7 @@ def test_the_first_session_is_led_from_control_to_control(
     go_on("check")
     qtbot.waitUntil(lambda: shown(desktop, "record"))
     assert journey.live.screen.bubble.isVisible()
-    journey.way.go("report")
+    journey.navigator.switch_screen("report")
     qtbot.waitUntil(lambda: shown(desktop, "save"))
     journey.report.screen.saved.emit(str(tmp_path / "report.pdf"))
     assert not load_settings(tmp_path / "settings").first_start.answered, "it is not finished yet"
@@ -66,29 +66,29 @@ def test_escape_leaves_the_guide_and_not_the_screen_and_it_is_for_the_practice_p
     qtbot: QtBot, open_desktop: Open
 ) -> None:
     desktop = open_desktop()
-    journey, tour = desktop.journey, desktop.tour
-    desktop.shell.key.emit("help")
-    at(qtbot, desktop.journey, "help")
+    journey, tour = desktop.controller, desktop.tour
+    desktop.shell.key_pressed.emit("help")
+    at(qtbot, desktop.controller, "help")
     click(qtbot, journey.help.screen.tour_button)
-    at(qtbot, desktop.journey, "patients")
+    at(qtbot, desktop.controller, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
-    desktop.shell.key.emit("settings")
+    desktop.shell.key_pressed.emit("settings")
     qtbot.waitUntil(lambda: tour.bubble is None)
-    desktop.shell.key.emit("back")
-    at(qtbot, desktop.journey, "patients")
+    desktop.shell.key_pressed.emit("back")
+    at(qtbot, desktop.controller, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
     journey.patients.screen.new_patient()
     qtbot.waitUntil(lambda: tour.bubble is None)
-    journey.patients.screen.form.leave()
+    journey.patients.screen.form.dismiss()
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
-    desktop.shell.key.emit("back")
+    desktop.shell.key_pressed.emit("back")
     assert not tour.is_on
     assert journey.place == "patients"
-    journey.now.patient = desktop.library.patients.one(desktop.library.patients.add(_somebody()))
+    journey.current.patient = desktop.library.patients.get(desktop.library.patients.add(_somebody()))
     for asked_for in (False, True):
-        tour.begin(asked_for=asked_for)
-        journey.way.go("camera")
-        tour.look()
+        tour.start(is_requested=asked_for)
+        journey.navigator.switch_screen("camera")
+        tour.refresh()
         assert tour.bubble == ("camera" if asked_for else None)
 
 
@@ -104,22 +104,22 @@ def test_another_folder_is_looked_at_typing_goes_to_the_search_and_escape_says_n
     qtbot: QtBot, open_desktop: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop = open_desktop()
-    panel, search = desktop.welcome.panel, desktop.journey.patients.screen.search
-    qtbot.waitUntil(lambda: bool(panel.checks))
+    panel, search = desktop.welcome.panel, desktop.controller.patients.screen.search
+    qtbot.waitUntil(lambda: bool(panel.check_rows))
     other = tmp_path / "elsewhere" / "Carpus"
     monkeypatch.setattr("carpus.ui.settings.screen.QFileDialog.getExistingDirectory", lambda *_: str(other))
     panel.show_checks([])
     click(qtbot, panel.folder_button)
-    assert panel.where.text() == str(other)
+    assert panel.folder_label.text() == str(other)
     assert panel.close_button.isVisible()
     assert not panel.close_button.visibleRegion().isEmpty(), "it is not scrolled away"
-    qtbot.waitUntil(lambda: any(str(other) in row.check.found for row in panel.checks))
+    qtbot.waitUntil(lambda: any(str(other) in row.check.found for row in panel.check_rows))
     assert load_settings(tmp_path / "settings").data_folder == other
     assert desktop.library.folder != other, "it counts from the next start"
     QTest.keyClicks(search, "prac")
     assert search.text() == "prac"
-    desktop.shell.key.emit("back")
-    assert (desktop.welcome.panel, desktop.journey.patients.screen.welcome) == (None, None)
+    desktop.shell.key_pressed.emit("back")
+    assert (desktop.welcome.panel, desktop.controller.patients.screen.welcome) == (None, None)
     assert load_settings(tmp_path / "settings").first_start.answered
 
 
@@ -131,7 +131,7 @@ def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
 
     monkeypatch.setattr(welcoming, "examine_at_start", fails)
     desktop = open_desktop()
-    qtbot.waitUntil(lambda: desktop.journey.messages.busy)
+    qtbot.waitUntil(lambda: desktop.controller.messages.is_busy)
     panel = desktop.welcome.panel
     assert panel.again_button.isEnabled()
 

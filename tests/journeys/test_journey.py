@@ -16,20 +16,20 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.care_cameras import CareCameras
-from carpus.app.desktop.journey import Journey
+from carpus.app.desktop.care_cameras import MaintenanceCameras
+from carpus.app.desktop.journey import MainController
 from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.pipeline import measuring
-from carpus.core.pipeline.looking_back import LookingBack
-from carpus.core.records.recordings import recordings_folder
+from carpus.core.pipeline.looking_back import SmoothingProcess
+from carpus.core.records.recordings import spool_folder
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_session
-from carpus.ui.messages.messages import NoticeStrip, StopCard
+from carpus.ui.messages.messages import MessageDialog, NoticeStrip
 from carpus.ui.now_open import SourceChoice
 from tests.journeys.conftest import Open
 from tests.journeys.takes import RANGE_DEG, SPEED, clicks_of
@@ -52,31 +52,31 @@ def click(qtbot: QtBot, widget: QWidget, spot: QPoint | None = None) -> None:
     qtbot.mouseClick(widget, Qt.MouseButton.LeftButton, pos=spot or widget.rect().center())
 
 
-def at(qtbot: QtBot, journey: Journey, place: str) -> None:
+def at(qtbot: QtBot, journey: MainController, place: str) -> None:
     wait(qtbot, lambda: journey.place == place)
 
 
 def still_hand(qtbot: QtBot, desktop: Desktop) -> None:
     """Half a second of the still hand has been seen."""
-    at(qtbot, desktop.journey, "markers")
-    source = desktop.journey.now.source
+    at(qtbot, desktop.controller, "markers")
+    source = desktop.controller.current.source
     wait(qtbot, lambda: len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES)
-    wait(qtbot, lambda: desktop.journey.markers.screen.picture.image is not None)
+    wait(qtbot, lambda: desktop.controller.markers.screen.picture.image is not None)
 
 
 def click_discs(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
-    picture = desktop.journey.markers.screen.picture
+    picture = desktop.controller.markers.screen.picture
     for u, v in clicks_of(take):
         QApplication.processEvents()  # what came or went beside the picture has made it larger or smaller
         click(qtbot, picture, picture.to_screen(float(u), float(v)).toPoint())
-    wait(qtbot, desktop.journey.markers.screen.primary.isEnabled)
+    wait(qtbot, desktop.controller.markers.screen.primary_button.isEnabled)
 
 
 def reviewed(qtbot: QtBot, desktop: Desktop) -> Path:
     """The session file of the review that is shown."""
-    at(qtbot, desktop.journey, "review")
-    wait(qtbot, lambda: desktop.journey.review.screen.shown)
-    return desktop.library.entry(desktop.journey.now.session_id).path
+    at(qtbot, desktop.controller, "review")
+    wait(qtbot, lambda: desktop.controller.review.screen.is_loaded)
+    return desktop.library.entry(desktop.controller.current.session_id).path
 
 
 def check_file(path: Path, subject: str) -> None:
@@ -99,9 +99,9 @@ def check_file(path: Path, subject: str) -> None:
 def check_pictures(desktop: Desktop, path: Path) -> None:
     """The pictures that were kept show the discs where the session says."""
     assert path.with_suffix(".carpusraw").exists()
-    session = desktop.library.session(session_id := desktop.journey.now.session_id)
+    session = desktop.library.session(session_id := desktop.controller.current.session_id)
     for row in (0, len(session) - 1):
-        picture = desktop.library.picture(session_id, row)
+        picture = desktop.library.read_frame(session_id, row)
         assert picture.shape == (480, 640, 3)
         known = np.isfinite(session.markers.measured_px[row, :, 0])
         u, v = np.round(session.markers.measured_px[row][known][0]).astype(int)
@@ -112,104 +112,104 @@ def check_pictures(desktop: Desktop, path: Path) -> None:
 def test_the_whole_journey_by_mouse(
     qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    journey = (desktop := open_desktop()).journey
+    journey = (desktop := open_desktop()).controller
     click(qtbot, journey.patients.screen.new_button)
     for chips in (journey.patients.screen.form.fields["side"], journey.patients.screen.form.fields["dominance"]):
         click(qtbot, chips.buttons()[0])
-    click(qtbot, journey.patients.screen.form.save)
-    name = journey.patients.screen.list.rows.row(0).pseudonym
+    click(qtbot, journey.patients.screen.form.save_button)
+    name = journey.patients.screen.list.patient_model.row(0).pseudonym
     wait(qtbot, lambda: journey.patients.screen.card.start_button.isVisible())
     click(qtbot, journey.patients.screen.card.start_button)
-    at(qtbot, desktop.journey, "exercise")
+    at(qtbot, desktop.controller, "exercise")
     click(qtbot, journey.exercise.screen.exercises.option("WRIST_FE"))
-    journey.exercise.screen.asked["keep_pictures"].choose(True)
-    click(qtbot, journey.exercise.screen.primary)
-    at(qtbot, desktop.journey, "camera")
+    journey.exercise.screen.form["keep_pictures"].choose(True)
+    click(qtbot, journey.exercise.screen.primary_button)
+    at(qtbot, desktop.controller, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))
-    click(qtbot, journey.camera.screen.primary)
+    click(qtbot, journey.camera.screen.primary_button)
     still_hand(qtbot, desktop)
-    click(qtbot, journey.markers.screen.primary)
+    click(qtbot, journey.markers.screen.primary_button)
     click_discs(qtbot, desktop, take)
-    assert journey.markers.screen.guidance.panel.states()[0] == "good"
-    click(qtbot, journey.markers.screen.primary)
-    at(qtbot, desktop.journey, "live")
-    assert desktop.shell.sign.text == f"Simulated hand: this is not {name}, and does not count."
-    source = journey.now.source
-    journey.now.source = replace(source, rests=lambda: True)
-    wait(qtbot, lambda: "drawn" in desktop.shell.bar.camera.text())
-    assert not journey.messages.busy, "a card would take Space from the recording"
-    journey.now.source = source
-    click(qtbot, journey.live.screen.controls.main)
+    assert journey.markers.screen.guidance.verdict_panel.states()[0] == "good"
+    click(qtbot, journey.markers.screen.primary_button)
+    at(qtbot, desktop.controller, "live")
+    assert desktop.shell.banner.text == f"Simulated hand: this is not {name}, and does not count."
+    source = journey.current.source
+    journey.current.source = replace(source, rests=lambda: True)
+    wait(qtbot, lambda: "drawn" in desktop.shell.top_bar.camera.text())
+    assert not journey.messages.is_busy, "a card would take Space from the recording"
+    journey.current.source = source
+    click(qtbot, journey.live.screen.controls.main_button)
     wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
-    wait(qtbot, lambda: desktop.shell.bar.pill.state == "recording")
+    wait(qtbot, lambda: desktop.shell.top_bar.recording_pill.state == "recording")
     wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
-    click(qtbot, journey.live.screen.controls.main)
+    click(qtbot, journey.live.screen.controls.main_button)
     path = reviewed(qtbot, desktop)
-    assert read_session(path).header.simulated
-    assert desktop.shell.sign.isVisible()
-    assert any("imulated" in line for line in journey.bar.sign_lines())
+    assert read_session(path).header.is_simulated
+    assert desktop.shell.banner.isVisible()
+    assert any("imulated" in line for line in journey.top_bar.banner_lines())
     check_file(path, name)
     check_pictures(desktop, path)
-    before, counted = path.read_bytes(), journey.review.screen.figures.counted
-    journey.review.screen._leave_out(journey.review.screen.current + 1, "pain", and_after=False)
-    wait(qtbot, lambda: not journey.background.busy)
+    before, counted = path.read_bytes(), journey.review.screen.results.repetition_count
+    journey.review.screen._exclude_repetition(journey.review.screen.current + 1, "pain", and_after=False)
+    wait(qtbot, lambda: not journey.background.is_busy)
     assert path.read_bytes() == before, "what was left out is stored beside the session"
     assert path.is_relative_to(desktop.library.store.sessions_folder)
-    assert desktop.shell.bar.pill.state == "off"
-    click(qtbot, desktop.shell.bar.way()[2])
-    at(qtbot, desktop.journey, "progress")
-    click(qtbot, desktop.shell.bar.way()[1])
+    assert desktop.shell.top_bar.recording_pill.state == "off"
+    click(qtbot, desktop.shell.top_bar.navigation_buttons()[2])
+    at(qtbot, desktop.controller, "progress")
+    click(qtbot, desktop.shell.top_bar.navigation_buttons()[1])
     reviewed(qtbot, desktop)
-    click(qtbot, desktop.shell.bar.way()[2])
-    at(qtbot, desktop.journey, "progress")
+    click(qtbot, desktop.shell.top_bar.navigation_buttons()[2])
+    at(qtbot, desktop.controller, "progress")
     wait(qtbot, lambda: bool(journey.progress.screen.chart.points()))
     spot = journey.progress.screen.chart.points()[0][2].toPoint()
-    qtbot.mouseClick(journey.progress.screen.chart.face, Qt.MouseButton.LeftButton, pos=spot)
+    qtbot.mouseClick(journey.progress.screen.chart.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
     reviewed(qtbot, desktop)
     click(qtbot, journey.review.screen.card.report_button)
-    at(qtbot, desktop.journey, "report")
+    at(qtbot, desktop.controller, "report")
     pdf = tmp_path / "report.pdf"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
     with qtbot.waitSignal(journey.report.screen.saved, timeout=PATIENCE_MS):
         click(qtbot, journey.report.screen.save_button)
     assert name in words_of(pdf)
-    click(qtbot, desktop.shell.bar.back_button)
-    at(qtbot, desktop.journey, "review")
-    click(qtbot, desktop.shell.bar.back_button)
-    at(qtbot, desktop.journey, "patients")
-    row = journey.patients.screen.list.rows.row(0)
+    click(qtbot, desktop.shell.top_bar.back_button)
+    at(qtbot, desktop.controller, "review")
+    click(qtbot, desktop.shell.top_bar.back_button)
+    at(qtbot, desktop.controller, "patients")
+    row = journey.patients.screen.list.patient_model.row(0)
     assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
     assert journey.patients.screen._store.card(row.patient_id).has_sessions
     assert [folder.stat().st_mode & 0o777 for folder in (desktop.library.folder, path.parent)] == [0o700, 0o700]
     desktop.close()
     again = open_desktop()
     (entry,) = again.library.sessions(row.patient_id)
-    stored = again.library.figures(entry)
-    assert stored.counted == counted - 1
-    assert stored.counted == 0 or math.isfinite(stored.wrist_ranges[0].mean)
+    stored = again.library.results(entry)
+    assert stored.repetition_count == counted - 1
+    assert stored.repetition_count == 0 or math.isfinite(stored.wrist_ranges[0].mean)
 
 
 def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time(
     qtbot: QtBot, open_desktop: Open, take: Path
 ) -> None:
-    journey = (desktop := open_desktop()).journey
-    journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop.journey, "markers")
-    journey.way.back()
-    at(qtbot, desktop.journey, "camera")
+    journey = (desktop := open_desktop()).controller
+    journey.camera.open(PRACTICE_PATIENT)
+    at(qtbot, desktop.controller, "markers")
+    journey.navigator.navigate_back()
+    at(qtbot, desktop.controller, "camera")
     journey.camera.screen.set_path(str(take))
-    click(qtbot, journey.camera.screen.primary)
-    at(qtbot, desktop.journey, "markers")
-    assert not journey.markers.screen.new_picture.isVisible()
+    click(qtbot, journey.camera.screen.primary_button)
+    at(qtbot, desktop.controller, "markers")
+    assert not journey.markers.screen.new_frame_button.isVisible()
     click_discs(qtbot, desktop, take)
-    assert not journey.messages.busy
+    assert not journey.messages.is_busy
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop.journey, "live")
+    at(qtbot, desktop.controller, "live")
     assert journey.live.screen.recording.state == "off", "it waits for the key, as every source does"
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Space)
     begun_s = time.monotonic()
     path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
-    assert not journey.review.screen.card.again_button.isVisible()
+    assert not journey.review.screen.card.repeat_button.isVisible()
     check_file(path, "practice")
     stored = [float(line.split()[0]) for line in (take / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
     with h5py.File(path) as file:
@@ -223,25 +223,25 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time
 def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_that_is_not_there_is_told(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    journey = (desktop := open_desktop()).journey
-    journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop.journey, "markers")
-    assert journey.now.source is not None
+    journey = (desktop := open_desktop()).controller
+    journey.camera.open(PRACTICE_PATIENT)
+    at(qtbot, desktop.controller, "markers")
+    assert journey.current.source is not None
     verdict = make_calibration().verdict
     off = replace(verdict, findings=(CalibrationFinding("depth_off", (), 11.0, 3.0, "px"),))
     journey.markers.check_registration(off)
-    assert not journey.messages.busy, "a camera says it itself"
-    journey.now.source = replace(journey.now.source, asks_registration=True)
-    journey.now.choice = SourceChoice("file", str(take))
+    assert not journey.messages.is_busy, "a camera says it itself"
+    journey.current.source = replace(journey.current.source, is_registration_unknown=True)
+    journey.current.source_choice = SourceChoice("file", str(take))
     journey.markers.check_registration(replace(verdict, findings=()))
-    assert not journey.messages.busy
+    assert not journey.messages.is_busy
     wanted: list[SourceChoice] = []
     with monkeypatch.context() as instead:
         instead.setattr(journey.opener, "open", wanted.append)
         journey.markers.check_registration(off)
-        assert "11 pixels" in journey.messages.card.what.text()
-        click(qtbot, journey.messages.card.answers[-1])
-    assert wanted == [SourceChoice("file", str(take), registered=False)]
+        assert "11 pixels" in journey.messages.dialog.happened.text()
+        click(qtbot, journey.messages.dialog.answer_buttons[-1])
+    assert wanted == [SourceChoice("file", str(take), is_depth_registered=False)]
     assert journey.place == "camera"
 
     def missing(**_: object) -> None:
@@ -251,20 +251,20 @@ def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_tha
     journey.camera.context.camera.stop()  # its next look would find none
     journey.camera.screen.set_camera_ready(True)
     click(qtbot, journey.camera.screen.sources.option("camera"))
-    click(qtbot, journey.camera.screen.primary)
-    wait(qtbot, journey.messages.card.isVisible)
-    assert "camera" in journey.messages.card.what.text()
-    assert journey.messages.card.todo.text().startswith("Plug")
-    click(qtbot, journey.messages.card.answers[-1])
+    click(qtbot, journey.camera.screen.primary_button)
+    wait(qtbot, journey.messages.dialog.isVisible)
+    assert "camera" in journey.messages.dialog.happened.text()
+    assert journey.messages.dialog.action.text().startswith("Plug")
+    click(qtbot, journey.messages.dialog.answer_buttons[-1])
     assert journey.place == "camera"
-    assert journey.now.source is None
+    assert journey.current.source is None
 
 
 def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_stopped_again_by_closing(
     qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
-    source, card, folder = journey.now.source, journey.messages.card, desktop.library.folder
+    source, card, folder = journey.current.source, journey.messages.dialog, desktop.library.folder
     assert source is not None
     usage = shutil.disk_usage(folder)
     with monkeypatch.context() as full:
@@ -274,35 +274,35 @@ def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_sto
     assert "20 MB free" in card.details.full_text()
     assert journey.live.screen.recording.state == "off"
     assert list(folder.rglob("*.h5*")) == []
-    click(qtbot, card.answers[-1])
+    click(qtbot, card.answer_buttons[-1])
     caplog.clear()
     kept: list[object] = []
-    real = LookingBack.wait
+    real = SmoothingProcess.join
 
-    def looked_back(looking_back: LookingBack) -> None:
-        kept.append(source.measuring._pipeline.keep)
+    def looked_back(looking_back: SmoothingProcess) -> None:
+        kept.append(source.measuring._pipeline.on_steps)
         real(looking_back)
 
-    monkeypatch.setattr(LookingBack, "wait", looked_back)
+    monkeypatch.setattr(SmoothingProcess, "wait", looked_back)
     journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
+    wait(qtbot, lambda: journey.live.screen.recording.duration_s > 0.5)
     journey.live.screen.recording.stop()
-    assert journey.live.screen.recording.storing
-    desktop.shell.close_surely()
+    assert journey.live.screen.recording.is_storing
+    desktop.shell.close_without_prompt()
     assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measuring"]
     assert kept
     assert kept[0] is None, "while it is waited for no more comes to be looked back at"
     assert len(open_desktop().library.sessions(PRACTICE_PATIENT)) == 1
 
 
-def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, Journey]:
-    desktop.journey.camera.show(PRACTICE_PATIENT)
+def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, MainController]:
+    desktop.controller.camera.open(PRACTICE_PATIENT)
     still_hand(qtbot, desktop)
-    desktop.journey.markers.screen.accept()
+    desktop.controller.markers.screen.accept()
     click_discs(qtbot, desktop, take)
-    click(qtbot, desktop.journey.markers.screen.primary)
-    at(qtbot, desktop.journey, "live")
-    return desktop, desktop.journey
+    click(qtbot, desktop.controller.markers.screen.primary_button)
+    at(qtbot, desktop.controller, "live")
+    return desktop, desktop.controller
 
 
 def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_needs_no_new_markers(
@@ -310,10 +310,10 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
     shell, live = desktop.shell, journey.live.screen
-    recording, feed = live.recording, journey.now.source.measuring.feed
+    recording, feed = live.recording, journey.current.source.measuring.feed
 
-    def card() -> StopCard:
-        return journey.messages.card  # another one on another screen
+    def card() -> MessageDialog:
+        return journey.messages.dialog  # another one on another screen
 
     def goes_on(key: Qt.Key) -> None:
         assert card().isVisible()
@@ -323,54 +323,54 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     def record() -> None:
         shell.activateWindow()
         qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)
-        wait(qtbot, lambda: recording.recorded_s > 0.5)
+        wait(qtbot, lambda: recording.duration_s > 0.5)
 
     record()
     shell.close()
     assert card().isVisible(), "it asks first"
-    whole = live.picture.shows_whole
+    whole = live.picture.is_whole
     for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1):
         qtbot.keyClick(shell.focusWidget(), key)
     assert (card().isVisible(), recording.state) == (True, "recording"), "a card takes every key"
-    assert (live.picture.shows_whole, journey.place) == (whole, "live")
+    assert (live.picture.is_whole, journey.place) == (whole, "live")
     live.setFocus()  # as a click beside the card would
     assert card().isAncestorOf(shell.focusWidget())
-    qtbot.mouseClick(live.controls.main, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(live.controls.main_button, Qt.MouseButton.LeftButton)
     goes_on(Qt.Key.Key_Space)  # "Go on measuring"
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)  # leaves no recording either
     goes_on(Qt.Key.Key_Escape)  # the answer that loses nothing
     monkeypatch.setattr("carpus.ui.live.recording.HASTY_S", 3600.0)
     recording.toggle()
     goes_on(Qt.Key.Key_Return)
-    feed.notice(CameraLost("Xtion", "unplugged"))
+    feed.handle_notice(CameraLost("Xtion", "unplugged"))
     wait(qtbot, lambda: card().isVisible())
-    assert "has stopped sending images" in card().what.text()
+    assert "has stopped sending images" in card().happened.text()
     assert "stored" in card().safe_detail.text()
-    feed.notice(CameraReturned("Xtion", "3 s"))
+    feed.handle_notice(CameraReturned("Xtion", "3 s"))
     wait(qtbot, lambda: not card().isVisible())
     recording.toggle()
-    click(qtbot, card().answers[0])  # "Stop and review"
+    click(qtbot, card().answer_buttons[0])  # "Stop and review"
     assert journey.place == "live"
-    journey.messages.fault(DiskFull("x"))
+    journey.messages.show_fault(DiskFull("x"))
     first = reviewed(qtbot, desktop)
     assert card().isVisible(), "a message moves with the screen"
-    assert "disk" in card().what.text()
-    click(qtbot, card().answers[-1])
-    assert not journey.messages.busy
+    assert "disk" in card().happened.text()
+    click(qtbot, card().answer_buttons[-1])
+    assert not journey.messages.is_busy
     with h5py.File(first) as file:
         assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
-    click(qtbot, journey.review.screen.card.again_button)
+    click(qtbot, journey.review.screen.card.repeat_button)
     at(qtbot, journey, "live")
     record()
     shell.close()
     recording.stop()  # as the end of the source does
     second = reviewed(qtbot, desktop)
-    assert not journey.messages.busy, "the question has answered itself"
-    click(qtbot, journey.review.screen.card.again_button)
+    assert not journey.messages.is_busy, "the question has answered itself"
+    click(qtbot, journey.review.screen.card.repeat_button)
     at(qtbot, journey, "live")
     record()
     shell.close()
-    click(qtbot, card().answers[0])  # "Stop, save and close"
+    click(qtbot, card().answer_buttons[0])  # "Stop, save and close"
     assert not shell.isVisible()
     again = open_desktop()
     entries = again.library.sessions(PRACTICE_PATIENT)
@@ -378,45 +378,45 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     assert len(entries) == 3
     assert last.duration_s > 0.4
     assert last.path.with_suffix(MARKERS_SUFFIX).is_file()
-    assert again.journey.patients.screen.findChildren(NoticeStrip) == []
+    assert again.controller.patients.screen.findChildren(NoticeStrip) == []
 
 
 def cut_short(data_folder: Path) -> None:
     """What is left of a session when the program is killed, or the disk was too full to finish it."""
-    folder = recordings_folder(data_folder) / "someone"
+    folder = spool_folder(data_folder) / "someone"
     folder.mkdir(parents=True)
     journal_of(folder / "cut.journal", 60).abandon()
 
 
 def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
-    journey = (desktop := open_desktop()).journey
+    journey = (desktop := open_desktop()).controller
     linden = desktop.library.patients.add(Patient("Linden 42", "right"))
-    journey.patients.show()
+    journey.patients.open()
     cut_short(desktop.library.folder)
-    journey.patients.show(linden)
-    row = journey.patients.screen.list.rows.row(0)
+    journey.patients.open(linden)
+    row = journey.patients.screen.list.patient_model.row(0)
     assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
 
 
 def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
     qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(CareCameras, "name", lambda _: None)
-    journey = (desktop := open_desktop()).journey
-    journey.camera.show(PRACTICE_PATIENT)
+    monkeypatch.setattr(MaintenanceCameras, "name", lambda _: None)
+    journey = (desktop := open_desktop()).controller
+    journey.camera.open(PRACTICE_PATIENT)
     at(qtbot, journey, "markers")
-    journey.patients.show()
+    journey.patients.open()
     linden = desktop.library.patients.add(Patient("Linden 42", "right"))
     for _ in range(2):
-        journey.exercise.show(linden)
-        click(qtbot, journey.exercise.screen.primary)
-        at(qtbot, desktop.journey, "camera")
+        journey.exercise.open(linden)
+        click(qtbot, journey.exercise.screen.primary_button)
+        at(qtbot, desktop.controller, "camera")
         assert journey.camera.screen.sources.value() == "camera"
-        assert not journey.camera.screen.primary.isEnabled()
+        assert not journey.camera.screen.primary_button.isEnabled()
         click(qtbot, journey.camera.screen.sources.option("practice"))  # by hand, each time
-        click(qtbot, journey.camera.screen.primary)
-        at(qtbot, desktop.journey, "markers")
-        journey.patients.show()
+        click(qtbot, journey.camera.screen.primary_button)
+        at(qtbot, desktop.controller, "markers")
+        journey.patients.open()
 
 
 def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
@@ -424,10 +424,10 @@ def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qt
     first.close()
     cut_short(first.library.folder)
     second = open_desktop()
-    (strip,) = second.journey.patients.screen.findChildren(NoticeStrip)
-    assert make_header().subject_id in strip.words.happened
-    assert "safe" in strip.words.safe
+    (strip,) = second.controller.patients.screen.findChildren(NoticeStrip)
+    assert make_header().subject_id in strip.words.summary
+    assert "safe" in strip.words.data_safety
     click(qtbot, strip.button)
     path = reviewed(qtbot, second)
     assert (path.name, path.parent.parent) == ("cut.h5", first.library.store.sessions_folder)
-    assert second.journey.now.patient.pseudonym == make_header().subject_id
+    assert second.controller.current.patient.pseudonym == make_header().subject_id

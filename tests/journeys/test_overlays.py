@@ -11,8 +11,8 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
 from carpus.core.errors import DiskFull
-from carpus.ui.controls.sheet import Sheet
-from carpus.ui.messages.messages import StopCard
+from carpus.ui.controls.sheet import Dialog
+from carpus.ui.messages.messages import MessageDialog
 from tests.journeys.conftest import Open
 
 
@@ -22,16 +22,16 @@ def press_escape(qtbot: QtBot, desktop: Desktop) -> None:
 
 def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: QtBot, open_desktop: Open) -> None:
     desktop = open_desktop()
-    journey = desktop.journey
+    journey = desktop.controller
     desktop.shell.activateWindow()
     seen: list[str] = []
     for place, screen in (
         ("patients", journey.patients.screen), ("markers", journey.markers.screen), ("live", journey.live.screen),
         ("review", journey.review.screen),
     ):  # fmt: skip
-        journey.way.go(place)  # type: ignore[arg-type]
-        for sheet in screen.findChildren(Sheet):
-            if isinstance(sheet, StopCard):
+        journey.navigator.switch_screen(place)  # type: ignore[arg-type]
+        for sheet in screen.findChildren(Dialog):
+            if isinstance(sheet, MessageDialog):
                 continue
             sheet.open()
             assert sheet.isVisible()
@@ -40,24 +40,24 @@ def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: Qt
             assert journey.place == place
             seen.append(type(sheet).__name__)
     assert set(seen) >= {"PatientForm", "StartAngleSheet", "NoteSheet", "PainSheet", "ReasonSheet"}
-    journey.way.go("patients")
-    journey.messages.fault(DiskFull("x"))
+    journey.navigator.switch_screen("patients")
+    journey.messages.show_fault(DiskFull("x"))
     press_escape(qtbot, desktop)
-    assert journey.messages.card.isVisible()
-    journey.messages.card.answers[-1].click()
-    assert not journey.messages.busy
+    assert journey.messages.dialog.isVisible()
+    journey.messages.dialog.answer_buttons[-1].click()
+    assert not journey.messages.is_busy
 
 
 def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet_and_a_recording_keeps_its_keys(
     qtbot: QtBot, open_desktop: Open
 ) -> None:
     desktop = open_desktop()
-    journey, theme = desktop.journey, desktop.theme
+    journey, theme = desktop.controller, desktop.theme
 
     def check_all() -> None:
         labels = 0
         for place in ("markers", "live", "review", "help", "settings", "progress", "report", "patients"):
-            journey.way.go(place)  # type: ignore[arg-type]
+            journey.navigator.switch_screen(place)  # type: ignore[arg-type]
             for label in desktop.shell.findChildren(QLabel):
                 if label.isVisible() and label.text():
                     shown = label.palette().color(QPalette.ColorRole.WindowText).name().upper()
@@ -69,12 +69,12 @@ def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet_
     check_all()
     theme.choose("light")
     check_all()
-    bar = desktop.shell.bar
-    bar.lock_aside(True)
+    bar = desktop.shell.top_bar
+    bar.lock_overlays(True)
     for button in (bar.help_button, bar.settings_button):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
         assert not button.hasFocus(), "it would take the keys and the pedal from a running recording"
         assert "recording" in button.toolTip()
-    bar.lock_aside(False)
+    bar.lock_overlays(False)
     assert bar.settings_button.isEnabled()
     assert "recording" not in bar.settings_button.toolTip()

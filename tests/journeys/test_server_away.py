@@ -28,24 +28,24 @@ def cluster() -> Iterator[Cluster]:
 
 def measured(qtbot: QtBot, desktop: Desktop, take: Path) -> Path:
     """From the exercise to the review, of a stored recording."""
-    journey = desktop.journey
+    journey = desktop.controller
     at(qtbot, journey, "exercise")
-    click(qtbot, journey.exercise.screen.primary)
+    click(qtbot, journey.exercise.screen.primary_button)
     at(qtbot, journey, "camera")
     journey.camera.screen.set_path(str(take))
-    click(qtbot, journey.camera.screen.primary)
+    click(qtbot, journey.camera.screen.primary_button)
     at(qtbot, journey, "markers")
     click_discs(qtbot, desktop, take)
-    click(qtbot, journey.markers.screen.primary)
+    click(qtbot, journey.markers.screen.primary_button)
     at(qtbot, journey, "live")
-    click(qtbot, journey.live.screen.controls.main)
+    click(qtbot, journey.live.screen.controls.main_button)
     return reviewed(qtbot, desktop)
 
 
 def is_away(desktop: Desktop) -> bool:
-    screen = desktop.journey.patients.screen
+    screen = desktop.controller.patients.screen
     shown = (screen.list, screen.card, screen.new_button)
-    return screen._away.isVisible() and not any(one.isVisible() and one.isEnabled() for one in shown)
+    return screen._offline_view.isVisible() and not any(one.isVisible() and one.isEnabled() for one in shown)
 
 
 def test_a_server_that_stops_hides_the_list_and_measuring_goes_on(
@@ -57,38 +57,38 @@ def test_a_server_that_stops_hides_the_list_and_measuring_goes_on(
         records=RecordsSettings(url=cluster.url()),
     )  # fmt: skip
     desktop = open_desktop(settings)
-    journey, screen = desktop.journey, desktop.journey.patients.screen
+    journey, screen = desktop.controller, desktop.controller.patients.screen
     linden = desktop.library.patients.add(Patient("Linden 42", "right"))
     desktop.library.patients.add(Patient("Heron 17", "right"))
     screen.refresh(linden)
-    assert not desktop.shell.sign.isVisible()
+    assert not desktop.shell.banner.isVisible()
 
     cluster.stop()
     wait(qtbot, lambda: is_away(desktop))
-    assert "server" in desktop.shell.sign.text
+    assert "server" in desktop.shell.banner.text
     assert screen.search.text() == "Linden 42", "who was chosen can be measured at one press"
-    click(qtbot, screen._away.button)
+    click(qtbot, screen._offline_view.button)
     first = measured(qtbot, desktop, take)
     assert linden in str(first), "known by identity"
-    assert not journey.messages.busy, journey.messages.card.what.text()
-    click(qtbot, desktop.shell.bar.back_button)
+    assert not journey.messages.is_busy, journey.messages.dialog.happened.text()
+    click(qtbot, desktop.shell.top_bar.back_button)
     at(qtbot, journey, "patients")
     assert is_away(desktop)
     desktop.close()
 
     desktop = open_desktop(settings)  # started while it is away
-    journey, screen = desktop.journey, desktop.journey.patients.screen
+    journey, screen = desktop.controller, desktop.controller.patients.screen
     assert is_away(desktop)
-    assert "server" in desktop.shell.sign.text
+    assert "server" in desktop.shell.banner.text
     qtbot.keyClicks(screen.search, "heron 17")
     qtbot.keyClick(screen.search, Qt.Key.Key_Return)
     at(qtbot, journey, "exercise")
     cluster.start()
-    wait(qtbot, lambda: not desktop.shell.sign.text.startswith("The clinic"))
-    assert journey.now.patient is not None
-    heron = desktop.library.patients.called("Heron 17")
-    assert journey.now.patient.patient_id == heron, "who was typed is who the list says"
-    click(qtbot, desktop.shell.bar.back_button)
+    wait(qtbot, lambda: not desktop.shell.banner.text.startswith("The clinic"))
+    assert journey.current.patient is not None
+    heron = desktop.library.patients.id_of_pseudonym("Heron 17")
+    assert journey.current.patient.patient_id == heron, "who was typed is who the list says"
+    click(qtbot, desktop.shell.top_bar.back_button)
     at(qtbot, journey, "patients")
     wait(qtbot, lambda: screen.list.isVisible())
     assert [row.pseudonym for row in screen._rows[:-1]] == ["Heron 17", "Linden 42"]

@@ -15,11 +15,11 @@ from pytestqt.qtbot import QtBot
 from carpus.app import compose
 from carpus.app.commands import desktop
 from carpus.app.desktop import log, no_folder, window
-from carpus.app.desktop.alone import Alone
-from carpus.app.desktop.no_folder import NoFolder
+from carpus.app.desktop.alone import SingleInstance
+from carpus.app.desktop.no_folder import FolderWindow
 from carpus.app.settings import load_settings, settings_folder
 from carpus.core.errors import CarpusFault, DataFolderChanged
-from carpus.core.words import Words
+from carpus.core.words import MessageText
 from carpus.ui import language
 from carpus.ui.controls.text import Text
 from carpus.ui.theme import Theme
@@ -33,8 +33,8 @@ CALL += "print(a.take(), a.call_first(Path(sys.argv[2]) if sys.argv[2:] else Non
 def test_a_second_carpus_does_not_get_the_folder_and_calls_the_first(
     qtbot: QtBot, tmp_path: Path, handed: tuple[str, ...]
 ) -> None:
-    first = Alone(tmp_path)
-    assert first.take()
+    first = SingleInstance(tmp_path)
+    assert first.acquire()
     called: list[Path | None] = []
     first.listen(called.append)
     command = (sys.executable, "-c", CALL, str(tmp_path), *handed)
@@ -42,28 +42,28 @@ def test_a_second_carpus_does_not_get_the_folder_and_calls_the_first(
     qtbot.waitUntil(lambda: bool(called), timeout=30_000)
     assert called == [Path(*handed) if handed else None]
     assert second.communicate(timeout=30)[0].split() == ["False", "True"]
-    first.let_go()
-    third = Alone(tmp_path)
-    assert third.take()
-    third.let_go()
+    first.release()
+    third = SingleInstance(tmp_path)
+    assert third.acquire()
+    third.release()
 
 
 def test_another_folder_is_another_carpus(tmp_path: Path) -> None:
     folders = [tmp_path / name for name in "ab"]
     for folder in folders:
         folder.mkdir()
-    both = [Alone(folder) for folder in folders]
-    assert all(one.take() for one in both)
-    assert not both[0].call_first(), "nobody listens"
+    both = [SingleInstance(folder) for folder in folders]
+    assert all(one.acquire() for one in both)
+    assert not both[0].notify_running_instance(), "nobody listens"
     for one in both:
-        one.let_go()
+        one.release()
 
 
 @pytest.mark.parametrize("answer", ["close", "choose", "think again"])
 def test_a_folder_that_cannot_be_used_is_told_in_a_window(
     qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answer: str
 ) -> None:
-    asking = NoFolder(Theme(), Words("It cannot be written.", "All is safe.", "Choose another."), tmp_path)
+    asking = FolderWindow(Theme(), MessageText("It cannot be written.", "All is safe.", "Choose another."), tmp_path)
     named = ["", str(tmp_path)] if answer == "think again" else [str(tmp_path)]
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: named.pop(0))
     presses = {"close": [0], "choose": [1], "think again": [1, 1]}[answer]
@@ -71,21 +71,21 @@ def test_a_folder_that_cannot_be_used_is_told_in_a_window(
 
     def press() -> None:
         if presses and asking.card.isVisible():
-            asking.card.answers[presses.pop(0)].click()
+            asking.card.answer_buttons[presses.pop(0)].click()
 
     timer.timeout.connect(press)
     timer.start(20)
-    assert asking.ask() == (None if answer == "close" else tmp_path)
-    assert "cannot be written" in asking.card.what.text()
+    assert asking.run() == (None if answer == "close" else tmp_path)
+    assert "cannot be written" in asking.card.happened.text()
 
 
 @pytest.fixture
 def quiet(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> None:
     """A window with a display, which takes no signals and changes no language of this process."""
     monkeypatch.setattr(desktop, "has_display", lambda: True)
-    monkeypatch.setattr(log, "write_log", lambda: None)
-    monkeypatch.setattr(log, "speak_in_the_window", lambda *_: None)
-    monkeypatch.setattr(window, "end_on_signals", lambda *_: None)
+    monkeypatch.setattr(log, "start_log", lambda: None)
+    monkeypatch.setattr(log, "show_uncaught_errors", lambda *_: None)
+    monkeypatch.setattr(window, "close_on_signals", lambda *_: None)
 
 
 @pytest.mark.usefixtures("quiet")
@@ -97,7 +97,7 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
     monkeypatch.setenv("CARPUS_DATA", str(blocked))
     monkeypatch.setattr(QApplication, "exec", lambda *_: 0)
     asked: list[str] = []
-    monkeypatch.setattr(no_folder, "ask_for_folder", lambda *given: asked.append(type(given[-1]).__name__) or good)
+    monkeypatch.setattr(no_folder, "choose_data_folder", lambda *given: asked.append(type(given[-1]).__name__) or good)
     assert desktop.open_window(None, is_demo=False) == 0
     assert asked == ["OutputNotWritable"]
     assert "blocked" in capsys.readouterr().err
@@ -129,7 +129,7 @@ def test_nobody_chooses_and_it_ends_with_a_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "blocked").write_text("")
-    monkeypatch.setattr(no_folder, "ask_for_folder", lambda *_: None)
+    monkeypatch.setattr(no_folder, "choose_data_folder", lambda *_: None)
     assert desktop.open_window(tmp_path / "blocked", is_demo=False) == 1
     assert capsys.readouterr().err.count("\n") == 1
 
@@ -143,7 +143,7 @@ def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
 
     def closes_at_once(self: window.Desktop, **_: bool) -> None:
         close_early(self)
-        self.journey.patients.show()  # what it was about to do, on what is closed now
+        self.controller.patients.open()  # what it was about to do, on what is closed now
 
     monkeypatch.setattr(window.Desktop, "show", closes_at_once)
     assert desktop.open_window(tmp_path / "early", is_demo=True) == 0
@@ -159,13 +159,13 @@ def test_another_language_opens_the_window_again_with_the_settings_in_it(
 
     def stay(_: QApplication) -> int:
         desktop = opened[-1]
-        said = {text.text() for text in desktop.keeper.screen.findChildren(Text)} if shown else set[str]()
-        shown.append((desktop.journey.place, desktop.keeper.settings.screen.language, "Einstellungen" in said))
+        said = {text.text() for text in desktop.preferences.screen.findChildren(Text)} if shown else set[str]()
+        shown.append((desktop.controller.place, desktop.preferences.settings.screen.language, "Einstellungen" in said))
         if len(shown) == 1:
-            desktop.journey.way.show("settings")
-            qtbot.waitUntil(lambda: not desktop.why_no_other_language())
-            desktop.keeper.screen.chosen["language"].buttons()[list(language.LANGUAGES).index("de")].click()
-            qtbot.waitUntil(lambda: desktop.closed)
+            desktop.controller.navigator.open_screen("settings")
+            qtbot.waitUntil(lambda: not desktop.find_language_obstacle())
+            desktop.preferences.screen.form["language"].buttons()[list(language.LANGUAGES).index("de")].click()
+            qtbot.waitUntil(lambda: desktop.is_closed)
         return 0
 
     opened: list[window.Desktop] = []
@@ -181,7 +181,7 @@ def test_another_language_opens_the_window_again_with_the_settings_in_it(
     try:
         assert desktop.open_window(None, is_demo=False) == 0
     finally:
-        language.speak("en")
+        language.set_window_language("en")
     assert shown == [("patients", "system", False), ("settings", "de", True)]
     assert load_settings().screen.language == "de"
-    assert all(one.closed for one in opened)
+    assert all(one.is_closed for one in opened)

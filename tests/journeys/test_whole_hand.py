@@ -32,34 +32,34 @@ def test_the_whole_hand_from_set_up_to_session_file(
     qtbot: QtBot, open_desktop: Open, hand_take: Path, tmp_path: Path
 ) -> None:
     desktop = open_desktop(take=take_of(hand_take, SPEC.fps), speed=1.0)
-    journey = desktop.journey
+    journey = desktop.controller
     markers, live = journey.markers.screen, journey.live.screen
-    journey.exercise.show(PRACTICE_PATIENT)
-    at(qtbot, desktop.journey, "exercise")
+    journey.exercise.open(PRACTICE_PATIENT)
+    at(qtbot, desktop.controller, "exercise")
     click(qtbot, journey.exercise.screen.protocol.buttons()[1])
     click(qtbot, journey.exercise.screen.exercises.option("FIST_COMPOSITE"))
-    click(qtbot, journey.exercise.screen.primary)
-    at(qtbot, desktop.journey, "camera")
+    click(qtbot, journey.exercise.screen.primary_button)
+    at(qtbot, desktop.controller, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))
-    click(qtbot, journey.camera.screen.primary)
+    click(qtbot, journey.camera.screen.primary_button)
     still_hand(qtbot, desktop)
-    click(qtbot, markers.primary)
-    assert markers.clicking.order == HAND21.markers
-    wait(qtbot, lambda: bool(markers.clicking and markers.clicking.proposed))
-    assert not markers.clicking.unnamed
+    click(qtbot, markers.primary_button)
+    assert markers.labels.order == HAND21.markers
+    wait(qtbot, lambda: bool(markers.labels and markers.labels.proposals))
+    assert not markers.labels.open_markers
     qtbot.keyClick(markers.picture, Qt.Key.Key_Return)  # the names proposed are right
-    np.testing.assert_allclose(markers.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
-    wait(qtbot, lambda: markers.naming.outcome is not None)
+    np.testing.assert_allclose(markers.labels.clicks().pixel, clicks_of(hand_take), atol=4.0)
+    wait(qtbot, lambda: markers.labelling.outcome is not None)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop.journey, "live")
-    wait(qtbot, lambda: "seen" in live.hand_map.seen.values())
+    at(qtbot, desktop.controller, "live")
+    wait(qtbot, lambda: "seen" in live.hand_map.visibility.values())
     qtbot.keyClick(live, Qt.Key.Key_Space)
-    wait(qtbot, lambda: live.recording.recorded_s > 3.0)
+    wait(qtbot, lambda: live.recording.duration_s > 3.0)
     qtbot.keyClick(live, Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)
     is_the_movement(path, hand_take)
     looked_back_as_tracking_it_again(path, tmp_path / "again.h5")
-    assert not journey.messages.busy
+    assert not journey.messages.is_busy
 
 
 def is_the_movement(path: Path, hand_take: Path) -> None:

@@ -13,9 +13,9 @@ from pathlib import Path
 from PySide6.QtCore import QPoint, QTimer
 
 from carpus.app import compose
-from carpus.app.desktop.looks import application
+from carpus.app.desktop.looks import create_application
 from carpus.app.desktop.sources import RECENT_FRAMES
-from carpus.app.desktop.window import Desktop, end_on_signals
+from carpus.app.desktop.window import Desktop, close_on_signals
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from tests.journeys.takes import SPEED, clicks_of, take_of
 
@@ -28,9 +28,9 @@ class Reporter:
     def __init__(self, desktop: Desktop, take: Path) -> None:
         self._desktop, self._take = desktop, take
         self._said: set[str] = set()
-        desktop.journey.live.screen.recording.stopped.connect(self._stored)
-        desktop.journey.report.screen.saved.connect(lambda path: self.say(f"saved {path}"))
-        desktop.journey.messages.told.connect(lambda fault: self.say(f"fault {fault!r}"))
+        desktop.controller.live.screen.recording.stopped.connect(self._stored)
+        desktop.controller.report.screen.saved.connect(lambda path: self.say(f"saved {path}"))
+        desktop.controller.messages.fault_shown.connect(lambda fault: self.say(f"fault {fault!r}"))
         self._timer = QTimer(desktop.shell)
         self._timer.timeout.connect(self._look)
         self._timer.start(LOOK_MS)
@@ -45,7 +45,7 @@ class Reporter:
         self.say(f"session {self._desktop.library.entry(session_id).path}")
 
     def _look(self) -> None:
-        journey, shell = self._desktop.journey, self._desktop.shell
+        journey, shell = self._desktop.controller, self._desktop.shell
         if not shell.isActiveWindow() and shell.focusWidget() is None:
             return
         if journey.place == "markers":
@@ -56,22 +56,22 @@ class Reporter:
                 self.say("recording")
                 if journey.live.screen.recording.repetitions >= 2:
                     self.say("repeated")
-        elif journey.place != "review" or journey.review.screen.shown:
+        elif journey.place != "review" or journey.review.screen.is_loaded:
             self.say(f"place {journey.place}")
 
     def _look_at_markers(self) -> None:
-        journey, markers = self._desktop.journey, self._desktop.journey.markers.screen
-        source = journey.now.source
-        if markers.clicking is None:
+        journey, markers = self._desktop.controller, self._desktop.controller.markers.screen
+        source = journey.current.source
+        if markers.labels is None:
             seen = len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES
             if seen and markers.picture.image is not None:
                 self.say("place markers")
-        elif not markers.clicking.complete:
+        elif not markers.labels.is_complete:
             for u, v in clicks_of(self._take):
                 spot: QPoint = markers.picture.mapToGlobal(markers.picture.to_screen(u, v).toPoint())
                 self.say(f"disc {spot.x()} {spot.y()}")
             self.say("discs told")
-        elif markers.primary.isEnabled():
+        elif markers.primary_button.isEnabled():
             self.say("ready to start")
 
 
@@ -80,9 +80,11 @@ def main() -> int:
     take, data = map(Path, sys.argv[1:3])
     recording = RecordingSettings(folder=str(data), keep_pictures=False)
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=recording)
-    qt = application(["carpus"])
-    desktop = compose.compose(qt, settings, take=take_of(take), speed=SPEED, settings_folder=data / "settings")
-    end_on_signals(desktop)
+    qt = create_application(["carpus"])
+    desktop = compose.compose(
+        qt, settings, practice_renderer=take_of(take), speed=SPEED, settings_folder=data / "settings"
+    )
+    close_on_signals(desktop)
     reporter = Reporter(desktop, take)
     desktop.show()
     reporter.say("started")

@@ -34,4 +34,4 @@ def test_a_clinics_own_limit_is_of_ten_people_and_whole_degrees_upwards(
     study = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-01", people, 2 * people, 2, (limit,))
     assert study.limit_deg("flexion", "flexion") == limit_deg
     assert study.limit_deg("flexion", "extension") is None
-    assert study.in_force == (people >= 10)
+    assert study.is_in_force == (people >= 10)

@@ -34,7 +34,7 @@ def of(
 
 def test_a_thumb_that_moves_on_while_hidden_is_coherent() -> None:
     found = of(moving())
-    assert found.hidden_share == pytest.approx(1.0 / 3.0, abs=0.02)
+    assert found.occluded_share == pytest.approx(1.0 / 3.0, abs=0.02)
     assert (found.coherent_share, found.known_share) == (1.0, 1.0)
     assert len(found.jumps_m) == 1
     assert found.jumps_m[0] < 0.005
@@ -55,6 +55,6 @@ def test_a_guess_a_pose_that_no_hand_takes_and_a_jump_are_not() -> None:
 
 def test_what_is_never_hidden_or_never_known_says_nothing() -> None:
     seen = of(moving(), hidden=np.zeros(COUNT, dtype=bool))
-    assert seen.hidden_share == 0.0
+    assert seen.occluded_share == 0.0
     assert math.isnan(seen.coherent_share)
-    assert math.isnan(of(moving(), known=False).hidden_share)
+    assert math.isnan(of(moving(), known=False).occluded_share)

@@ -7,21 +7,21 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.measures.fingers import (
     JointTrack,
     joint_range,
     joint_track,
-    joints_seen,
     total_active_motion,
     valid_joints,
+    visible_joints,
 )
 from carpus.core.measures.repetitions import Repetition
-from carpus.core.results.ranges import bending_joints, joint_ranges
+from carpus.core.results.ranges import flexion_joints, measure_joint_ranges
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import truth_of
+from carpus.core.simulation.truth import compute_truth
 
 TIME_S = np.arange(0.0, 12.0, 1.0 / 30.0)
 REPETITIONS = tuple(Repetition(4.0 * k, 4.0 * k + 4.0, 1.0) for k in range(3))
@@ -154,7 +154,7 @@ def test_a_joint_is_seen_by_the_disc_over_it_and_the_next_one() -> None:
     names = joint_angle_names(True)
     px = np.zeros((1, 21, 2))
     px[0, HAND21.markers.index("DIP4")] = np.nan
-    seen = joints_seen(names, HAND21.markers, px)[0]
+    seen = visible_joints(names, HAND21.markers, px)[0]
     unseen = {name for name, is_seen in zip(names, seen, strict=True) if not is_seen}
     assert unseen == {"PIP4_flexion", "DIP4_flexion"}
 
@@ -166,20 +166,22 @@ def test_an_unsure_or_predicted_sample_does_not_count() -> None:
 
 
 def test_ranges_and_totals_of_a_simulated_hand_are_those_of_its_motion() -> None:
-    truth = truth_of(Scene(RecordingSpec(seed=3, protocol="hand21", motion="fist", seconds=12.0)))
+    truth = compute_truth(Scene(RecordingSpec(seed=3, protocol="hand21", motion="fist", seconds=12.0)))
     names = joint_angle_names(False)
     always = np.ones(len(truth.time_s), dtype=bool)
     sd = np.full(len(truth.time_s), math.radians(2.0))
     tracks = {
         name: joint_track(name, truth.time_s, truth.joint_angles_rad[:, k], sd, always) for k, name in enumerate(names)
     }
-    rows = {(row.of, row.what): row for row in joint_ranges(tracks, (), exercise_named("FIST_COMPOSITE"))}
+    rows = {
+        (row.subject, row.quantity): row for row in measure_joint_ranges(tracks, (), get_exercise("FIST_COMPOSITE"))
+    }
     angles = dict(zip(names, np.degrees(truth.joint_angles_rad).T, strict=True))
     for name in names:
         assert rows[name, "arc"].mean == pytest.approx(float(np.ptp(angles[name])), abs=0.6)
-        assert not rows[name, "arc"].at_least
+        assert not rows[name, "arc"].is_lower_bound
     for finger in (1, 2, 3, 4, 5):
-        joints, inferred = bending_joints(finger, names)
+        joints, inferred = flexion_joints(finger, names)
         bend = [np.maximum(angles[name], 0.0) for name in joints]
         bend[-1] = bend[-1] * (5.0 / 3.0 if inferred else 1.0)
         expected = float(np.ptp(np.sum(bend, axis=0)))

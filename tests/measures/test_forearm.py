@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
-from carpus.core.measures.forearm import wrist_centre
+from carpus.core.measures.forearm import estimate_wrist_centre
 from carpus.core.types import FloatArray
 
 CENTRE_M = np.array([0.004, -0.002, -0.018])
@@ -27,11 +27,11 @@ def noisy(position_m: FloatArray) -> FloatArray:
 
 def test_the_centre_of_bending_is_found_and_does_not_move() -> None:
     position, rotation = bending(CENTRE_M)
-    found = wrist_centre(noisy(position), rotation, np.ones(len(position), dtype=bool))
+    found = estimate_wrist_centre(noisy(position), rotation, np.ones(len(position), dtype=bool))
     assert np.linalg.norm(position - position[0], axis=1).max() > 0.015, "the disc itself does"
     assert found.centre_w2_m == pytest.approx(CENTRE_M, abs=1e-3)
     assert found.residual_m == pytest.approx(0.0005 * math.sqrt(3.0), rel=0.2)
-    assert found.moved_m.max() < 0.003
+    assert found.displacement_m.max() < 0.003
 
 
 @pytest.mark.parametrize("moved_m", [0.02, 0.05])
@@ -39,15 +39,15 @@ def test_a_forearm_that_moves_is_seen_beside_the_bending(moved_m: float) -> None
     position, rotation = bending(CENTRE_M)
     position = position.copy()
     position[210:260, 0] += moved_m
-    found = wrist_centre(position, rotation, np.ones(len(position), dtype=bool))
-    assert found.moved_m[210:260].min() == pytest.approx(moved_m, rel=0.1)
-    assert found.moved_m[:200].max() < 0.003
+    found = estimate_wrist_centre(position, rotation, np.ones(len(position), dtype=bool))
+    assert found.displacement_m[210:260].min() == pytest.approx(moved_m, rel=0.1)
+    assert found.displacement_m[:200].max() < 0.003
 
 
 def test_a_hand_that_hardly_turns_has_the_usual_centre_and_nothing_seen_is_unknown() -> None:
     position, rotation = bending(CENTRE_M, degrees=1.0)
-    found = wrist_centre(noisy(position), rotation, np.ones(len(position), dtype=bool))
+    found = estimate_wrist_centre(noisy(position), rotation, np.ones(len(position), dtype=bool))
     assert np.linalg.norm(found.centre_w2_m - [0.0, 0.0, -0.015]) < 0.015
-    unseen = wrist_centre(position, rotation, np.zeros(len(position), dtype=bool))
+    unseen = estimate_wrist_centre(position, rotation, np.zeros(len(position), dtype=bool))
     assert math.isnan(unseen.residual_m)
-    assert np.isnan(unseen.moved_m).all()
+    assert np.isnan(unseen.displacement_m).all()

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from carpus.core.measures.motion_range import motion_range
-from carpus.core.measures.noise import FILTER_CORRELATION_S, Noise, cutoff_for_speed, extreme
+from carpus.core.measures.noise import FILTER_CORRELATION_S, Noise, cutoff_for_speed, estimate_extreme
 from carpus.core.measures.repetitions import Stroke, find_repetitions
-from carpus.core.measures.signals import Signal, even_signal, low_pass
+from carpus.core.measures.signals import Signal, low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures, measure_stroke
 from tests.measures.tracked import ONE_PROCESS, Tracked, tracked
 from tests.suites import few
@@ -21,7 +21,7 @@ RATE = 30.0
 
 def strokes_of(take: Tracked, column: int, *, smoothed: bool | None) -> list[StrokeMeasures]:
     """Measures of the true strokes, taken of the true angle (None) or of a tracked one."""
-    true = even_signal(take.truth.timestamp_s, take.truth.angles_rad[:, column])
+    true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, column])
     found = find_repetitions(true).strokes
     if smoothed is None:
         return [measure_stroke(true, stroke) for stroke in found]
@@ -32,7 +32,7 @@ def strokes_of(take: Tracked, column: int, *, smoothed: bool | None) -> list[Str
 def angle_of(take: Tracked, column: int, *, smoothed: bool) -> Signal:
     motion = take.smoothed if smoothed else take.causal
     both = np.column_stack((motion.angles_rad[:, column], motion.angles_sd_rad[:, column]))
-    return even_signal(take.truth.timestamp_s, both, take.status == 0)
+    return resample_evenly(take.truth.timestamp_s, both, take.status == 0)
 
 
 def mean(measures: list[StrokeMeasures], name: str) -> float:
@@ -90,7 +90,7 @@ def there_and_back(duration_s: float) -> Signal:
     tau = np.arange(0.0, 1.0 - 1e-9, 1.0 / (duration_s * RATE))
     up = 60.0 * (10 * tau**3 - 15 * tau**4 + 6 * tau**5)
     angle = np.radians(np.concatenate((np.zeros(30), up, np.full(30, 60.0), up[::-1], np.zeros(30))))
-    return even_signal(np.arange(len(angle)) / RATE, angle)
+    return resample_evenly(np.arange(len(angle)) / RATE, angle)
 
 
 def measured(signal: Signal) -> list[StrokeMeasures]:
@@ -104,10 +104,12 @@ def test_a_quick_stroke_keeps_its_peak() -> None:
 
 def test_the_speed_of_noise_is_what_it_is_said_to_be() -> None:
     noise = Noise(0.4, FILTER_CORRELATION_S)
-    drawn = noise.drawn(3000, RATE)
+    drawn = noise.sample(3000, RATE)
     for cutoff_hz in (2.0, 6.0):
         speeds = [
-            np.gradient(low_pass(even_signal(np.arange(3000) / RATE, row), cutoff_hz).value, 1.0 / RATE)[60:-60].std()
+            np.gradient(low_pass(resample_evenly(np.arange(3000) / RATE, row), cutoff_hz).value, 1.0 / RATE)[
+                60:-60
+            ].std()
             for row in drawn[:8]
         ]
         assert noise.speed_sd(cutoff_hz) == pytest.approx(float(np.mean(speeds)), rel=0.25)
@@ -127,7 +129,7 @@ def test_the_largest_of_noisy_values_is_not_taken_at_its_word() -> None:
             white[k] = kept * white[k - 1] + math.sqrt(1 - kept**2) * white[k]
         noisy = held + noise.sd * white
         plain.append(noisy.max())
-        found.append(extreme(noisy, held, noise, RATE, largest=True))
+        found.append(estimate_extreme(noisy, held, noise, RATE, largest=True))
     values, sds = np.array(found).T
     assert np.mean(plain) > 30.7
     assert np.mean(values) == pytest.approx(30.0, abs=0.1)
@@ -141,7 +143,7 @@ def test_extremes_of_repetitions_are_unbiased_and_within_a_degree(smoothed: bool
         *((*exercise, 1) for exercise in EXERCISES), ("flexion", 1, 10.0, 0.4, 2), ("fast_deviation", 0, 6.0, 1.3, 2),
     ):  # fmt: skip
         take = tracked(motion, seconds, speed_hz, seed)
-        true = even_signal(take.truth.timestamp_s, take.truth.angles_rad[:, column])
+        true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, column])
         repetitions = find_repetitions(true).repetitions
         angle = angle_of(take, column, smoothed=smoothed)
         found = motion_range(low_pass(angle.column(0), 10.0), angle.column(1), repetitions, smoothed=smoothed)
@@ -160,10 +162,10 @@ def test_extremes_of_finger_joints_are_within_three_degrees() -> None:
     off_deg = []
     for name in ("MCP2_flexion", "MCP3_flexion", "PIP2_flexion", "PIP3_flexion"):
         k = names.index(name)
-        true = even_signal(take.truth.timestamp_s, take.truth.joint_angles_rad[:, k])
+        true = resample_evenly(take.truth.timestamp_s, take.truth.joint_angles_rad[:, k])
         repetitions = find_repetitions(true).repetitions
         both = np.column_stack((take.smoothed.joint_angles_rad[:, k], take.smoothed.joint_angles_sd_rad[:, k]))
-        angle = even_signal(take.truth.timestamp_s, both, take.status == 0)
+        angle = resample_evenly(take.truth.timestamp_s, both, take.status == 0)
         found = motion_range(low_pass(angle.column(0), 10.0), angle.column(1), repetitions, smoothed=True)
         real = motion_range(true, true, repetitions)
         off_deg += np.degrees(found.minimum.values - real.minimum.values).tolist()  # the open hand: all discs are seen
@@ -178,13 +180,13 @@ def test_the_speed_of_a_stroke_that_goes_out_of_sight_is_not_known() -> None:
     whole = there_and_back(1.0)
     time_s = whole.time_s
     gone = (time_s > 3.2) & (time_s < 3.9)  # in the middle of the way back, at its fastest
-    out, *back = measured(even_signal(time_s, whole.value, ~gone))
+    out, *back = measured(resample_evenly(time_s, whole.value, ~gone))
     assert out.peak_speed_rad_s == pytest.approx(measured(whole)[0].peak_speed_rad_s, rel=1e-3)
     assert back
     assert all(math.isnan(stroke.peak_speed_rad_s) for stroke in back)
     # A hand that comes back into the picture in the middle of a movement is as little known.
-    late = even_signal(time_s, whole.value, time_s > 3.4)
-    assert math.isnan(measure_stroke(late, Stroke(float(late.time_s[0]), 4.0, rising=False)).peak_speed_rad_s)
+    late = resample_evenly(time_s, whole.value, time_s > 3.4)
+    assert math.isnan(measure_stroke(late, Stroke(float(late.time_s[0]), 4.0, is_rising=False)).peak_speed_rad_s)
 
 
 @EITHER
@@ -197,9 +199,9 @@ def test_noise_that_is_quicker_than_a_slow_stroke_is_not_its_speed(
 ) -> None:
     take = tracked(motion, seconds, speed_hz, seed, share)
     # Half a way from rest is too little beside the noise of its beginning: up to 38 % too quick. No figure has it.
-    true = [one for one in strokes_of(take, column, smoothed=None) if not one.stroke.half]
+    true = [one for one in strokes_of(take, column, smoothed=None) if not one.stroke.is_half]
     angle = angle_of(take, column, smoothed=smoothed)
-    strokes = [stroke for stroke in find_repetitions(angle.column(0)).strokes if not stroke.half]
+    strokes = [stroke for stroke in find_repetitions(angle.column(0)).strokes if not stroke.is_half]
     found = [measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed) for stroke in strokes]
     assert len(found) == len(true)
     most = 0.25 if motion == "pronosupination" else 0.15  # measured 16 % and 9 %

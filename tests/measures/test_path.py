@@ -9,8 +9,8 @@ import pytest
 
 from carpus.core.measures.noise import Noise
 from carpus.core.measures.reach import WRIST_NOISE, find_reaches, measure_path
-from carpus.core.measures.signals import Signal, even_signal
-from carpus.core.measures.speed import speed_peaks
+from carpus.core.measures.signals import Signal, resample_evenly
+from carpus.core.measures.speed import count_speed_peaks
 from carpus.core.types import FloatArray
 from tests.measures.tracked import ONE_PROCESS, tracked
 from tests.suites import few
@@ -24,7 +24,7 @@ def reach(length_m: float, bow_m: float = 0.0) -> Signal:
     t = np.arange(0.0, 3.0 + 1e-9, 1.0 / RATE)
     tau = np.clip(t - 1.0, 0.0, 1.0)
     s = 10 * tau**3 - 15 * tau**4 + 6 * tau**5
-    return even_signal(t, np.column_stack((length_m * s, bow_m * np.sin(math.pi * s), 0.0 * s)))
+    return resample_evenly(t, np.column_stack((length_m * s, bow_m * np.sin(math.pi * s), 0.0 * s)))
 
 
 def test_straight_reach() -> None:
@@ -40,7 +40,7 @@ def test_straight_reach() -> None:
 def test_half_circle_is_longer_by_half_pi() -> None:
     angle = np.linspace(0.0, math.pi, 61)
     circle: FloatArray = np.column_stack((np.cos(angle), np.sin(angle), 0.0 * angle)) * 0.1
-    found = measure_path(even_signal(np.arange(61) / RATE, circle), 0.0, 2.0)
+    found = measure_path(resample_evenly(np.arange(61) / RATE, circle), 0.0, 2.0)
     assert found.straightness == pytest.approx(math.pi / 2, rel=1e-3)
 
 
@@ -63,12 +63,12 @@ def serial(parts: int, noise_m_s: float = 0.0) -> FloatArray:
 @pytest.mark.parametrize("parts", [1, 2, 3])
 def test_a_dip_that_noise_makes_parts_no_unit_in_two(parts: int) -> None:
     wavy = serial(parts, 0.004)
-    assert speed_peaks(wavy, RATE, 0.02, least_dip=0.016) == parts
+    assert count_speed_peaks(wavy, RATE, 0.02, min_dip=0.016) == parts
     # Nor does it take a long rise apart into steps that are too small to count.
     slow = np.concatenate((np.linspace(0.0, 0.1, 75), np.linspace(0.1, 0.0, 75)))
     stairs = slow + 0.004 * np.sin(2.0 * math.pi * 3.0 * np.arange(150) / RATE)
-    assert speed_peaks(stairs, RATE, 0.02) == 0
-    assert speed_peaks(stairs, RATE, 0.02, least_dip=0.016) == 1
+    assert count_speed_peaks(stairs, RATE, 0.02) == 0
+    assert count_speed_peaks(stairs, RATE, 0.02, min_dip=0.016) == 1
 
 
 @pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
@@ -79,9 +79,9 @@ def test_slow_reaches_have_the_figures_of_the_movement(
     take = tracked("reach_grasp", seconds, speed_hz, seed, share)
     motion = take.smoothed if smoothed else take.causal
     time_s = take.truth.time_s
-    true = find_reaches(even_signal(time_s, take.truth.position_m))
-    found = find_reaches(even_signal(time_s, motion.position_m, take.status == 0), noise=WRIST_NOISE[smoothed])
-    assert [reach.outward for reach in found] == [reach.outward for reach in true]
+    true = find_reaches(resample_evenly(time_s, take.truth.position_m))
+    found = find_reaches(resample_evenly(time_s, motion.position_m, take.status == 0), noise=WRIST_NOISE[smoothed])
+    assert [reach.is_outward for reach in found] == [reach.is_outward for reach in true]
     assert len(found) >= 2
     for mine, its in zip(found, true, strict=True):
         assert mine.path.peak_speed_m_s == pytest.approx(its.path.peak_speed_m_s, rel=0.08)
@@ -99,9 +99,9 @@ def test_a_reach_that_is_lost_in_noise_is_not_judged() -> None:
     tau = np.clip((time_s - 5.0) / 30.0, 0.0, 1.0)
     way = np.column_stack((0.06 * (10 * tau**3 - 15 * tau**4 + 6 * tau**5), 0.0 * tau, 0.0 * tau))
     noise = Noise(0.004, 0.2)
-    noisy = way + noise.drawn(len(time_s), RATE)[:3].T
-    (reach_,) = find_reaches(even_signal(time_s, noisy), noise=noise)
-    assert reach_.too_slow
+    noisy = way + noise.sample(len(time_s), RATE)[:3].T
+    (reach_,) = find_reaches(resample_evenly(time_s, noisy), noise=noise)
+    assert reach_.is_too_slow
     assert math.isnan(reach_.movement_time_s)
     assert math.isnan(reach_.path.peak_speed_m_s)
     assert math.isnan(reach_.path.peaks)

@@ -10,11 +10,11 @@ import pytest
 
 from carpus.core.hand.clinical_angles import rotation_from_angles
 from carpus.core.measures.motion_range import MotionRange, motion_range
-from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
+from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import (
-    even_signal,
     low_pass,
+    resample_evenly,
     valid_wrist_angles,
     view_tilt_rad,
 )
@@ -40,9 +40,9 @@ def exercise_deg(tops: list[float], move_s: float = 1.0, hold_s: float = 1.0) ->
 def range_of(value_deg: FloatArray, valid: FloatArray | None = None) -> MotionRange:
     """Of an angle without noise, known to a degree."""
     t = 5.0 + np.arange(len(value_deg)) / RATE
-    both = even_signal(t, np.radians(np.column_stack((value_deg, np.ones(len(t))))), valid)
+    both = resample_evenly(t, np.radians(np.column_stack((value_deg, np.ones(len(t))))), valid)
     repetitions = find_repetitions(both.column(0)).repetitions
-    return motion_range(low_pass(both.column(0), HIGHEST_CUTOFF_HZ), both.column(1), repetitions)
+    return motion_range(low_pass(both.column(0), MAX_CUTOFF_HZ), both.column(1), repetitions)
 
 
 def test_tilt_of_known_poses() -> None:
@@ -75,7 +75,7 @@ def test_range_over_repetitions() -> None:
 @pytest.mark.parametrize(("share", "measured"), [(0.69, 1), (0.71, 2)])
 def test_a_repetition_seen_for_less_than_seven_tenths_is_not_measured(share: float, measured: int) -> None:
     value = np.radians(exercise_deg([40.0, 50.0]))
-    angle = even_signal(np.arange(len(value)) / RATE, value)
+    angle = resample_evenly(np.arange(len(value)) / RATE, value)
     first, second = find_repetitions(angle).repetitions
     found = motion_range(angle, angle, (first, replace(second, valid_share=share)))
     assert found.repetitions == measured

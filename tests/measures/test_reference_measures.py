@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles, zyz_with_sd
 from carpus.core.measures.reach import find_reaches
-from carpus.core.measures.signals import even_signal, low_pass
-from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
+from carpus.core.measures.signals import low_pass, resample_evenly
+from carpus.core.measures.together import co_flexion, enslaving_share, measure_tremor, synergy_share
 from carpus.core.results.norms import total_grade, total_share
 from carpus.core.types import FloatArray
 from tests.measures.tracked import ONE_PROCESS, tracked
@@ -30,22 +30,22 @@ def test_reaches_are_found_out_and_back_with_their_times_and_paths() -> None:
     way = np.zeros(len(t))
     for k in range(5):
         way += bell((t - 1.0 - 4 * k) / 0.9) - bell((t - 3.0 - 4 * k) / 1.4)
-    signal = even_signal(t, np.column_stack((0.25 * way, 0.02 * np.sin(math.pi * way), 0.0 * way)))
+    signal = resample_evenly(t, np.column_stack((0.25 * way, 0.02 * np.sin(math.pi * way), 0.0 * way)))
     found = find_reaches(low_pass(signal))
-    assert [reach.outward for reach in found] == [True, False] * 5
+    assert [reach.is_outward for reach in found] == [True, False] * 5
     for reach in found:
-        duration = 0.9 if reach.outward else 1.4
+        duration = 0.9 if reach.is_outward else 1.4
         assert reach.movement_time_s == pytest.approx(0.836 * duration, abs=0.1)
         assert reach.path.peak_speed_m_s == pytest.approx(1.875 * 0.25 / duration, rel=0.06)
         assert reach.path.straightness == pytest.approx(1.015, abs=0.02)
         assert reach.path.peaks == 1.0
-    assert find_reaches(even_signal(t, 0.02 * np.column_stack((way, way, way)))) == ()
+    assert find_reaches(resample_evenly(t, 0.02 * np.column_stack((way, way, way)))) == ()
 
 
 def test_reaches_of_a_tracked_hand_are_those_of_the_hand() -> None:
     take = tracked("reach", 12.0, 0.25)
     true, mine = (
-        find_reaches(low_pass(even_signal(take.truth.timestamp_s, position)))
+        find_reaches(low_pass(resample_evenly(take.truth.timestamp_s, position)))
         for position in (take.truth.position_m, take.smoothed.position_m)
     )
     assert len(true) == len(mine) >= 4
@@ -74,14 +74,14 @@ def test_tremor_is_told_only_where_it_exceeds_the_noise() -> None:
     rng = np.random.default_rng(3)
     noise = math.radians(0.1)
     held = np.radians(1.5) * np.sin(2 * math.pi * 5.0 * t) + rng.normal(0.0, noise, len(t)) + 0.02 * t
-    found = tremor(even_signal(t, held), noise)
+    found = measure_tremor(resample_evenly(t, held), noise)
     assert found.is_tremor
     assert found.peak_hz == pytest.approx(5.0, abs=0.5)
     assert math.degrees(found.rms_rad) == pytest.approx(1.5 / math.sqrt(2.0), rel=0.15)
-    assert not tremor(even_signal(t, rng.normal(0.0, noise, len(t))), noise).is_tremor
-    limits = [tremor(even_signal(t, held), found.rms_rad / times).is_tremor for times in (2.9, 3.1)]
+    assert not measure_tremor(resample_evenly(t, rng.normal(0.0, noise, len(t))), noise).is_tremor
+    limits = [measure_tremor(resample_evenly(t, held), found.rms_rad / times).is_tremor for times in (2.9, 3.1)]
     assert limits == [False, True], "three times the noise"
-    assert math.isnan(tremor(even_signal(t[:100], held[:100]), noise).rms_rad)
+    assert math.isnan(measure_tremor(resample_evenly(t[:100], held[:100]), noise).rms_rad)
 
 
 @pytest.mark.parametrize(
@@ -142,10 +142,10 @@ def test_a_brisk_exercise_is_no_tremor(hz: float) -> None:
     t = np.arange(0.0, 12.0, 1.0 / RATE)
     # Strokes with holds at both ends: what is quick in them lies above 3 Hz too.
     strokes = np.radians(30.0) * np.tanh(3.0 * np.sin(2 * math.pi * hz * t))
-    found = tremor(even_signal(t, strokes), math.radians(0.25))
+    found = measure_tremor(resample_evenly(t, strokes), math.radians(0.25))
     assert not found.is_tremor
     held = np.where(t > 5.0, np.radians(2.0) * np.sin(2 * math.pi * 5.0 * t), strokes)
-    found = tremor(even_signal(t, held), math.radians(0.25))
+    found = measure_tremor(resample_evenly(t, held), math.radians(0.25))
     assert found.is_tremor, "held for seven seconds after it"
     assert math.degrees(found.rms_rad) == pytest.approx(2.0 / math.sqrt(2.0), rel=0.15)
     assert found.peak_hz == pytest.approx(5.0, abs=0.5)
@@ -154,6 +154,6 @@ def test_a_brisk_exercise_is_no_tremor(hz: float) -> None:
 @pytest.mark.parametrize("fps", [1.5, 5.0, 20.0])
 def test_tremor_of_too_few_frames_a_second_is_not_available(fps: float) -> None:
     t = np.arange(0.0, 40.0, 1.0 / fps)
-    found = tremor(even_signal(t, np.full(len(t), 0.3)), math.radians(0.25))
+    found = measure_tremor(resample_evenly(t, np.full(len(t), 0.3)), math.radians(0.25))
     assert (found.has_few_frames, found.is_tremor) == (True, False)
     assert math.isnan(found.rms_rad)

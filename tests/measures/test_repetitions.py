@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from carpus.core.measures.repetitions import _turning_points, find_repetitions, what_was_not_counted
-from carpus.core.measures.signals import Signal, even_signal
+from carpus.core.measures.repetitions import _find_turning_points, explain_no_repetitions, find_repetitions
+from carpus.core.measures.signals import Signal, resample_evenly
 from carpus.core.types import FloatArray
 
 RATE = 30.0
 
 
 def signal_of(value_deg: FloatArray, keep: FloatArray | None = None) -> Signal:
-    return even_signal(np.arange(len(value_deg)) / RATE, np.radians(value_deg), keep)
+    return resample_evenly(np.arange(len(value_deg)) / RATE, np.radians(value_deg), keep)
 
 
 def both_sides(
@@ -62,8 +62,8 @@ def test_six_of_six_excursions_to_one_side(amplitude: float, frequency: float, h
     found = find_repetitions(signal_of(one_side(amplitude, frequency, hold_s=hold)))
     assert len(found.repetitions) == 6
     assert len(found.strokes) == 12
-    assert found.strokes[0].rising == (amplitude > 0.0)
-    assert all(a.rising != b.rising for a, b in zip(found.strokes, found.strokes[1:], strict=False))
+    assert found.strokes[0].is_rising == (amplitude > 0.0)
+    assert all(a.is_rising != b.is_rising for a, b in zip(found.strokes, found.strokes[1:], strict=False))
 
 
 @settings(max_examples=40, deadline=None)
@@ -80,7 +80,7 @@ def test_repetitions_follow_each_other_and_hold_one_top_each() -> None:
     signal = signal_of(value)
     found = find_repetitions(signal)
     for k, rep in enumerate(found.repetitions):
-        part = signal.between(rep.start_s, rep.end_s)
+        part = signal.crop(rep.start_s, rep.end_s)
         assert math.degrees(part.value.max()) == pytest.approx(60.0, abs=0.5)
         assert math.degrees(part.value.min()) == pytest.approx(0.0, abs=0.5)
         assert rep.valid_share == 1.0
@@ -133,7 +133,7 @@ def test_nothing_is_counted_across_more_than_a_second_out_of_sight(hidden_s: flo
     keep[top - round(0.5 * hidden_s * RATE) : top + round(0.5 * hidden_s * RATE)] = False
     found = find_repetitions(signal_of(value, keep))
     assert len(found.repetitions) == counted
-    assert (len(found.unseen_s), len(found.cut)) == ((0, 0) if counted == 4 else (1, 2))
+    assert (len(found.occluded_s), len(found.partial_repetitions)) == ((0, 0) if counted == 4 else (1, 2))
 
 
 def test_the_noise_of_a_poor_picture_hardly_ever_looks_like_a_repetition() -> None:
@@ -169,7 +169,7 @@ def turns_sample_by_sample(value: FloatArray, least: float) -> list[tuple[bool, 
 def test_turning_points_are_those_read_sample_by_sample(steps: list[int], hidden: set[int], least: int) -> None:
     value = np.cumsum(np.array(steps, dtype=float))
     value[[k for k in hidden if k < len(value)]] = np.nan
-    found = [(turn.high, turn.value) for turn in _turning_points(value, least)]
+    found = [(turn.is_high, turn.value) for turn in _find_turning_points(value, least)]
     assert found == (turns_sample_by_sample(value, least) if np.isfinite(value).sum() > 1 else [])
 
 
@@ -215,14 +215,14 @@ def test_a_hand_that_creeps_by_more_than_a_thirtieth_of_its_swing_does_not_stand
     first = creep[-1] + (60.0 - creep[-1]) * way
     value = np.concatenate((creep, first, *[60.0 - 60.0 * way, 60.0 * way] * 2, np.full(int(RATE), 60.0)))
     found = find_repetitions(signal_of(value))
-    assert [one.cut for one in found.cut] == ["cut_by_start" if first_s else "cut_by_end"]
+    assert [one.cut for one in found.partial_repetitions] == ["cut_by_start" if first_s else "cut_by_end"]
     assert [found.repetitions[0].start_s, len(found.repetitions)] == [pytest.approx(first_s, abs=0.05), 2]
 
 
 def test_why_there_is_none_is_said() -> None:
     def why(value: FloatArray) -> str | None:
         signal = signal_of(value)
-        return what_was_not_counted(signal, find_repetitions(signal))
+        return explain_no_repetitions(signal, find_repetitions(signal))
 
     assert why(np.full(200, np.nan)) == "nothing_seen"
     assert why(both_sides(30.0, 0.5)[:20]) == "too_short"

@@ -10,11 +10,11 @@ from scipy import signal as sps
 
 from carpus.core import so3
 from carpus.core.measures.signals import (
-    even_signal,
+    exclude_view_edges,
+    find_runs,
     low_pass,
     rate_of_change,
-    settled,
-    stretches,
+    resample_evenly,
     valid_angle,
     valid_view,
 )
@@ -25,7 +25,7 @@ RATE = 30.0
 def test_even_samples_stay_as_they_are() -> None:
     t = 1000.0 + np.arange(90) / RATE
     value = np.sin(t)
-    signal = even_signal(t, value)
+    signal = resample_evenly(t, value)
     np.testing.assert_allclose(signal.value, value, atol=1e-9)
     np.testing.assert_allclose(signal.time_s, t, atol=1e-9)
     assert signal.rate_hz == pytest.approx(RATE)
@@ -35,7 +35,7 @@ def test_even_samples_stay_as_they_are() -> None:
 
 def test_dropped_frames_keep_the_clock() -> None:
     t = np.delete(np.arange(90) / RATE, [20, 21, 50])
-    signal = even_signal(t, 3.0 * t)
+    signal = resample_evenly(t, 3.0 * t)
     assert len(signal.time_s) == 90
     np.testing.assert_allclose(signal.value, 3.0 * signal.time_s, atol=1e-9)
 
@@ -45,20 +45,20 @@ def test_only_short_gaps_are_filled(missing: int, filled: bool) -> None:
     t = np.arange(90) / RATE
     value = t.copy()
     value[40 : 40 + missing] = np.nan
-    signal = even_signal(t, value)
+    signal = resample_evenly(t, value)
     assert bool(np.isfinite(signal.value).all()) == filled
     assert np.isfinite(signal.value).sum() == (90 if filled else 90 - missing)
     assert signal.valid_share == pytest.approx(1.0 - missing / 90)
     if not filled:
         np.testing.assert_allclose(signal.gaps_s, [[39 / RATE, (40 + missing) / RATE]])
-        assert signal.beside_gap(39 / RATE - 0.1)
-        assert not signal.beside_gap(39 / RATE - 0.3)
+        assert signal.is_near_gap(39 / RATE - 0.1)
+        assert not signal.is_near_gap(39 / RATE - 0.3)
 
 
 def test_hidden_start_and_end_are_gaps_outside_the_base() -> None:
     t = np.arange(90) / RATE
     valid = (t > 1.0) & (t < 2.0)
-    signal = even_signal(t, np.column_stack((t, -t)), valid)
+    signal = resample_evenly(t, np.column_stack((t, -t)), valid)
     assert signal.time_s[0] > 1.0
     assert signal.time_s[-1] < 2.0
     assert len(signal.gaps_s) == 2
@@ -70,11 +70,11 @@ def test_nothing_known_is_an_empty_signal(known: int) -> None:
     t = np.arange(30) / RATE
     value = np.full(30, np.nan)
     value[:known] = 1.0
-    signal = even_signal(t, value)
+    signal = resample_evenly(t, value)
     assert len(signal.time_s) == 0
-    assert signal.beside_gap(0.0)
+    assert signal.is_near_gap(0.0)
     assert len(low_pass(signal).time_s) == 0
-    assert len(even_signal(np.empty(0), np.empty(0)).time_s) == 0
+    assert len(resample_evenly(np.empty(0), np.empty(0)).time_s) == 0
 
 
 @pytest.mark.parametrize(
@@ -93,23 +93,23 @@ def test_nothing_known_is_an_empty_signal(known: int) -> None:
 )
 def test_between_are_the_samples_from_start_to_end(start_s: float, end_s: float, first: int, count: int) -> None:
     time_s = np.arange(31) / 10.0
-    part = even_signal(time_s, np.arange(31.0)).between(start_s, end_s)
+    part = resample_evenly(time_s, np.arange(31.0)).crop(start_s, end_s)
     assert part.value == pytest.approx(np.arange(first, first + count))
     assert np.allclose(part.time_s, time_s[first : first + count])
 
 
 def test_low_pass_does_not_delay_and_stops_fast_noise() -> None:
     t = np.arange(0.0, 8.0, 1.0 / RATE)
-    slow = low_pass(even_signal(t, np.sin(2 * math.pi * 0.5 * t))).value
+    slow = low_pass(resample_evenly(t, np.sin(2 * math.pi * 0.5 * t))).value
     np.testing.assert_allclose(slow[30:-30], np.sin(2 * math.pi * 0.5 * t)[30:-30], atol=2e-3)
-    fast = low_pass(even_signal(t, np.sin(2 * math.pi * 13.0 * t))).value
+    fast = low_pass(resample_evenly(t, np.sin(2 * math.pi * 13.0 * t))).value
     assert np.abs(fast[30:-30]).max() < 0.02
 
 
 @pytest.mark.parametrize("cutoff_hz", [2.0, 4.0, 6.0])
 def test_low_pass_halves_the_power_at_its_cut_off(cutoff_hz: float) -> None:
     t = np.arange(0.0, 40.0, 1.0 / RATE)
-    passed = low_pass(even_signal(t, np.sin(2 * math.pi * cutoff_hz * t)), cutoff_hz).value[150:-150]
+    passed = low_pass(resample_evenly(t, np.sin(2 * math.pi * cutoff_hz * t)), cutoff_hz).value[150:-150]
     assert float(np.std(passed)) * math.sqrt(2.0) == pytest.approx(math.sqrt(0.5), abs=0.003)
 
 
@@ -118,7 +118,7 @@ def test_each_stretch_is_filtered_on_its_own() -> None:
     value = np.sin(t)
     value[50:60] = np.nan
     value[63:80] = np.nan
-    smooth = low_pass(even_signal(t, value))
+    smooth = low_pass(resample_evenly(t, value))
     # Two passes together are 3 dB down at 6 Hz where each is so at 7.03 Hz, at 30 samples a second.
     b, a = sps.butter(2, 7.0299, fs=RATE)
     np.testing.assert_allclose(smooth.value[:50], sps.filtfilt(b, a, value[:50]), atol=1e-5)
@@ -128,7 +128,7 @@ def test_each_stretch_is_filtered_on_its_own() -> None:
 
 def test_slow_recording_is_left_alone() -> None:
     t = np.arange(0.0, 4.0, 0.1)
-    signal = even_signal(t, np.sin(t))
+    signal = resample_evenly(t, np.sin(t))
     assert low_pass(signal) is signal
 
 
@@ -136,15 +136,15 @@ def test_rate_of_change_keeps_gaps() -> None:
     t = np.arange(0.0, 3.0, 1.0 / RATE)
     value = 2.0 * t
     value[30:45] = np.nan
-    rate = rate_of_change(even_signal(t, value)).value
+    rate = rate_of_change(resample_evenly(t, value)).value
     np.testing.assert_allclose(rate[:30], 2.0, atol=1e-9)
     assert np.isnan(rate[30:45]).all()
 
 
 def test_stretches() -> None:
     flag = np.array([True, True, False, True, False, False, True])
-    assert stretches(flag) == [slice(0, 2), slice(3, 4), slice(6, 7)]
-    assert stretches(np.zeros(3, dtype=bool)) == []
+    assert find_runs(flag) == [slice(0, 2), slice(3, 4), slice(6, 7)]
+    assert find_runs(np.zeros(3, dtype=bool)) == []
 
 
 @pytest.mark.parametrize(
@@ -174,8 +174,8 @@ def test_an_angle_counts_that_is_known_to_8_degrees() -> None:
 def test_what_lies_beside_a_gap_that_is_not_filled_does_not_count(gone_s: float, taken_s: float) -> None:
     time_s = np.arange(200) / 100.0
     gone = (time_s > 1.0) & (time_s < 1.0 + gone_s)
-    kept = time_s[settled(~gone, time_s)]
+    kept = time_s[exclude_view_edges(~gone, time_s)]
     first_gone_s, last_gone_s = time_s[gone][[0, -1]]
     assert kept[kept < first_gone_s].max() == pytest.approx(first_gone_s - 0.01 - taken_s, abs=0.011)
     assert kept[kept > last_gone_s].min() == pytest.approx(last_gone_s + 0.01 + taken_s, abs=0.011)
-    assert settled(np.empty(0, dtype=bool), np.empty(0)).shape == (0,)
+    assert exclude_view_edges(np.empty(0, dtype=bool), np.empty(0)).shape == (0,)

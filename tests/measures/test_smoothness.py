@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.measures.signals import even_signal, low_pass
-from carpus.core.measures.speed import log_dimensionless_jerk, sparc, speed_peaks
+from carpus.core.measures.signals import low_pass, resample_evenly
+from carpus.core.measures.speed import count_speed_peaks, log_dimensionless_jerk, sparc
 from carpus.core.types import FloatArray
 
 
@@ -64,7 +64,7 @@ def test_filtering_brings_noisy_smoothness_back() -> None:
     raw, filtered = [], []
     for _ in range(40):  # the reference's 6 Hz are those of each pass; both together have -3 dB at 5.04 Hz
         noisy = path + rng.normal(0.0, 0.01, len(t))
-        signal = even_signal(t, noisy)
+        signal = resample_evenly(t, noisy)
         window = slice(30, 61)
         raw.append(sparc(np.abs(np.gradient(noisy, t))[window], 30.0))
         filtered.append(sparc(np.abs(np.gradient(low_pass(signal, 5.04).value, t))[window], 30.0))
@@ -84,21 +84,21 @@ def test_undefined_is_nan(speed: FloatArray) -> None:
 
 def test_too_slow_to_judge() -> None:
     speed = 0.01 * min_jerk_speed(1.0, 30.0)
-    assert math.isnan(sparc(speed, 30.0, least_peak=0.05))
-    assert math.isfinite(sparc(speed, 30.0, least_peak=0.01))
+    assert math.isnan(sparc(speed, 30.0, min_peak=0.05))
+    assert math.isfinite(sparc(speed, 30.0, min_peak=0.01))
 
 
 @pytest.mark.parametrize("parts", [1, 2, 3, 4])
 def test_one_peak_for_each_submovement(parts: int) -> None:
-    assert speed_peaks(serial(parts), 30.0, 0.02) == parts
+    assert count_speed_peaks(serial(parts), 30.0, 0.02) == parts
 
 
 def test_small_ripples_and_close_neighbours_are_no_peaks() -> None:
     speed = serial(1)
     ripple = speed.copy()
     ripple[20] += 0.01 + speed[19] - speed[20]
-    assert speed_peaks(ripple, 30.0, 0.02) == 1
+    assert count_speed_peaks(ripple, 30.0, 0.02) == 1
     twin = np.array([0.0, 1.0, 0.2, 0.9, 0.0])
-    assert speed_peaks(twin, 30.0, 0.02) == 1
-    assert speed_peaks(twin, 10.0, 0.02) == 2
-    assert speed_peaks(np.full(20, np.nan), 30.0, 0.02) == 0
+    assert count_speed_peaks(twin, 30.0, 0.02) == 1
+    assert count_speed_peaks(twin, 10.0, 0.02) == 2
+    assert count_speed_peaks(np.full(20, np.nan), 30.0, 0.02) == 0

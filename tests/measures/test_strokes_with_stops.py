@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from carpus.core.measures.motion_range import motion_range
 from carpus.core.measures.noise import SMOOTHER_CORRELATION_S, Noise
 from carpus.core.measures.repetitions import find_repetitions
-from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures, log_dimensionless_jerk, measure_stroke, sparc
 from carpus.core.types import FloatArray
 from tests.measures.test_noise import angle_of
@@ -32,8 +32,8 @@ def there_and_back(parts: list[Part], hold_s: float = 1.0) -> FloatArray:
 
 def strokes_of(angle: FloatArray, sd_deg: float = 0.0) -> list[StrokeMeasures]:
     time_s = np.arange(len(angle)) / RATE
-    signal = even_signal(time_s, angle)
-    sd = even_signal(time_s, np.full(len(angle), math.radians(sd_deg))) if sd_deg else None
+    signal = resample_evenly(time_s, angle)
+    sd = resample_evenly(time_s, np.full(len(angle), math.radians(sd_deg))) if sd_deg else None
     return [measure_stroke(signal, stroke, sd) for stroke in find_repetitions(signal).strokes]
 
 
@@ -89,7 +89,7 @@ def test_the_mean_speed_is_never_above_the_peak_and_pauses_are_within_the_moveme
     parts: list[Part], noise_deg: float, seed: int
 ) -> None:
     angle = there_and_back(parts)
-    drawn = Noise(math.radians(noise_deg), SMOOTHER_CORRELATION_S).drawn(len(angle), RATE)[seed % 64]
+    drawn = Noise(math.radians(noise_deg), SMOOTHER_CORRELATION_S).sample(len(angle), RATE)[seed % 64]
     for stroke in strokes_of(angle + drawn, 2.0 * noise_deg):
         assert not stroke.mean_speed_rad_s > stroke.peak_speed_rad_s
         assert not stroke.pause_s > stroke.movement_time_s
@@ -116,9 +116,11 @@ def test_who_creeps_on_in_the_turning_place_has_arrived() -> None:
 def test_a_hold_makes_no_arc_of_its_noise(hold_s: float) -> None:
     noise, off_deg, plain_deg = Noise(math.radians(0.4), SMOOTHER_CORRELATION_S), [], []
     one = there_and_back([(60.0, 1.0)], hold_s)
-    for drawn in noise.drawn(3 * len(one), RATE)[:12]:
+    for drawn in noise.sample(3 * len(one), RATE)[:12]:
         time_s = np.arange(len(drawn)) / RATE
-        both = even_signal(time_s, np.column_stack((np.tile(one, 3) + drawn, np.full(len(drawn), math.radians(0.8)))))
+        both = resample_evenly(
+            time_s, np.column_stack((np.tile(one, 3) + drawn, np.full(len(drawn), math.radians(0.8))))
+        )
         found = find_repetitions(both.column(0))
         smooth = low_pass(both.column(0), 10.0)
         arcs = motion_range(smooth, both.column(1), found.repetitions, smoothed=True).arc.values
@@ -136,7 +138,7 @@ def test_a_tracked_patient_who_stops_is_not_called_smooth(
     seconds: float, speed_hz: float, share: float, fewest: int, smoothed: bool
 ) -> None:
     take = tracked("flexion", seconds, speed_hz, seed=5, share=share, stops=True)
-    true = even_signal(take.truth.timestamp_s, take.truth.angles_rad[:, 1])
+    true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, 1])
     angle = angle_of(take, 1, smoothed=smoothed)
     pairs = [
         (measure_stroke(true, stroke), measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed))
@@ -160,7 +162,7 @@ def test_a_tracked_patient_who_stops_is_not_called_smooth(
 def test_what_has_no_smoothness_says_why() -> None:
     time_s = np.arange(0.0, 22.0, 1 / 30)
     value = np.radians(12.0) * (0.5 - 0.5 * np.cos(np.pi * np.clip((time_s - 1.0) / 10.0, 0.0, 2.0)))
-    angle = even_signal(time_s, value)
+    angle = resample_evenly(time_s, value)
     for stroke in find_repetitions(angle).strokes:
         found = measure_stroke(angle, stroke)
         assert found.too_slow_to_be_smooth == math.isnan(found.sparc)

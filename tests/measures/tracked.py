@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.pipeline.track import from_neutral, learnt_from
-from carpus.core.session.values import Motion, motion_of
+from carpus.core.pipeline.track import noise_from_neutral, restart_at_neutral
+from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
@@ -61,12 +61,12 @@ def _tracked(spec: RecordingSpec) -> Tracked:
     hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
     assert hand.calibration is not None
     settings = TrackerSettings()
-    learnt = learnt_from(hand.noise, neutral_ends_s, settings)
-    tracker = Tracker(hand.calibration, sequence.truth.camera, learnt.applied(settings))
+    learnt = noise_from_neutral(hand.noise, neutral_ends_s, settings)
+    tracker = Tracker(hand.calibration, sequence.truth.camera, learnt.adapt_settings(settings))
     times = sequence.truth.timestamp_s
     frames = [
         tracker.step(i, float(times[i]), sequence.detections[i], int(sequence.truth.dropped_before[i]))
-        for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row]))
+        for i in restart_at_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row]))
     ]
     status = np.array([int(frame.status) for frame in frames])
-    return Tracked(sequence.truth, motion_of(frames), motion_of(tracker.smoothed()), status)
+    return Tracked(sequence.truth, stack_states(frames), stack_states(tracker.smooth()), status)

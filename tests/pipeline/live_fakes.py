@@ -11,7 +11,7 @@ import numpy as np
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.source import SourceInfo
-from carpus.core.types import Detections, Frame, Moment, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, Frame, KinematicState, TrackedFrame, TrackStatus
 
 PATIENCE_S = 60.0
 """How long a test waits for what must happen; only a failing test ever waits that long."""
@@ -38,7 +38,7 @@ def tracked(of: Frame) -> TrackedFrame:
         index=of.index,
         timestamp_s=of.timestamp_s,
         status=TrackStatus.TRACKED,
-        moment=Moment(
+        kinematics=KinematicState(
             position_m=three,
             velocity_m_s=three,
             w0_turn_rad=three,

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.capture.files.pictures import encode_color, encode_depth
-from carpus.core.capture.files.raw import BYTES_PER_PICTURE, RawRecording, RawWriter
+from carpus.core.capture.files.raw import BYTES_PER_FRAME, RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.pipeline.around_hand import AroundHand, HandArea, area_of, only
+from carpus.core.pipeline.around_hand import HandCropWriter, HandRegions, compute_hand_region, mask_outside
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Frame, TrackedFrame, TrackStatus
 from tests.tracking.hands import CAMERA, RIGID, blobs, calibration, swing
@@ -30,7 +30,7 @@ def noisy(rng: np.random.Generator) -> Frame:
 
 def test_the_area_holds_every_disc_and_the_fingers_beyond_them() -> None:
     frame = tracked()
-    area = area_of(frame, CAMERA, WRIST6)
+    area = compute_hand_region(frame, CAMERA, WRIST6)
     assert area is not None
     discs = frame.marker_measured_px
     span = float(np.ptp(discs, axis=0).max())
@@ -43,9 +43,9 @@ def test_the_area_holds_every_disc_and_the_fingers_beyond_them() -> None:
 
 
 def test_inside_everything_stays_and_outside_nothing_does() -> None:
-    frame, area = noisy(np.random.default_rng(1)), area_of(tracked(), CAMERA, WRIST6)
+    frame, area = noisy(np.random.default_rng(1)), compute_hand_region(tracked(), CAMERA, WRIST6)
     assert area is not None
-    kept = only(frame, area)
+    kept = mask_outside(frame, area)
     part = np.s_[area.top : area.bottom, area.left : area.right]
     np.testing.assert_array_equal(kept.color_rgb[part], frame.color_rgb[part])
     assert kept.depth_raw is not None
@@ -58,42 +58,42 @@ def test_inside_everything_stays_and_outside_nothing_does() -> None:
 
 
 def test_a_lost_hand_keeps_the_whole_picture() -> None:
-    hand = HandArea(CAMERA, WRIST6)
-    assert hand.area(0.0) is None
-    hand.take(tracked())
-    assert hand.area(0.0) is not None
-    hand.take(replace(tracked(), status=TrackStatus.LOST))
-    assert hand.area(0.0) is None
+    hand = HandRegions(CAMERA, WRIST6)
+    assert hand.find_region(0.0) is None
+    hand.update(tracked())
+    assert hand.find_region(0.0) is not None
+    hand.update(replace(tracked(), status=TrackStatus.LOST))
+    assert hand.find_region(0.0) is None
     frame = noisy(np.random.default_rng(1))
-    assert only(frame, None) is frame
+    assert mask_outside(frame, None) is frame
 
 
 def test_a_hand_that_was_tracked_a_while_ago_keeps_the_whole_picture() -> None:
-    hand = HandArea(CAMERA, WRIST6)
-    hand.take(tracked())
-    assert hand.area(0.1) is not None
-    assert hand.area(1.0) is None
+    hand = HandRegions(CAMERA, WRIST6)
+    hand.update(tracked())
+    assert hand.find_region(0.1) is not None
+    assert hand.find_region(1.0) is None
 
 
 def test_a_picture_that_waited_for_the_disk_keeps_the_hand_of_its_own_time() -> None:
-    hand, now = HandArea(CAMERA, WRIST6), tracked()
-    hand.take(now)
-    then = hand.area(0.0)
-    hand.take(replace(now, timestamp_s=10.0, marker_position_cam_m=now.marker_position_cam_m + [0.1, 0.0, 0.0]))
-    assert hand.area(10.0) != then
-    assert hand.area(0.1) == then
-    assert hand.area(-0.1) is None
+    hand, now = HandRegions(CAMERA, WRIST6), tracked()
+    hand.update(now)
+    then = hand.find_region(0.0)
+    hand.update(replace(now, timestamp_s=10.0, marker_position_cam_m=now.marker_position_cam_m + [0.1, 0.0, 0.0]))
+    assert hand.find_region(10.0) != then
+    assert hand.find_region(0.1) == then
+    assert hand.find_region(-0.1) is None
 
 
 def test_depth_comes_back_as_it_was_and_it_costs_a_part(tmp_path: Path) -> None:
-    frame, area = noisy(np.random.default_rng(2)), area_of(tracked(), CAMERA, WRIST6)
-    writer = AroundHand(
+    frame, area = noisy(np.random.default_rng(2)), compute_hand_region(tracked(), CAMERA, WRIST6)
+    writer = HandCropWriter(
         RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", CAMERA, True, None, 30.0, {})), lambda _: area
     )
     writer.append_frame(frame)
     writer.close()
     (back,) = RawRecording(tmp_path / "s.carpusraw").frames()
-    np.testing.assert_array_equal(back.depth_raw, only(frame, area).depth_raw)
+    np.testing.assert_array_equal(back.depth_raw, mask_outside(frame, area).depth_raw)
     whole = len(encode_color(frame.color_rgb)) + len(encode_depth(frame.depth_raw))  # type: ignore[arg-type]
     assert writer.path.stat().st_size < 0.6 * whole
-    assert 0.6 * whole > BYTES_PER_PICTURE
+    assert 0.6 * whole > BYTES_PER_FRAME

@@ -15,18 +15,31 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.errors import NotCorrectable, OutputExists
+from carpus.core.errors import MarkersNotCorrectable, OutputExists
 from carpus.core.hand.protocols import HAND21
-from carpus.core.pipeline.correction import CorrectionTask, correct, correct_in_process, not_held, task_of, with_places
-from carpus.core.pipeline.track import Learnt, TrackSettings, from_neutral, learnt_from, parameters_json
-from carpus.core.records.corrections import difference
+from carpus.core.pipeline.correction import (
+    CorrectionTask,
+    correct,
+    correct_in_process,
+    find_lost_corrections,
+    load_task,
+    with_added_detections,
+)
+from carpus.core.pipeline.track import (
+    NeutralNoise,
+    TrackSettings,
+    format_parameters,
+    noise_from_neutral,
+    restart_at_neutral,
+)
+from carpus.core.records.corrections import compare_results
 from carpus.core.session.marker_doubts import (
     CORRECTED,
     Correction,
-    corrected_from,
-    corrections_in,
-    expected_px,
-    name_doubt,
+    find_label_doubt,
+    predict_marker_px,
+    read_corrections,
+    summarize_corrections,
 )
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import Session, new_header
@@ -60,12 +73,12 @@ def wrongly_tracked(folder: Path) -> Stored:
     rng, motion = np.random.default_rng(4), swing(1, 30.0, 0.5)
     calibrated, settings = calibration(), TrackSettings()
     path = folder / "session.h5"
-    learnt = Learnt(0.15, 1.0, -np.inf)
+    learnt = NeutralNoise(0.15, 1.0, -np.inf)
     header = new_header(
         hand="right", protocol=calibrated.clicks.protocol, subject_id="Linden 42",
-        exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), now=LONG_AGO,
+        exercise="WRIST_FE", parameters=format_parameters(settings, {}, learnt), now=LONG_AGO,
     )  # fmt: skip
-    tracker = Tracker(calibrated, CAMERA, learnt.applied(settings.tracker))
+    tracker = Tracker(calibrated, CAMERA, learnt.adapt_settings(settings.tracker))
     writer = SessionWriter.create(path, header, CAMERA, calibrated)
     false_px = calibrated.clicks.pixel[MCP3] + FALSE_PX
     for row in range(round(SECONDS * FPS)):
@@ -90,7 +103,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
 
 
 def task(stored: Stored, output: Path, *corrections: Correction) -> CorrectionTask:
-    return task_of(stored.path, output, corrections, by="MK")
+    return load_task(stored.path, output, corrections, initials="MK")
 
 
 def put_right(stored: Stored) -> Correction:
@@ -123,7 +136,7 @@ def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: 
     distance = np.linalg.norm(taken - stored.false_px, axis=-1)
     assert np.nanmin(distance) > 20.0
     assert np.isfinite(taken[:, MCP3]).all(axis=1).mean() > 0.95
-    assert not_held(session, read_detections(right), [put_right(stored)]) == ()
+    assert find_lost_corrections(session, read_detections(right), [put_right(stored)]) == ()
     for motion in (session.motion, session.smoothed):
         assert motion is not None
         error_deg = np.degrees(motion.angles_rad[WRONG_FROM + 10 :]) - stored.truth_deg[WRONG_FROM + 10 :]
@@ -143,12 +156,12 @@ def test_the_new_result_names_its_origin_what_was_done_and_keeps_the_notes(store
     told = json.loads(said.text)
     assert told["by"] == "MK"
     assert told["markers"]["MCP3"] == pytest.approx(stored.disc_px, abs=0.1)
-    assert corrected_from(old) is None
-    since = corrected_from(new)
+    assert summarize_corrections(old) is None
+    since = summarize_corrections(new)
     assert since is not None
-    assert since.from_s == pytest.approx(WRONG_FROM / FPS, abs=0.01)
-    assert (since.markers, since.by, since.when.isoformat()) == (("MCP3",), "MK", new.header.created)
-    ((read, by),) = corrections_in(new)
+    assert since.first_corrected_s == pytest.approx(WRONG_FROM / FPS, abs=0.01)
+    assert (since.markers, since.initials, since.corrected_at.isoformat()) == (("MCP3",), "MK", new.header.created)
+    ((read, by),) = read_corrections(new)
     assert (read.row, by) == (WRONG_FROM, "MK")
     assert read.places["MCP3"] == pytest.approx(stored.disc_px, abs=0.1)
 
@@ -158,27 +171,27 @@ def test_names_that_are_plainly_wrong_are_told_and_right_ones_are_not(stored: St
     markers = list(session.header.protocol.markers)
     right = session.markers.measured_px[WRONG_FROM].copy()
     right[MCP3] = stored.disc_px
-    assert name_doubt(session, WRONG_FROM, right, ["MCP3"]) is None
+    assert find_label_doubt(session, WRONG_FROM, right, ["MCP3"]) is None
     for one in range(len(markers)):
-        assert name_doubt(session, WRONG_FROM, right, [markers[one]]) is None
+        assert find_label_doubt(session, WRONG_FROM, right, [markers[one]]) is None
         for other in range(one):
             wrong = right.copy()
             wrong[[one, other]] = right[[other, one]]
-            told = name_doubt(session, WRONG_FROM, wrong, [markers[one], markers[other]])
+            told = find_label_doubt(session, WRONG_FROM, wrong, [markers[one], markers[other]])
             assert told is not None
-            assert told.exchanged is not None
-            assert set(told.exchanged) == {markers[one], markers[other]}
+            assert told.swapped is not None
+            assert set(told.swapped) == {markers[one], markers[other]}
     far = right.copy()
     far[MCP3] = stored.false_px
-    told = name_doubt(session, WRONG_FROM, far, ["MCP3"])
+    told = find_label_doubt(session, WRONG_FROM, far, ["MCP3"])
     assert told is not None
-    assert told.alone == "MCP3"
-    assert 0.02 < told.off_m < 0.2
-    assert name_doubt(session, WRONG_FROM, far, ["MCP5"]) is None  # somebody else's fault is not this change's
+    assert told.misplaced == "MCP3"
+    assert 0.02 < told.offset_m < 0.2
+    assert find_label_doubt(session, WRONG_FROM, far, ["MCP5"]) is None  # somebody else's fault is not this change's
     first_off_m = next(
-        told.off_m
+        told.offset_m
         for away_px in np.arange(0.0, 60.0, 0.25)
-        if (told := name_doubt(session, WRONG_FROM, right + away_px * (np.arange(6) == MCP3)[:, None], ["MCP3"]))
+        if (told := find_label_doubt(session, WRONG_FROM, right + away_px * (np.arange(6) == MCP3)[:, None], ["MCP3"]))
     )
     assert 0.012 < first_off_m < 0.015, "where the palm's misfit tells it too"
 
@@ -188,7 +201,7 @@ def test_a_name_that_did_not_hold_is_told(stored: Stored, tmp_path: Path) -> Non
     nowhere = Correction(WRONG_FROM, {"MCP3": (40.0, 440.0)})
     correct(task(stored, tmp_path / "new.h5", nowhere))
     path = tmp_path / "new.h5"
-    assert not_held(read_session(path), read_detections(path), [nowhere]) == ("MCP3",)
+    assert find_lost_corrections(read_session(path), read_detections(path), [nowhere]) == ("MCP3",)
 
 
 def test_not_to_be_seen_means_no_spot_is_taken_there(stored: Stored, tmp_path: Path) -> None:
@@ -196,14 +209,14 @@ def test_not_to_be_seen_means_no_spot_is_taken_there(stored: Stored, tmp_path: P
     correct(task(stored, tmp_path / "new.h5", hidden))
     session = read_session(tmp_path / "new.h5")
     assert not np.isfinite(session.markers.measured_px[WRONG_FROM, MCP3]).any()
-    assert not_held(session, read_detections(tmp_path / "new.h5"), [hidden]) == ()
+    assert find_lost_corrections(session, read_detections(tmp_path / "new.h5"), [hidden]) == ()
     assert np.nanmin(np.linalg.norm(session.markers.measured_px[WRONG_FROM:] - stored.false_px, axis=-1)) > 20.0
 
 
 def test_a_disc_that_was_not_found_is_added_without_a_depth() -> None:
     found = blobs(swing(1, 0.0, 1.0)(0.0), hidden=[MCP3])
     place = CAMERA.project(discs_cam_m(swing(1, 0.0, 1.0)(0.0)))[MCP3]
-    more = with_places(found, np.array([place, found.pixel[0] + 1.0]))
+    more = with_added_detections(found, np.array([place, found.pixel[0] + 1.0]))
     assert len(more) == len(found) + 1
     assert more.pixel[-1] == pytest.approx(place)
     assert np.isnan(more.depth_m[-1])
@@ -212,7 +225,7 @@ def test_a_disc_that_was_not_found_is_added_without_a_depth() -> None:
 def test_where_the_others_expect_a_disc_is_said_without_it(stored: Stored) -> None:
     session = read_session(stored.path)
     places = session.markers.measured_px[WRONG_FROM]
-    expected = expected_px(session, WRONG_FROM, places, MCP3)
+    expected = predict_marker_px(session, WRONG_FROM, places, MCP3)
     assert expected == pytest.approx(stored.disc_px, abs=4.0)
     assert np.linalg.norm(places[MCP3] - expected) > 40.0
 
@@ -231,8 +244,8 @@ def test_a_session_without_spots_cannot_be_corrected(stored: Stored, tmp_path: P
     session = read_session(stored.path)
     writer = SessionWriter.create(tmp_path / "empty.h5", session.header, CAMERA, session.calibration)
     writer.close()
-    with pytest.raises(NotCorrectable):
-        task_of(tmp_path / "empty.h5", tmp_path / "new.h5", ())
+    with pytest.raises(MarkersNotCorrectable):
+        load_task(tmp_path / "empty.h5", tmp_path / "new.h5", ())
 
 
 DIP3 = HAND21.markers.index("DIP3")
@@ -246,24 +259,24 @@ def hand(tmp_path_factory: pytest.TempPathFactory) -> Path:
     measured, neutral_ends_s = measured_hand(seen, CalibrationSettings())
     assert measured.calibration is not None
     path, settings, truth = tmp_path_factory.mktemp("hand") / "hand.h5", TrackSettings(), seen.truth
-    learnt = learnt_from(measured.noise, neutral_ends_s, settings.tracker)
+    learnt = noise_from_neutral(measured.noise, neutral_ends_s, settings.tracker)
     header = new_header(
         hand="right", protocol=measured.calibration.clicks.protocol, subject_id="Linden 42",
-        exercise="FINGER_ABDUCTION", parameters=parameters_json(settings, {}, learnt), dip_free=False,
+        exercise="FINGER_ABDUCTION", parameters=format_parameters(settings, {}, learnt), dip_free=False,
     )  # fmt: skip
-    tracker = Tracker(measured.calibration, truth.camera, learnt.applied(settings.tracker))
+    tracker = Tracker(measured.calibration, truth.camera, learnt.adapt_settings(settings.tracker))
     times_s = truth.timestamp_s.tolist()
     with closing(SessionWriter.create(path, header, truth.camera, measured.calibration)) as writer:
-        for row in from_neutral(range(len(times_s)), tracker, neutral_ends_s, times_s.__getitem__):
+        for row in restart_at_neutral(range(len(times_s)), tracker, neutral_ends_s, times_s.__getitem__):
             spots, is_it = seen.detections[row], seen.marker[row] == DIP3
             if row >= WRONG_FROM:
                 spots = replace(spots, pixel=spots.pixel + np.where(is_it[:, None], (-2.0, 2.0), 0.0))
-            writer.append(tracker.step(row, times_s[row], spots.only(~is_it) if row in OUT_OF_SIGHT else spots))
+            writer.append(tracker.step(row, times_s[row], spots.subset(~is_it) if row in OUT_OF_SIGHT else spots))
     return path
 
 
 def corrected(hand: Path, output: Path, *corrections: Correction) -> Session:
-    correct(task_of(hand, output, corrections))
+    correct(load_task(hand, output, corrections))
     return read_session(output)
 
 
@@ -277,9 +290,9 @@ def test_a_spot_that_is_no_disc_of_a_finger_stays_left_out_and_other_fingers_are
     size_deg = np.degrees(np.abs(after.motion.joint_angles_rad - before.motion.joint_angles_rad)).max(axis=0)
     changed = {name for name, size in zip(after.header.joint_names, size_deg, strict=True) if size > 0.1}
     assert changed == {name for name in changed if "3" in name} != set(), size_deg
-    found = difference(before, after)
-    assert found.lost == ("DIP3",)
-    assert "3" in found.most_at
+    found = compare_results(before, after)
+    assert found.lost_markers == ("DIP3",)
+    assert "3" in found.max_difference_angle
 
 
 def test_all_that_is_said_of_one_picture_holds_from_it_on(hand: Path, tmp_path: Path) -> None:
@@ -293,9 +306,9 @@ def test_all_that_is_said_of_one_picture_holds_from_it_on(hand: Path, tmp_path: 
     after = corrected(hand, tmp_path / "new.h5", *several)
     rows = [HAND21.markers.index(name) for name in names]
     assert not np.isfinite(after.markers.measured_px[WRONG_FROM : WRONG_FROM + 15, rows]).any()
-    ((said, _),) = corrections_in(after)
+    ((said, _),) = read_corrections(after)
     assert said.places == dict.fromkeys(names)
-    assert not_held(after, read_detections(tmp_path / "new.h5"), [said]) == ()
+    assert find_lost_corrections(after, read_detections(tmp_path / "new.h5"), [said]) == ()
 
 
 def test_of_a_finger_whose_disc_a_person_shows_nothing_is_believed_but_what_is_seen(hand: Path, tmp_path: Path) -> None:
@@ -311,6 +324,6 @@ def test_of_a_finger_whose_disc_a_person_shows_nothing_is_believed_but_what_is_s
     "wrong", [{"row": -1}, {"row": 10_000}, {"places": {"NOSE": None}}, {"places": {"DIP3": (math.nan, 3.0)}}]
 )
 def test_a_correction_of_what_is_not_there_is_refused(hand: Path, tmp_path: Path, wrong: dict[str, Any]) -> None:
-    with pytest.raises(NotCorrectable):
+    with pytest.raises(MarkersNotCorrectable):
         corrected(hand, tmp_path / "new.h5", replace(Correction(WRONG_FROM, {"DIP3": None}), **wrong))
     assert list(tmp_path.iterdir()) == []

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.errors import CameraLost, CameraReturned, DiskTooSlow, OutputExists, PictureDamaged
+from carpus.core.errors import CameraLost, CameraReturned, DiskTooSlow, FrameDamaged, OutputExists
 from carpus.core.pipeline import backlog
-from carpus.core.pipeline.backlog import PREVIEW_WAITING
+from carpus.core.pipeline.backlog import MAX_PREVIEW_WAITING
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
 from carpus.core.types import Frame, TrackedFrame
@@ -44,14 +44,14 @@ def deliver_tracked(live: LiveSession, source: HeldSource, count: int) -> None:
 def test_pictures_before_tracking() -> None:
     source = HeldSource()
     with LiveSession(source) as live:
-        assert live.newest_frame() is None
+        assert live.current_frame() is None
         deliver(live, source, 30)
-        assert live.newest_frame().index == 29
+        assert live.current_frame().index == 29
         assert [f.index for f in live.recent_frames(15)] == list(range(15, 30))
         assert [f.index for f in live.recent_frames(500)] == list(range(10, 30))
         assert live.recent_frames(0) == []
-        assert live.newest() is None
-        assert not live.tracking
+        assert live.current_view() is None
+        assert not live.is_tracking
     assert source.closed >= 1
 
 
@@ -59,30 +59,30 @@ def test_tracking_begins_with_the_next_frame_and_shows_one_picture_with_its_resu
     source = HeldSource()
     with LiveSession(source) as live:
         deliver(live, source, 5)
-        live.begin_tracking(tracked)
-        assert live.tracking
+        live.start_tracking(tracked)
+        assert live.is_tracking
         deliver_tracked(live, source, 6)
-        view = live.newest()
+        view = live.current_view()
         assert view.frame.index == view.tracked.index == 10
         assert view.captured_at_s <= time.monotonic()
-        assert [row.index for row in live.tracked_since(-1)] == [5, 6, 7, 8, 9, 10]
-        assert [row.index for row in live.tracked_since(8)] == [9, 10]
+        assert [row.index for row in live.frames_since(-1)] == [5, 6, 7, 8, 9, 10]
+        assert [row.index for row in live.frames_since(8)] == [9, 10]
         live.end_tracking()
         deliver(live, source, 3)
-        assert live.newest_frame().index == 13
-        live.begin_tracking(tracked)
-        assert live.tracked_since(-1) == []
-        assert live.newest() is None
+        assert live.current_frame().index == 13
+        live.start_tracking(tracked)
+        assert live.frames_since(-1) == []
+        assert live.current_view() is None
         deliver_tracked(live, source, 1)
-        assert [row.index for row in live.tracked_since(-1)] == [14]
+        assert [row.index for row in live.frames_since(-1)] == [14]
 
 
 def test_history_holds_twelve_seconds_and_is_bounded() -> None:
     source = HeldSource()
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         deliver_tracked(live, source, 600)
-        times = [row.timestamp_s for row in live.tracked_since(-1)]
+        times = [row.timestamp_s for row in live.frames_since(-1)]
         assert times[-1] - times[0] >= 12.0
         assert len(times) <= 500
 
@@ -91,14 +91,14 @@ def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_store
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source, LiveSettings(tracking_waiting=8)) as live:
-        live.begin_tracking(held_by(gate))
+        live.start_tracking(held_by(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
         deliver(live, source, 50)
         counters = live.counters()
         assert counters.dropped == 42
-        assert counters.waiting_tracking == 8
+        assert counters.frames_waiting == 8
         gate.open()
         wait_until(lambda: live.counters().tracked == 9)
         deliver_tracked(live, source, 2)
@@ -108,17 +108,17 @@ def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_store
 
 
 def test_a_computer_with_little_memory_lets_fewer_pictures_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(backlog, "free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
+    monkeypatch.setattr(backlog, "read_free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
     source, gate = HeldSource(), Gate()
 
     with LiveSession(source) as live:
         deliver(live, source, 1)
-        live.begin_tracking(held_by(gate))
+        live.start_tracking(held_by(gate))
         live.start_recording(lambda: FakeSession(OUT))
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
         deliver(live, source, 40)
-        assert live.counters().waiting_tracking == 25
+        assert live.counters().frames_waiting == 25
         assert live.counters().dropped == 15
         gate.open()
 
@@ -127,7 +127,7 @@ def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
     source, gate, sink = HeldSource(dropped_before=2), Gate(), FakeSession(OUT)
 
     with LiveSession(source, LiveSettings(tracking_waiting=1)) as live:
-        live.begin_tracking(held_by(gate))
+        live.start_tracking(held_by(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -151,23 +151,23 @@ def test_behind_is_not_lost_and_the_end_waits_until_all_is_worked_through() -> N
         return tracked(picture)
 
     with LiveSession(source) as live:
-        live.begin_tracking(half_as_fast)
+        live.start_tracking(half_as_fast)
         live.start_recording(lambda: sink)
         gate.open()
         for second in range(1, 61):
             deliver(live, source, 30)
             turns.release(15)
             wait_until(lambda second=second: live.counters().tracked == 15 * second)
-        assert live.newest_frame().index == 1799
-        assert live.counters().waiting_tracking in (899, 900)
-        assert math.isfinite(live.counters().catching_up_s)
+        assert live.current_frame().index == 1799
+        assert live.counters().frames_waiting in (899, 900)
+        assert math.isfinite(live.counters().tracking_lag_s)
         ended: list[Path] = []
         stopper = threading.Thread(target=lambda: ended.append(live.stop_recording()))
         stopper.start()
         turns.release(100)
         wait_until(lambda: live.counters().tracked == 1000)
         deliver(live, source, 5)  # after the stop: neither recorded nor tracked meanwhile
-        assert live.recording
+        assert live.is_recording
         assert not ended
         turns.release(2000)
         stopper.join()
@@ -184,7 +184,7 @@ def test_rows_that_were_tracked_are_stored_while_pictures_wait() -> None:
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source) as live:
-        live.begin_tracking(held_by(gate, since=10))
+        live.start_tracking(held_by(gate, since=10))
         live.start_recording(lambda: sink)
         deliver(live, source, 100)
         wait_until(lambda: live.counters().rows_written == 10)
@@ -197,11 +197,11 @@ def test_what_is_not_recorded_waits_for_half_a_second_at_most() -> None:
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source) as live:
-        live.begin_tracking(held_by(gate))
+        live.start_tracking(held_by(gate))
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
         deliver(live, source, 40)
-        assert live.counters().waiting_tracking == 16
+        assert live.counters().frames_waiting == 16
         assert live.counters().dropped == 24
         live.start_recording(lambda: sink)
         deliver(live, source, 20)
@@ -220,32 +220,32 @@ def test_a_failing_tracker_is_told_and_the_pictures_go_on() -> None:
         return tracked(picture)
 
     with LiveSession(source) as live:
-        live.begin_tracking(broken)
+        live.start_tracking(broken)
         deliver_tracked(live, source, 3)
         deliver(live, source, 5)
         told: list[LiveEvent] = []
         wait_until(lambda: told.extend(live.drain_events()) or bool(told))
         (event,) = told
-        assert not live.tracking
+        assert not live.is_tracking
         assert event.kind == "tracking_failed"
         assert isinstance(event.cause, ZeroDivisionError)
-        assert live.newest_frame().index == 7
-        live.begin_tracking(tracked)
+        assert live.current_frame().index == 7
+        live.start_tracking(tracked)
         deliver_tracked(live, source, 2)
-        assert live.newest().tracked.index == 9
+        assert live.current_view().tracked.index == 9
 
 
 # --- recording -----------------------------------------------------------------------------
 def test_everything_tracked_is_recorded_in_one_thread() -> None:
     source, sink = HeldSource(), FakeSession(OUT)
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         deliver_tracked(live, source, 3)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 200)
-        assert live.counters().recording
+        assert live.counters().is_recording
         assert live.stop_recording() == OUT
-        assert not live.recording
+        assert not live.is_recording
         deliver_tracked(live, source, 3)
     assert [row.index for row in sink.rows] == list(range(3, 203))
     assert sink.ended == "closed"
@@ -264,7 +264,7 @@ def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
         waited.append((threading.current_thread().name, sink.ended))
 
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         deliver_tracked(live, source, 3)
         live.start_recording(lambda: sink, None, wait)
         deliver_tracked(live, source, 3)
@@ -284,14 +284,14 @@ def test_stop_drains_from_source_to_sink() -> None:
 
     live = LiveSession(source)
     live.start()
-    live.begin_tracking(held_by(gate))
+    live.start_tracking(held_by(gate))
     live.start_recording(lambda: sink)
     deliver(live, source, 1)
     wait_until(lambda: gate.waiting)
     deliver(live, source, 8)
     stopper = threading.Thread(target=live.stop)
     stopper.start()
-    wait_until(lambda: not live.running)
+    wait_until(lambda: not live.is_running)
     assert sink.rows == []
     gate.open()
     stopper.join()
@@ -306,13 +306,13 @@ def test_a_slow_disk_holds_up_nobody_and_nothing_is_lost() -> None:
     source, gate = HeldSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 300)
-        assert live.newest().tracked.index == 299
+        assert live.current_view().tracked.index == 299
         assert live.counters().dropped == 0
         assert live._recording is not None
-        assert live._recording.rows.waiting == 299
+        assert live._recording.row_recorder.queue_length == 299
         gate.open()
         live.stop_recording()
     assert [row.index for row in sink.rows] == list(range(300))
@@ -322,7 +322,7 @@ def test_overflow_ends_the_recording_keeps_what_there_is_and_tracking_lives_on()
     source, gate = HeldSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
     with LiveSession(source, LiveSettings(rows_waiting=9, tracking_waiting=1)) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -330,7 +330,7 @@ def test_overflow_ends_the_recording_keeps_what_there_is_and_tracking_lives_on()
         events: list[LiveEvent] = []
         wait_until(lambda: events.extend(live.drain_events()) or bool(events))
         deliver_tracked(live, source, 8)
-        assert live.newest().tracked.index == 19
+        assert live.current_view().tracked.index == 19
         events += live.drain_events()
         assert kinds(events) == ["recording_failed"]
         assert isinstance(events[0].cause, DiskTooSlow)
@@ -352,16 +352,16 @@ def test_a_failing_writer_is_told_once_and_tracking_lives_on() -> None:
     source = HeldSource()
     sink = FakeSession(OUT, fault_at=4)
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 20)
         wait_until(lambda: sink.ended != "")
         assert kinds(live.drain_events()) == ["recording_failed"]
-        assert live.newest().tracked.index == 19
+        assert live.current_view().tracked.index == 19
         assert not live.add_event("note", "too late")
         with pytest.raises(OSError, match="space"):
             live.stop_recording()
-        assert not live.recording
+        assert not live.is_recording
     assert len(sink.rows) == 4
     assert sink.ended == "abandoned"
 
@@ -369,7 +369,7 @@ def test_a_failing_writer_is_told_once_and_tracking_lives_on() -> None:
 def test_a_recording_that_fails_does_not_keep_stop_from_ending() -> None:
     source = HeldSource()
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: FakeSession(OUT, fault_at=0))
         deliver_tracked(live, source, 5)
     assert kinds(live.drain_events()) == ["recording_failed"]
@@ -383,10 +383,10 @@ def test_a_file_that_cannot_be_opened_is_said_at_once() -> None:
     with LiveSession(source) as live:
         with pytest.raises(OutputExists):
             live.start_recording(refuse)
-        assert not live.recording
+        assert not live.is_recording
         with pytest.raises(OutputExists):
             live.start_recording(lambda: sink, refuse)
-        assert not live.recording
+        assert not live.is_recording
         assert sink.ended == "discarded"
         with pytest.raises(RuntimeError, match="no recording"):
             live.stop_recording()
@@ -399,13 +399,13 @@ def test_a_file_that_cannot_be_opened_is_said_at_once() -> None:
 def test_pause_and_notes_are_in_the_file() -> None:
     source, sink = HeldSource(), FakeSession(OUT)
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         assert not live.add_event("note", "nobody records")
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 3)
         live.pause_recording()
         live.pause_recording()
-        assert live.counters().paused
+        assert live.counters().is_paused
         deliver_tracked(live, source, 4)
         live.resume_recording()
         deliver_tracked(live, source, 2)
@@ -424,27 +424,27 @@ class Heard:
         self.events: list[tuple[float, str]] = []
         self._breaks_at = breaks_at
 
-    def push(self, frame: TrackedFrame) -> None:
+    def on_frame(self, frame: TrackedFrame) -> None:
         if frame.index == self._breaks_at:
             raise OSError("no network")
         self.frames.append(frame.index)
 
-    def event(self, time_s: float, kind: str) -> None:
+    def on_event(self, time_s: float, kind: str) -> None:
         self.events.append((time_s, kind))
 
 
 def test_a_listener_hears_frames_and_events_and_cannot_end_the_measuring() -> None:
     source, heard, breaking = HeldSource(), Heard(), Heard(breaks_at=4)
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
-        live.listen(heard)
+        live.start_tracking(tracked)
+        live.set_listener(heard)
         deliver_tracked(live, source, 3)
         wait_until(lambda: len(heard.frames) == 3)
         live.add_event("note", "1")
-        live.tell("repetition", 99.5)
-        live.listen(breaking)
+        live.notify_listener("repetition", 99.5)
+        live.set_listener(breaking)
         deliver_tracked(live, source, 4)
-        assert live.tracking
+        assert live.is_tracking
     assert heard.frames == [0, 1, 2]
     assert heard.events == [(pytest.approx(100 + 2 / 30), "note"), (99.5, "repetition")]
     assert breaking.frames == [3]
@@ -456,11 +456,11 @@ def test_raw_pictures_are_stored_before_they_are_tracked() -> None:
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
 
     with LiveSession(source, LiveSettings(tracking_waiting=16, pictures_waiting=100)) as live:
-        live.begin_tracking(held_by(gate))
+        live.start_tracking(held_by(gate))
         live.start_recording(lambda: rows, lambda: pictures)
         deliver(live, source, 60)
         assert live.counters().dropped > 0
-        wait_until(lambda: live.counters().pictures_written == 60)
+        wait_until(lambda: live.counters().frames_written == 60)
         assert live.counters().tracked == 0
         gate.open()
         live.stop_recording()
@@ -475,16 +475,16 @@ def test_rows_and_pictures_begin_with_the_same_frame_however_far_behind_the_trac
     rows, pictures = FakeSession(OUT), FakeSession(Path("raw"))
 
     with LiveSession(source) as live:
-        live.begin_tracking(held_by(gate))
+        live.start_tracking(held_by(gate))
         deliver(live, source, 3)  # captured, not yet tracked
         live.start_recording(lambda: rows, lambda: pictures)
-        assert live.recorded_from is None
+        assert live.first_recorded_index is None
         deliver(live, source, 4)
-        assert live.recorded_from == 3
+        assert live.first_recorded_index == 3
         gate.open()
         wait_until(lambda: live.counters().tracked == 7)
         live.stop_recording()
-        assert live.recorded_from is None
+        assert live.first_recorded_index is None
     assert [row.index for row in rows.rows] == [3, 4, 5, 6]
     assert [picture.index for picture in rows.pictures + pictures.pictures] == [3, 4, 5, 6]
 
@@ -493,7 +493,7 @@ def test_raw_pictures_that_fail_leave_the_session_recording() -> None:
     source = HeldSource()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"), fault_at=2)
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: rows, lambda: pictures)
         deliver_tracked(live, source, 10)
         assert live.stop_recording() == OUT
@@ -505,23 +505,23 @@ def test_raw_pictures_that_fail_leave_the_session_recording() -> None:
 def test_the_end_of_a_recording_is_told() -> None:
     source, sink = HeldSource(total=12), FakeSession(OUT)
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: sink)
         source.let(12)
-        wait_until(lambda: not live.running)
+        wait_until(lambda: not live.is_running)
         assert kinds(live.drain_events()) == ["source_ended"]
         assert live.stop_recording() == OUT
     assert live.counters().captured == 12
 
 
 def test_a_source_that_fails_is_told_with_its_fault() -> None:
-    source = HeldSource(total=2, fault=PictureDamaged("000003.png"))
+    source = HeldSource(total=2, fault=FrameDamaged("000003.png"))
     with LiveSession(source) as live:
         source.let(2)
-        wait_until(lambda: not live.running)
+        wait_until(lambda: not live.is_running)
         event = live.drain_events()[0]
         assert event.kind == "source_failed"
-        assert isinstance(event.cause, PictureDamaged)
+        assert isinstance(event.cause, FrameDamaged)
         assert event.time_s == pytest.approx(100.0 + 1 / 30.0)
         assert live.drain_events() == []
 
@@ -529,14 +529,14 @@ def test_a_source_that_fails_is_told_with_its_fault() -> None:
 def test_a_camera_lost_and_back_is_told_and_stored() -> None:
     source, sink = HeldSource(), FakeSession(OUT)
     with LiveSession(source) as live:
-        live.notice(CameraLost("Xtion"))
+        live.handle_notice(CameraLost("Xtion"))
         assert math.isnan(live.drain_events()[0].time_s)
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 1)
-        live.notice(CameraLost("Xtion"))
-        live.notice(CameraReturned("Xtion", "3.1 s"))
-        live.notice(PictureDamaged("one"))
+        live.handle_notice(CameraLost("Xtion"))
+        live.handle_notice(CameraReturned("Xtion", "3.1 s"))
+        live.handle_notice(FrameDamaged("one"))
         assert kinds(live.drain_events()) == ["camera_lost", "camera_back", "notice"]
         live.stop_recording()
     assert [(kind, text) for _, kind, text in sink.events] == [("camera_lost", ""), ("camera_back", "3.1 s")]
@@ -548,7 +548,7 @@ def test_little_room_on_the_disk_is_told_once(tmp_path: Path, monkeypatch: pytes
     source, sink = HeldSource(), FakeSession(tmp_path / "session.h5")
     with LiveSession(source, LiveSettings(folder=tmp_path)) as live:
         assert live.counters().disk_free_bytes == 30_000_000
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 100)
         wait_until(lambda: live.counters().rows_written == 100)
@@ -577,7 +577,7 @@ def test_latency_counts_from_arrival_to_result() -> None:
         return tracked(picture)
 
     with LiveSession(source) as live:
-        live.begin_tracking(slow)
+        live.start_tracking(slow)
         deliver_tracked(live, source, 5)
         counters = live.counters()
     assert counters.latency_p50_ms >= 20.0
@@ -600,8 +600,8 @@ def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> No
 
     source = HeldSource(total=120)
     source.let(200)
-    live = LiveSession(source, settings, source_waits=True)
-    live.begin_tracking(pipeline)
+    live = LiveSession(source, settings, is_file=True)
+    live.start_tracking(pipeline)
     live.start_recording(lambda: Slow(OUT))
     live.start()
     wait_until(lambda: "source_ended" in kinds(live.drain_events()))
@@ -614,13 +614,13 @@ def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> No
 def test_a_file_that_waits_can_be_stopped() -> None:
     source, gate = HeldSource(total=50), Gate()
     source.let(60)
-    live = LiveSession(source, LiveSettings(tracking_waiting=2), source_waits=True)
-    live.begin_tracking(held_by(gate))
+    live = LiveSession(source, LiveSettings(tracking_waiting=2), is_file=True)
+    live.start_tracking(held_by(gate))
     live.start()
-    wait_until(lambda: live.counters().waiting_tracking == 2)
+    wait_until(lambda: live.counters().frames_waiting == 2)
     threading.Timer(0.1, gate.open).start()
     live.stop()
-    assert not live.running
+    assert not live.is_running
 
 
 def test_a_file_that_is_stopped_on_its_way_does_not_play_to_its_end() -> None:
@@ -630,8 +630,8 @@ def test_a_file_that_is_stopped_on_its_way_does_not_play_to_its_end() -> None:
         time.sleep(0.001)
         return tracked(picture)
 
-    live = LiveSession(source, source_waits=True)
-    live.begin_tracking(slow)
+    live = LiveSession(source, is_file=True)
+    live.start_tracking(slow)
     live.start_recording(lambda: sink)
     with live:
         source.let(1_000_000)  # a quarter of an hour and more
@@ -639,7 +639,7 @@ def test_a_file_that_is_stopped_on_its_way_does_not_play_to_its_end() -> None:
         live.stop_recording()
         stored = [row.index for row in sink.rows]
         assert stored == list(range(len(stored)))
-        assert live.running
+        assert live.is_running
 
 
 def test_what_waited_for_a_recording_that_failed_keeps_nobody_waiting() -> None:
@@ -647,13 +647,13 @@ def test_what_waited_for_a_recording_that_failed_keeps_nobody_waiting() -> None:
     source, gate = HeldSource(), Gate()
 
     with LiveSession(source) as live:
-        live.begin_tracking(held_by(gate, since=1))
+        live.start_tracking(held_by(gate, since=1))
         live.start_recording(lambda: FakeSession(OUT, fault_at=0))
         deliver(live, source, 200)
         wait_until(lambda: "recording_failed" in kinds(live.drain_events()))
         with pytest.raises(OSError, match="No space"):
             live.stop_recording()
-        assert live.counters().waiting_tracking > 0, "the end does not wait for the tracker"
+        assert live.counters().frames_waiting > 0, "the end does not wait for the tracker"
         gate.open()
-        wait_until(lambda: live.newest() is not None and live.newest().frame.index == 199)
-        assert live.counters().tracked == 2 + PREVIEW_WAITING
+        wait_until(lambda: live.current_view() is not None and live.current_view().frame.index == 199)
+        assert live.counters().tracked == 2 + MAX_PREVIEW_WAITING

@@ -25,7 +25,7 @@ def begin(path: Path) -> RecordedSession:
 def test_live_recording_becomes_a_whole_session_file(tmp_path: Path) -> None:
     source, path = HeldSource(dropped_before=1), tmp_path / "session.journal"
     with LiveSession(source) as live:
-        live.begin_tracking(tracked)
+        live.start_tracking(tracked)
         live.start_recording(lambda: begin(path))
         for count in range(1, 41):
             source.let(1)

@@ -16,14 +16,14 @@ import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.child_process import NICENESS, ChildProcess
-from carpus.core.errors import NotLookedBack
+from carpus.core.errors import SmoothingFailed
 from carpus.core.pipeline import looking_back
-from carpus.core.pipeline.looking_back import LookingBack, PieceByPiece, TrackedHand, look_back
-from carpus.core.pipeline.track import from_neutral, learnt_from
-from carpus.core.session.values import Motion, motion_of
+from carpus.core.pipeline.looking_back import ChunkedSmoother, SmoothingProcess, TrackedHand, run_smoother
+from carpus.core.pipeline.track import noise_from_neutral, restart_at_neutral
+from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.smoother_record import KeptSteps
+from carpus.core.tracking.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
 from tests.accuracy.carpus import measured_hand
 from tests.pipeline.live_fakes import wait_until
@@ -38,7 +38,7 @@ BEGIN = 40
 @pytest.fixture(autouse=True)
 def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
-    monkeypatch.setattr(looking_back, "END_S", 150.0)
+    monkeypatch.setattr(looking_back, "FINISH_TIMEOUT_S", 150.0)
 
 
 @lru_cache(maxsize=1)
@@ -52,7 +52,7 @@ def sequence() -> MeasurementSequence:
 def hand_and_start() -> tuple[TrackedHand, float]:
     hand, neutral_ends_s = measured_hand(sequence(), CalibrationSettings())
     assert hand.calibration is not None
-    settings = learnt_from(hand.noise, neutral_ends_s, TrackerSettings()).applied(TrackerSettings())
+    settings = noise_from_neutral(hand.noise, neutral_ends_s, TrackerSettings()).adapt_settings(TrackerSettings())
     return TrackedHand(hand.calibration, sequence().truth.camera, settings), neutral_ends_s
 
 
@@ -64,18 +64,18 @@ def live_tracker(each: Callable[[Tracker], None]) -> Tracker:
     """Tracks the whole sequence and calls ``each`` after every frame."""
     hand, neutral_ends_s = hand_and_start()
     tracker, times_s = Tracker(hand.calibration, hand.camera, hand.settings), sequence().truth.timestamp_s
-    for i in from_neutral(range(len(times_s)), tracker, neutral_ends_s, lambda row: float(times_s[row])):
-        tracker.expect(float(times_s[i]))
+    for i in restart_at_neutral(range(len(times_s)), tracker, neutral_ends_s, lambda row: float(times_s[row])):
+        tracker.predict_measurement(float(times_s[i]))
         tracker.step(i, float(times_s[i]), sequence().detections[i])
         each(tracker)
     return tracker
 
 
 @lru_cache(maxsize=1)
-def steps() -> tuple[KeptSteps, ...]:
+def steps() -> tuple[FilterSteps, ...]:
     """What a live tracker hands over after each frame recorded."""
-    kept: list[KeptSteps] = []
-    live_tracker(lambda tracker: kept.append(tracker.hand_over()))
+    kept: list[FilterSteps] = []
+    live_tracker(lambda tracker: kept.append(tracker.pop_steps()))
     return tuple(kept[BEGIN:])
 
 
@@ -91,9 +91,9 @@ def assert_same(found: Motion, expected: Motion) -> None:
 
 
 @contextmanager
-def begun() -> Iterator[LookingBack]:
+def begun() -> Iterator[SmoothingProcess]:
     """A process that runs and has been sent nothing but the hand."""
-    running = LookingBack(tracked_hand(), piece_s=PIECE_S, lag_s=LAG_S)
+    running = SmoothingProcess(tracked_hand(), chunk_s=PIECE_S, lag_s=LAG_S)
     try:
         wait_until(lambda: running.pid is not None)
         yield running
@@ -104,9 +104,9 @@ def begun() -> Iterator[LookingBack]:
 @lru_cache(maxsize=1)
 def looked_back_here() -> tuple[int, Motion]:
     """How many pieces there are, and their motion, without a process."""
-    here = PieceByPiece(tracked_hand(), PIECE_S, LAG_S)
-    pieces = [piece for kept in steps() for piece in here.take(kept)]
-    pieces += here.rest()
+    here = ChunkedSmoother(tracked_hand(), PIECE_S, LAG_S)
+    pieces = [piece for kept in steps() for piece in here.add_steps(kept)]
+    pieces += here.finish()
     return len(pieces), joined([piece.motion for piece in pieces])
 
 
@@ -134,8 +134,8 @@ def test_the_process_gives_what_looking_back_here_gives() -> None:
             wait_until(lambda: max(niceness()) == min(own + NICENESS, 19))
             assert os.getpriority(os.PRIO_PROCESS, pid) == own, "the thread that does what is left at the end"
         for kept in steps():
-            running.take(kept)
-        with pytest.raises(NotLookedBack, match="2 frames missing"):  # never handed over
+            running.add_steps(kept)
+        with pytest.raises(SmoothingFailed, match="2 frames missing"):  # never handed over
             running.finish([*times_s(), 1e6, 2e6])
         motion = running.finish(times_s())
     assert_same(motion, expected)
@@ -148,13 +148,13 @@ def test_what_is_given_as_it_comes_is_not_kept_and_the_end_gives_the_rest() -> N
     recorded, out = times_s()[every_third], []
     with begun() as running:
         for number, kept in enumerate(steps()):
-            running.take(kept)
+            running.add_steps(kept)
             if number == 120:
-                wait_until(lambda: running.has_more)
-                early = running.ready(recorded[: number // 3])
+                wait_until(lambda: running.has_results)
+                early = running.pop_smoothed(recorded[: number // 3])
                 assert early is not None
                 out.append(early)
-                assert not running.has_more or running.ready([]) is None
+                assert not running.has_results or running.pop_smoothed([]) is None
         given = len(out[0].position_m)
         assert 0 < given < 40
         out.append(running.finish(recorded[given:]))
@@ -167,14 +167,14 @@ def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made
     def begin_recording(tracker: Tracker) -> None:
         count[0] += 1
         if count[0] <= BEGIN:
-            tracker.hand_over()
+            tracker.pop_steps()
 
     there = live_tracker(begin_recording)
-    whole = PieceByPiece(tracked_hand(), 1e6, 1e6)
-    assert not any(whole.take(kept) for kept in steps())
-    (rest,) = whole.rest()
+    whole = ChunkedSmoother(tracked_hand(), 1e6, 1e6)
+    assert not any(whole.add_steps(kept) for kept in steps())
+    (rest,) = whole.finish()
     assert rest.timestamp_s.tolist() == times_s()
-    assert_same(rest.motion, motion_of(there.smoothed()))
+    assert_same(rest.motion, stack_states(there.smooth()))
 
 
 @pytest.mark.parametrize(
@@ -195,10 +195,10 @@ def test_a_process_that_dies_or_hangs_holds_nobody_up_and_is_told_at_the_end(
         assert running.pid is not None
         os.kill(running.pid, blow)
         for kept in steps():
-            running.take(kept)
-        assert len(running._waiting) <= looking_back.MOST_WAITING
+            running.add_steps(kept)
+        assert len(running._waiting) <= looking_back.MAX_WAITING
         assert not running._waiting or "MOST_WAITING" not in limit, "nothing is kept for it any more"
-        with pytest.raises(NotLookedBack, match=said):
+        with pytest.raises(SmoothingFailed, match=said):
             running.finish(times_s())
         assert not running._thread.is_alive()
 
@@ -208,26 +208,26 @@ def test_a_process_that_cannot_start_is_told_at_the_end(monkeypatch: pytest.Monk
         raise OSError("no process left")
 
     monkeypatch.setattr("multiprocessing.context.SpawnProcess.start", refuse)
-    running = LookingBack(tracked_hand())
-    running.take(steps()[0])
-    with pytest.raises(NotLookedBack) as told:
+    running = SmoothingProcess(tracked_hand())
+    running.add_steps(steps()[0])
+    with pytest.raises(SmoothingFailed) as told:
         running.finish(times_s())
     assert "no process left" in told.value.detail
 
 
 def test_a_fault_over_there_is_told_in_one_line(capfd: pytest.CaptureFixture[str]) -> None:
     with begun() as running:
-        running.take("no steps")  # type: ignore[arg-type]
-        running.take(steps()[0])
-        with pytest.raises(NotLookedBack) as told:
+        running.add_steps("no steps")  # type: ignore[arg-type]
+        running.add_steps(steps()[0])
+        with pytest.raises(SmoothingFailed) as told:
             running.finish(times_s())
     assert "AttributeError" in told.value.detail
     assert capfd.readouterr().err == ""
 
 
 def test_the_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> None:
-    child = ChildProcess(look_back, tracked_hand(), PIECE_S, LAG_S, name="orphan")
+    child = ChildProcess(run_smoother, tracked_hand(), PIECE_S, LAG_S, name="orphan")
     child.link.send(list(steps()[:40]))
     child.link.close()
-    assert child.describe_death(60.0) == "its process ended with 0"
+    assert child.describe_exit(60.0) == "its process ended with 0"
     assert capfd.readouterr().err == ""

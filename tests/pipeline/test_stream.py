@@ -14,7 +14,7 @@ import pytest
 
 from carpus.core.calibration.result import Clicks
 from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.pipeline.stream import SampleStream, channels, sample_of
+from carpus.core.pipeline.stream import SampleStream, build_sample, list_channels
 from tests.session.samples import make_frame, time_of
 
 SETTINGS = "[lab]\nKnownPeers = {127.0.0.1}\n[multicast]\nResolveScope = machine\n"
@@ -47,31 +47,31 @@ def test_a_second_process_reads_what_was_sent(tmp_path: Path, monkeypatch: pytes
     begun_s = pylsl.local_clock()
     offset_s = begun_s - time_of(0)
     clicks = Clicks("left", HAND21, np.zeros((21, 2)))
-    stream = SampleStream.of_hand(clicks, 30.0, dip_free=False, clock=lambda: begun_s)
+    stream = SampleStream.open(clicks, 30.0, dip_free=False, clock=lambda: begun_s)
     listener = subprocess.Popen(
         [sys.executable, "-c", LISTENER, source], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     try:
         assert listener.stdout is not None
         assert listener.stdout.readline().strip() == "listening"
-        assert stream.wait_for_listener(20.0)
+        assert stream.has_listener(20.0)
         frames = [make_frame(row, HAND21) for row in range(5)]
         for frame in frames:
-            stream.push(frame)
-        stream.event(time_of(2), "repetition")
+            stream.on_frame(frame)
+        stream.on_event(time_of(2), "repetition")
         out, err = listener.communicate(timeout=60)
     finally:
         listener.kill()
         listener.wait()
     assert listener.returncode == 0, err
     read = json.loads(out)
-    said = channels(HAND21, names)
+    said = list_channels(HAND21, names)
     assert read["labels"] == [[channel.label, channel.unit] for channel in said]
     assert (read["type"], read["rate"]) == ("MoCap", 30.0)
     for row, (frame, (values, time_s)) in enumerate(zip(frames, read["samples"], strict=True)):
-        assert np.allclose(values, sample_of(frame), rtol=1e-6, atol=1e-6, equal_nan=True)
+        assert np.allclose(values, build_sample(frame), rtol=1e-6, atol=1e-6, equal_nan=True)
         assert time_s == pytest.approx(time_of(row) + offset_s, abs=1e-3), "the time of the picture, not of sending"
     flexion = [channel.label for channel in said].index("wrist_flexion")
-    assert read["samples"][0][0][flexion] == pytest.approx(np.degrees(frames[0].moment.angles_rad[1]), rel=1e-5)
+    assert read["samples"][0][0][flexion] == pytest.approx(np.degrees(frames[0].kinematics.angles_rad[1]), rel=1e-5)
     assert read["event"][0] == ["repetition"]
     assert read["event"][1] == pytest.approx(time_of(2) + offset_s, abs=1e-3)

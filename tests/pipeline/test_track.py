@@ -23,14 +23,14 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import (
     ClickOnNoMarker,
     DiskFull,
+    FrameDamaged,
     OutputExists,
-    PictureDamaged,
     RecordingEmpty,
     SessionUnreadable,
 )
-from carpus.core.pipeline.track import TrackReport, TrackSettings, from_neutral, retrack_session, track_recording
+from carpus.core.pipeline.track import TrackReport, TrackSettings, restart_at_neutral, retrack_session, track_recording
 from carpus.core.session.reader import read_session
-from carpus.core.session.values import RawPictures
+from carpus.core.session.values import EncodedImages
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.truth import Truth
@@ -184,7 +184,7 @@ def test_a_damaged_picture_leaves_nothing_behind(made: Made, tmp_path: Path) -> 
     pictures = sorted((folder / "rgb").iterdir())
     pictures[len(pictures) // 2].write_bytes(pictures[0].read_bytes()[:400])
     (tmp_path / "out").mkdir()
-    with pytest.raises(PictureDamaged):
+    with pytest.raises(FrameDamaged):
         track(folder, made.clicks, tmp_path / "out" / "session.h5")
     assert list((tmp_path / "out").iterdir()) == []
 
@@ -233,7 +233,7 @@ def test_tracker_is_set_back_once_before_the_first_frame_after_the_still_ones() 
         def begin_at_neutral(self) -> None:
             log.append("begun")
 
-    for time_s in from_neutral([0.0, 0.1, 0.2, 0.3, 0.4], Begun(), 0.2, lambda time_s: time_s):  # type: ignore[arg-type]
+    for time_s in restart_at_neutral([0.0, 0.1, 0.2, 0.3, 0.4], Begun(), 0.2, lambda time_s: time_s):  # type: ignore[arg-type]
         log.append(time_s)
     assert log == [0.0, 0.1, 0.2, "begun", 0.3, 0.4]
 
@@ -281,9 +281,9 @@ def test_what_is_told_with_a_recording_stays_when_it_is_tracked_again(made: Made
         session = read_session(again)
         header = session.header
         assert json.loads(header.parameters)["source"].get("format") == form
-        assert (header.simulated, header.set_up, header.targets_deg[0]) == (True, aims, 20.0)
+        assert (header.is_simulated, header.set_up, header.targets_deg[0]) == (True, aims, 20.0)
         assert np.isnan(header.targets_deg[1])
-        assert not replace(header, parameters=json.dumps({"source": {"format": "tum"}})).simulated
+        assert not replace(header, parameters=json.dumps({"source": {"format": "tum"}})).is_simulated
         assert session.smoothed is None
         assert form or np.array_equal(angles(again), angles(first))
 
@@ -296,7 +296,7 @@ def keep_pictures(folder: Path, session: Path, output: Path) -> None:
     )
     for frame in TumFolder(folder).frames():
         assert frame.depth_raw is not None
-        pictures = RawPictures(encode_color(frame.color_rgb, lossless=True), encode_depth(frame.depth_raw))
+        pictures = EncodedImages(encode_color(frame.color_rgb, lossless=True), encode_depth(frame.depth_raw))
         writer.append(replace(make_frame(frame.index), timestamp_s=frame.timestamp_s), pictures)
     writer.close()
 

@@ -15,16 +15,16 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.errors import CarpusFault
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.measures.by_hand import HandValue
+from carpus.core.measures.by_hand import ManualValue
 from carpus.core.records import of_clinic, of_sessions, patients
-from carpus.core.records.kept_sets import keep_set_up
+from carpus.core.records.kept_sets import save_setup
 from carpus.core.records.library import Library
-from carpus.core.records.log import Log
+from carpus.core.records.log import AuditLogWriter
 from carpus.core.records.patients import Patients
-from carpus.core.records.session_list import FilesOfSessions, ListedSessions
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.session_list import SessionFileScanner, SessionList
+from carpus.core.records.set_up import SessionSetup
 from carpus.core.records.store import Store
 from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -57,13 +57,13 @@ class House:
 
     store: Store
     patients: Patients
-    index: ListedSessions
-    files: FilesOfSessions
-    log: Log
+    index: SessionList
+    files: SessionFileScanner
+    log: AuditLogWriter
 
     def names(self, search: str = "") -> list[str]:
         """Who is in the list."""
-        return [record.pseudonym for record in self.patients.listed(search)]
+        return [record.pseudonym for record in self.patients.search(search)]
 
 
 @contextmanager
@@ -72,7 +72,9 @@ def opened(
 ) -> Iterator[House]:
     """The store of a folder, open."""
     with Store(folder, sessions, url, tell) as store:
-        yield House(store, Patients(store), ListedSessions(store), FilesOfSessions(store), Log(store, "window"))
+        yield House(
+            store, Patients(store), SessionList(store), SessionFileScanner(store), AuditLogWriter(store, "window")
+        )
 
 
 def until(what: Callable[[], bool]) -> None:
@@ -115,31 +117,33 @@ def record(
 
 def measure(house: House, patient_id: str, when: datetime, recording_id: str = "") -> str:
     """One session of a patient with all that may lie beside it; its identity."""
-    pseudonym = house.patients.one(patient_id).pseudonym
+    pseudonym = house.patients.get(patient_id).pseudonym
     path = house.index.new_path(patient_id, pseudonym, "WRIST_FE", "right", when)
     record(path, pseudonym, when, recording_id=recording_id)
     path.with_suffix(".carpusraw").write_bytes(b"pictures of " + pseudonym.encode())
     path.with_suffix(".markers.jpg").write_bytes(b"photo")
-    return house.index.enter(path, patient_id, "AB").session_id
+    return house.index.add(path, patient_id, "AB").session_id
 
 
 def fill(house: House, patient_id: str) -> list[str]:
     """Everything that can be written about a patient; the identities of the sessions."""
     sessions = [measure(house, patient_id, T0 + timedelta(days=day)) for day in range(3)]
-    entry = house.patients.one(patient_id)
+    entry = house.patients.get(patient_id)
     for session_id in sessions:
         of_sessions.add_comment(house.store, session_id, f"{entry.pseudonym} is well", "AB")
-        of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
-        of_sessions.remember_made(house.store, [house.index.one(session_id).path], "export", [session_id])
-    value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, 9), (17.0,), entry.pseudonym)
-    patients.enter_by_hand(house.store, patient_id, [value])
-    keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
+        of_sessions.save_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
+        of_sessions.record_output_files(house.store, [house.index.get(session_id).path], "export", [session_id])
+    value = ManualValue("WRIST_ROUND", "", "right", date(2026, 10, 9), (17.0,), entry.pseudonym)
+    patients.add_manual_measurements(house.store, patient_id, [value])
+    save_setup(
+        house.store, SessionSetup(patient_id, entry.pseudonym, "right", get_exercise("WRIST_FE"), 8, 25.0, -20.0)
+    )
     plan = HomePlan(("WRIST_FE",), 10, 3, T0.date(), date(2026, 10, 16), "11:30", f"{entry.pseudonym} brings it", "it")
-    patients.keep_home_plan(house.store, patient_id, plan)
-    of_clinic.keep_place(house.store.folder, entry.pseudonym[:2], f"/papers/{entry.name}")
-    of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
-    house.patients.list_diagnosis(f"as {entry.name}", listed=True)
-    house.log.note("opened", "patient", patient_id)
+    patients.save_home_plan(house.store, patient_id, plan)
+    of_clinic.save_place(house.store.folder, entry.pseudonym[:2], f"/papers/{entry.name}")
+    of_clinic.save_recipient(house.store, f"{entry.name}\nOak Street 1")
+    house.patients.set_diagnosis_listed(f"as {entry.name}", is_listed=True)
+    house.log.write_entry("opened", "patient", patient_id)
     return sessions
 
 
@@ -159,7 +163,7 @@ def kept(folder: Path, patient: Patient, *sessions: tuple[Path, datetime, str]) 
     with closing(Library(folder)) as library:
         patient_id = library.patients.add(patient)
         for stored, when, by in sessions:
-            path = library.index.new_path(patient_id, patient.pseudonym, "WRIST_FE", "right", when)
+            path = library.session_list.new_path(patient_id, patient.pseudonym, "WRIST_FE", "right", when)
             shutil.copyfile(stored, path)
-            library.index.enter(path, patient_id, by)
+            library.session_list.add(path, patient_id, by)
     return patient_id

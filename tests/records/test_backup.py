@@ -17,17 +17,17 @@ from typing import Any
 import pytest
 
 from carpus.core.errors import (
+    BackupFolderUnsuited,
     BackupIncomplete,
-    BackupPlaceUnsuited,
-    BackupUnequal,
+    BackupMismatch,
     BackupUnreadable,
+    DataFolderMissing,
     DiskFull,
-    NoDataFolder,
     OutputBusy,
     OutputExists,
-    RegisterBusy,
-    RegisterJournalLeft,
-    RegisterUnreadable,
+    PatientListBusy,
+    PatientListReadOnly,
+    PatientListUnreadable,
 )
 from carpus.core.records import backup as module
 from carpus.core.records import erasure
@@ -35,18 +35,25 @@ from carpus.core.records.backup import (
     BACKUPS,
     OBJECTS,
     Backup,
-    back_up,
-    backups,
-    compare,
-    is_due,
+    create_backup,
+    is_backup_due,
+    list_backups,
+    prune_backups,
     read_backup,
-    thin_out,
+    verify_backup,
 )
 from carpus.core.records.changes import fingerprint
-from carpus.core.records.database import STORE_FILE, copied
+from carpus.core.records.database import STORE_FILE, copy_to_memory
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import Patients
-from carpus.core.records.restoring import Past, is_restored, plan_restore, put_in_place, read_past, restore
+from carpus.core.records.restoring import (
+    LogHistory,
+    activate_restored,
+    has_restored_folder,
+    plan_restore,
+    read_history,
+    restore,
+)
 from carpus.core.records.store import Store
 from tests.records.samples import HERON, LINDEN, NAMES, T0, measure, opened, traces, written
 
@@ -60,7 +67,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
         linden = house.patients.add(LINDEN)
         measure(house, linden, T0)
         measure(house, linden, T0 + timedelta(days=1))
-        house.log.note("opened", "patient", linden)
+        house.log.write_entry("opened", "patient", linden)
     (folder / "set_ups.json").write_text("{}")
     return folder
 
@@ -77,7 +84,7 @@ def place(tmp_path: Path) -> Path:
 
 
 def backed_up(data: Path, place: Path, now: datetime = NOW, **options: Any) -> Backup:
-    return back_up(data, place, now=now, **options)
+    return create_backup(data, place, now=now, **options)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -90,8 +97,8 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def restored(place: Path, made: Backup, target: Path, settings: Path | None = None) -> None:
-    restore(made, place, target, Past(), settings_folder=settings)
-    put_in_place(target, NOW)
+    restore(made, place, target, LogHistory(), settings_folder=settings)
+    activate_restored(target, NOW)
 
 
 @pytest.mark.parametrize(
@@ -122,15 +129,15 @@ def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_wri
     monkeypatch.setattr(sqlite3, "connect", only_reads)
     monkeypatch.setattr(Path, "read_bytes", read)
     if trouble:
-        with pytest.raises(RegisterUnreadable) as told:
+        with pytest.raises(PatientListUnreadable) as told:
             backed_up(data, tmp_path / "place")
         assert type(told.value) is {
-            "a journal": RegisterJournalLeft, "a journal while it is read": RegisterJournalLeft,
-            "another computer writes": RegisterBusy, "damaged": RegisterUnreadable,
+            "a journal": PatientListReadOnly, "a journal while it is read": PatientListReadOnly,
+            "another computer writes": PatientListBusy, "damaged": PatientListUnreadable,
         }[trouble]  # fmt: skip
         return
-    with Store(data, copy=copied(store)) as kept:
-        assert [written(record) for record in Patients(kept).listed()] == [LINDEN]
+    with Store(data, copy=copy_to_memory(store)) as kept:
+        assert [written(record) for record in Patients(kept).search()] == [LINDEN]
     made = backed_up(data, tmp_path / "place")
     monkeypatch.undo()
     restored(tmp_path / "place", made, tmp_path / "again")
@@ -154,8 +161,8 @@ def test_everything_is_restored_on_another_computer(data: Path, place: Path, tmp
         (settings / f"{name}.toml").write_text("x = 1")
     with opened(data) as house:  # it runs
         made = backed_up(data, place, settings_folder=settings)
-        first = [entry.session_id for entry in house.index.of_patient(house.patients.listed()[0].patient_id)]
-    assert made.sessions == 2
+        first = [entry.session_id for entry in house.index.patient_sessions(house.patients.search()[0].patient_id)]
+    assert made.session_count == 2
     new, new_settings = tmp_path / "new" / "carpus", tmp_path / "new settings"
     new_settings.mkdir()
     (new_settings / "lab.toml").write_text("x = 2")
@@ -165,10 +172,10 @@ def test_everything_is_restored_on_another_computer(data: Path, place: Path, tmp
     assert (new_settings / "lab.toml").read_text() == "x = 2", "settings that are there stay"
     assert {path.stat().st_mode & 0o077 for path in new.rglob("*")} == {0}
     with opened(new) as house:
-        (patient,) = house.patients.listed()
+        (patient,) = house.patients.search()
         assert written(patient) == LINDEN
-        assert [entry.session_id for entry in house.index.of_patient(patient.patient_id)] == first
-        assert house.files.take_in().sessions == 0
+        assert [entry.session_id for entry in house.index.patient_sessions(patient.patient_id)] == first
+        assert house.files.scan().session_count == 0
     with pytest.raises(OutputExists):
         restored(place, made, new)
 
@@ -181,7 +188,7 @@ def test_a_restore_that_fails_leaves_no_settings(data: Path, place: Path, tmp_pa
     made = backed_up(data, place, settings_folder=settings)
     last = next(one for one in made.files if one.path.endswith("b.toml")).sha256
     (place / OBJECTS / last[:2] / last).write_text("b = 2")
-    with pytest.raises(BackupUnequal):
+    with pytest.raises(BackupMismatch):
         restored(place, made, tmp_path / "new", tmp_path / "new settings")
     assert list((tmp_path / "new settings").iterdir()) == []
 
@@ -190,13 +197,13 @@ def test_the_same_content_is_stored_once(data: Path, place: Path) -> None:
     first = backed_up(data, place)
     objects = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
     second = backed_up(data, place, NOW + timedelta(days=1))
-    assert [one.name for one in backups(place)] == [second.name, first.name]
+    assert [one.name for one in list_backups(place)] == [second.name, first.name]
     after = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
     kept = [path for path in objects if objects[path] == after.get(path)]
     assert len(after) <= len(objects) + 1
     assert len(kept) >= len(objects) - 1, "only the store is copied anew"
     backed_up(data, place)
-    assert len(backups(place)) == 3, "two of one second are two"
+    assert len(list_backups(place)) == 3, "two of one second are two"
 
 
 @pytest.mark.parametrize("at", [0, -1])
@@ -204,24 +211,24 @@ def test_a_flipped_bit_is_noticed(
     data: Path, place: Path, tmp_path: Path, at: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made = backed_up(data, place)
-    compare(place, made)
+    verify_backup(place, made)
     one = next(file for file in made.files if file.path.endswith(".h5"))
     content = place / OBJECTS / one.sha256[:2] / one.sha256
     damaged = bytearray(content.read_bytes())
     damaged[at] ^= 1
     content.write_bytes(bytes(damaged))
-    with pytest.raises(BackupUnequal):
-        compare(place, made)
-    with pytest.raises(BackupUnequal):
+    with pytest.raises(BackupMismatch):
+        verify_backup(place, made)
+    with pytest.raises(BackupMismatch):
         restored(place, made, tmp_path / "new")
     assert not list(tmp_path.glob("*new*")), "nothing is left"
     backed_up(data, place, NOW + timedelta(days=1))
-    for later in backups(place):
-        compare(place, later)  # written anew, for the earlier one too
-    monkeypatch.setattr(module, "hash_of", lambda *_, **__: "")
-    with pytest.raises(BackupUnequal):
+    for later in list_backups(place):
+        verify_backup(place, later)  # written anew, for the earlier one too
+    monkeypatch.setattr(module, "hash_file", lambda *_, **__: "")
+    with pytest.raises(BackupMismatch):
         backed_up(data, place, NOW + timedelta(days=2))
-    assert len(backups(place)) == 2, "what could not be compared is no back-up"
+    assert len(list_backups(place)) == 2, "what could not be compared is no back-up"
 
 
 def test_a_back_up_that_was_cut_short_is_none(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -232,21 +239,21 @@ def test_a_back_up_that_was_cut_short_is_none(data: Path, place: Path, monkeypat
         broken.setattr(module, "_compare", cut)
         with pytest.raises(KeyboardInterrupt):
             backed_up(data, place)
-    assert backups(place) == []
-    assert backed_up(data, place).sessions == 2
+    assert list_backups(place) == []
+    assert backed_up(data, place).session_count == 2
 
 
 @pytest.mark.parametrize("where", [".", "sessions/backup", ".."])
 def test_a_place_in_or_around_the_data_is_refused(data: Path, where: str) -> None:
-    with pytest.raises(BackupPlaceUnsuited):
+    with pytest.raises(BackupFolderUnsuited):
         backed_up(data, data / where)
 
 
 def test_a_folder_that_holds_nothing_of_the_program_is_no_data_folder(place: Path, tmp_path: Path) -> None:
     (tmp_path / "pictures").mkdir()
     (tmp_path / "pictures" / "holiday.txt").write_text("x")
-    with pytest.raises(NoDataFolder):
-        back_up(tmp_path / "pictures", place)
+    with pytest.raises(DataFolderMissing):
+        create_backup(tmp_path / "pictures", place)
     assert not place.exists()
 
 
@@ -256,43 +263,43 @@ def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data:
     gone.unlink()
     changed.write_bytes(b"changed")
     (data / "sessions" / "new.h5").write_bytes(b"new")
-    plan = plan_restore(made, place, data, Past())
+    plan = plan_restore(made, place, data, LogHistory())
     assert plan.added == (gone.relative_to(data).as_posix(),)
     assert plan.replaced == (changed.relative_to(data).as_posix(),)
-    assert plan.lost == ("sessions/new.h5",)
-    restore(made, place, data, Past(), replaces=True)
-    old = put_in_place(data, NOW)
+    assert plan.removed == ("sessions/new.h5",)
+    restore(made, place, data, LogHistory(), overwrite=True)
+    old = activate_restored(data, NOW)
     assert old is not None
     assert (old / "sessions" / "new.h5").read_bytes() == b"new"
     assert gone.exists()
-    assert plan_restore(made, place, data, Past()).replaced == ()
+    assert plan_restore(made, place, data, LogHistory()).replaced == ()
 
 
 def test_the_newest_and_one_of_each_month_are_kept(data: Path, place: Path) -> None:
     kept_on(data, place, 0, 1, 2, 40, 41, 70, 900)
-    assert thin_out(place, 2, 24, NOW) == 3
-    left = [(NOW - one.made).days for one in backups(place)]
+    assert prune_backups(place, 2, 24, NOW) == 3
+    left = [(NOW - one.made).days for one in list_backups(place)]
     assert left == [0, 1, 40, 70]
-    for one in backups(place):
-        compare(place, one)
-    needed = {file.sha256 for one in backups(place) for file in one.files}
+    for one in list_backups(place):
+        verify_backup(place, one)
+    needed = {file.sha256 for one in list_backups(place) for file in one.files}
     assert {path.name for path in (place / OBJECTS).glob("*/*")} == needed
 
 
 def test_a_clock_that_ran_ahead_costs_no_back_up(data: Path, place: Path) -> None:
     kept_on(data, place, 0, 1, 2, 3, -3, -2)
-    assert thin_out(place, 2, 0, NOW) == 2
-    assert [(NOW - one.made).days for one in backups(place)] == [-3, -2, 0, 1]
-    assert thin_out(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
-    assert [(NOW - one.made).days for one in backups(place)] == [-3, -2, 0]
+    assert prune_backups(place, 2, 0, NOW) == 2
+    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0, 1]
+    assert prune_backups(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
+    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0]
 
 
 def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, place: Path) -> None:
     _, newer, _ = kept_on(data, place, 900, 800, 0)
     path = place / BACKUPS / f"{newer.name}.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"format_version": 99}))
-    assert thin_out(place, 1, 0, NOW) == 1
-    compare(place, newer)
+    assert prune_backups(place, 1, 0, NOW) == 1
+    verify_backup(place, newer)
 
 
 @pytest.mark.parametrize("at_reading", [1, 2, 3, 4])
@@ -310,8 +317,8 @@ def test_a_back_up_that_cannot_be_read_for_a_moment_loses_nothing(
 
     with monkeypatch.context() as patched:
         patched.setattr(Path, "read_text", faulty)
-        assert thin_out(place, 9, 24, NOW) == 0
-    compare(place, made)
+        assert prune_backups(place, 9, 24, NOW) == 0
+    verify_backup(place, made)
 
 
 def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
@@ -320,20 +327,20 @@ def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
     made = backed_up(data, place)
     (place / BACKUPS).rename(place / "away")
     (place / BACKUPS).mkdir()
-    assert thin_out(place, 9, 24, NOW) == 0
-    compare(place, made)
+    assert prune_backups(place, 9, 24, NOW) == 0
+    verify_backup(place, made)
 
     def refused(_: object) -> list[Path]:
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(Path, "iterdir", refused)
     with pytest.raises(BackupUnreadable):
-        thin_out(place, 9, 24, NOW)
-    compare(place, made)
+        prune_backups(place, 9, 24, NOW)
+    verify_backup(place, made)
 
 
 def test_a_newer_or_foreign_list_is_refused(data: Path, place: Path) -> None:
-    path = place / BACKUPS / f"{back_up(data, place, now=NOW).name}.json"
+    path = place / BACKUPS / f"{create_backup(data, place, now=NOW).name}.json"
     told = json.loads(path.read_text())
     for change in (
         {"format_version": 2},
@@ -353,13 +360,13 @@ def test_a_newer_or_foreign_list_is_refused(data: Path, place: Path) -> None:
         path.write_text(json.dumps(told | change))
         with pytest.raises(BackupUnreadable):
             read_backup(path)
-    assert thin_out(place, 0, 0, NOW) == 0, "nothing is taken away that an unread list may need"
+    assert prune_backups(place, 0, 0, NOW) == 0, "nothing is taken away that an unread list may need"
 
 
 def test_when_a_person_is_reminded() -> None:
-    assert is_due(None, 3, NOW)
-    assert not is_due(NOW, 3, NOW + timedelta(days=3))
-    assert is_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
+    assert is_backup_due(None, 3, NOW)
+    assert not is_backup_due(NOW, 3, NOW + timedelta(days=3))
+    assert is_backup_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
 
 
 @pytest.mark.parametrize("text", ['{"lacking": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
@@ -369,7 +376,7 @@ def test_one_damaged_entry_harms_no_other(data: Path, place: Path, tmp_path: Pat
     said = json.dumps(json.loads(path.read_text()) | {"lacking": 0}).replace('"lacking": 0', '"lacking": 1e999')
     bad = said if "lacking" in text else text
     (place / BACKUPS / "2026-11-20T180001.json").write_bytes(bad.encode("utf-8", "surrogateescape"))
-    assert backups(place) == [first]
+    assert list_backups(place) == [first]
     second = backed_up(data, place, NOW + timedelta(days=1))
     restored(place, second, tmp_path / "new")
     assert contents(tmp_path / "new") == contents(data)
@@ -383,11 +390,11 @@ def test_linked_folders_and_files_are_followed(data: Path, place: Path, tmp_path
     (data / "sessions" / "around").symlink_to(data)  # in a circle
     (data / "limits.json").symlink_to(data / "set_ups.json")
     made = backed_up(data, place)
-    assert made.sessions == 2
+    assert made.session_count == 2
     restored(place, made, tmp_path / "new")
     assert len([path for path in (tmp_path / "new" / "sessions").rglob("*.h5") if not path.is_symlink()]) == 2
     assert (tmp_path / "new" / "limits.json").read_text() == "{}"
-    with pytest.raises(BackupPlaceUnsuited):
+    with pytest.raises(BackupFolderUnsuited):
         backed_up(data, elsewhere / "backup")
 
 
@@ -395,11 +402,11 @@ def test_the_sessions_of_a_share_are_in_it(data: Path, place: Path, tmp_path: Pa
     share = tmp_path / "share"
     (data / "sessions").rename(share)
     made = backed_up(data, place, sessions=share)
-    assert (made.sessions, made.lacking) == (2, 0)
+    assert (made.session_count, made.missing_count) == (2, 0)
     restored(place, made, tmp_path / "new")
     assert contents(tmp_path / "new" / "sessions") == contents(share)
-    with pytest.raises(BackupPlaceUnsuited):
-        back_up(data, share / "backup", sessions=share)
+    with pytest.raises(BackupFolderUnsuited):
+        create_backup(data, share / "backup", sessions_folder=share)
     share.rename(tmp_path / "away")
     with pytest.raises(BackupIncomplete):
         backed_up(data, place, sessions=share)
@@ -411,16 +418,16 @@ def test_two_into_one_place_take_nothing_from_each_other(data: Path, place: Path
     backed_up(data, place, NOW - timedelta(days=40))
 
     def other(done: int, _: int) -> None:
-        assert thin_out(place, 0, 0, NOW) == 0
+        assert prune_backups(place, 0, 0, NOW) == 0
         with pytest.raises(OutputBusy):
             backed_up(data, place)
         met.append(done)
 
     made = backed_up(data, place, progress=other)
     assert met
-    compare(place, made)
-    assert thin_out(place, 1, 0, NOW) == 1
-    compare(place, made)
+    verify_backup(place, made)
+    assert prune_backups(place, 1, 0, NOW) == 1
+    verify_backup(place, made)
 
 
 @pytest.mark.parametrize("lost", ["file", "folder", "link"])
@@ -435,8 +442,8 @@ def test_fewer_files_than_the_store_knows_is_no_success(data: Path, place: Path,
     with pytest.raises(BackupIncomplete) as told:
         backed_up(data, place)
     assert int(told.value.detail) == {"file": 1, "folder": 2, "link": 3}[lost]
-    (made,) = backups(place)
-    assert made.lacking == int(told.value.detail)
+    (made,) = list_backups(place)
+    assert made.missing_count == int(told.value.detail)
     assert "set_ups.json" in {one.path for one in made.files}, "all else is in it"
 
 
@@ -447,10 +454,10 @@ def test_what_a_killed_back_up_left_goes_with_the_next(data: Path, tmp_path: Pat
     for path in left:
         path.write_bytes(b"half")
     again = backed_up(data, place, NOW + timedelta(hours=1))
-    assert thin_out(place, 9, 9, NOW) == 0
+    assert prune_backups(place, 9, 9, NOW) == 0
     assert not any(path.exists() for path in left)
     for one in (made, again):
-        compare(place, one)
+        verify_backup(place, one)
 
 
 def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, place: Path, tmp_path: Path) -> None:
@@ -462,7 +469,7 @@ def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, place: Pa
     (place / OBJECTS / "zz").symlink_to(mine)
     (place / OBJECTS / "00").mkdir(exist_ok=True)
     (place / OBJECTS / "00" / "note.txt").write_text("mine too")
-    assert thin_out(place, 1, 0, NOW) == 1
+    assert prune_backups(place, 1, 0, NOW) == 1
     assert sorted(path.name for path in mine.iterdir()) == ["0" * 64, "thesis.txt"]
     assert (place / OBJECTS / "00" / "note.txt").exists()
 
@@ -480,7 +487,7 @@ def test_a_file_that_cannot_be_read_is_told_and_the_rest_is_in_it(
     monkeypatch.setattr(Path, "open", refused)
     with pytest.raises(BackupIncomplete, match=r"set_ups\.json"):
         backed_up(data, place)
-    assert backups(place)[0].sessions == 2
+    assert list_backups(place)[0].session_count == 2
 
 
 class Trouble:
@@ -522,14 +529,14 @@ def test_a_back_up_that_fails_at_any_step_costs_no_other(
                 assert kind == "killed"
             except DiskFull:
                 assert kind == "full"
-        for one in backups(place):
-            compare(place, one)
+        for one in list_backups(place):
+            verify_backup(place, one)
         if not trouble.is_met:
             break
     assert number > 5
-    assert backups(place)[0].made == NOW + timedelta(minutes=number), "and the next one is whole"
-    thin_out(place, 99, 99, NOW + timedelta(days=1))
-    assert not [path for path in place.rglob(".*") if path.name != module.PLACE_LOCK]
+    assert list_backups(place)[0].made == NOW + timedelta(minutes=number), "and the next one is whole"
+    prune_backups(place, 99, 99, NOW + timedelta(days=1))
+    assert not [path for path in place.rglob(".*") if path.name != module.LOCK_FILE]
 
 
 @pytest.mark.parametrize("kind", ["killed", "full"])
@@ -542,8 +549,8 @@ def test_a_restore_that_fails_at_any_step_loses_nothing_and_leaves_nothing(
         with monkeypatch.context() as patched:
             trouble = Trouble(number, kind, patched)
             try:
-                restore(made, place, data, Past(), replaces=True)
-                put_in_place(data, NOW)
+                restore(made, place, data, LogHistory(), overwrite=True)
+                activate_restored(data, NOW)
             except KeyboardInterrupt:
                 assert kind == "killed"
             except DiskFull:
@@ -551,8 +558,8 @@ def test_a_restore_that_fails_at_any_step_loses_nothing_and_leaves_nothing(
                 assert not list(tmp_path.glob(".*restoring")), "nothing half is left"
         if not trouble.is_met:
             break
-        if is_restored(data):  # as at the next start
-            put_in_place(data, NOW)
+        if has_restored_folder(data):  # as at the next start
+            activate_restored(data, NOW)
         asides = list(tmp_path.glob("data.before-restore-*"))
         assert len(asides) == (contents(data) == before)
         for aside in asides:
@@ -571,25 +578,27 @@ def test_what_was_erased_since_a_back_up_is_not_brought_back_by_it(
     with opened(data) as house:
         heron = house.patients.add(HERON)
         stays = measure(house, heron, T0)
-        linden = house.patients.called(LINDEN.pseudonym)
-        first, second = (one.session_id for one in house.index.of_patient(linden))
+        linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
+        first, second = (one.session_id for one in house.index.patient_sessions(linden))
         made = backed_up(data, place)
         plan = (
             erasure.plan_patient(house.store, linden) if what == "patient" else erasure.plan_session(house.store, first)
         )
         erasure.erase(house.store, plan, house.log)
-        past = read_past(place, house.store)
+        past = read_history(place, house.store)
         changes = plan_restore(made, place, data, past)
-    assert (changes.added, changes.lost, changes.erased) == ((), (), 1), "said before"
+    assert (changes.added, changes.removed, changes.erased_count) == ((), (), 1), "said before"
     assert restore(made, place, tmp_path / "new", past) == 1
-    put_in_place(tmp_path / "new", NOW)
+    activate_restored(tmp_path / "new", NOW)
     assert traces(tmp_path / "new", first, *((linden, second, *NAMES) if what == "patient" else ())) == []
     with opened(tmp_path / "new") as house:
         assert house.names() == (["Heron 17"] if what == "patient" else ["Heron 17", "Linden 42"])
-        assert house.index.one(stays).path.exists()
-        assert what == "patient" or house.index.one(second).path.exists()
-        assert [one.did for one in read_log(house.store)][-3:] == ["erase_begun", "erased", "erased"], "the log goes on"
-        assert house.files.take_in().sessions == 0
+        assert house.index.get(stays).path.exists()
+        assert what == "patient" or house.index.get(second).path.exists()
+        assert [one.action for one in read_log(house.store)][-3:] == ["erase_begun", "erased", "erased"], (
+            "the log goes on"
+        )
+        assert house.files.scan().session_count == 0
 
 
 def test_the_newest_back_up_knows_what_was_erased_where_the_data_folder_is_lost(
@@ -597,30 +606,30 @@ def test_the_newest_back_up_knows_what_was_erased_where_the_data_folder_is_lost(
 ) -> None:
     old = backed_up(data, place)
     with opened(data) as house:
-        linden = house.patients.called(LINDEN.pseudonym)
+        linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
         erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
     backed_up(data, place, NOW + timedelta(days=1))
     shutil.rmtree(data)
-    assert restore(old, place, data, read_past(place, None)) == 1
-    put_in_place(data, NOW)
+    assert restore(old, place, data, read_history(place, None)) == 1
+    activate_restored(data, NOW)
     assert traces(data, linden, *NAMES) == []
 
 
 def test_a_newest_back_up_that_is_damaged_hides_nothing_that_the_data_folder_knows(data: Path, place: Path) -> None:
     with opened(data) as house:
-        linden = house.patients.called(LINDEN.pseudonym)
+        linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
         erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
         newest = backed_up(data, place, NOW + timedelta(days=1))
         kept = next(one for one in newest.files if one.path == STORE_FILE)
         (place / OBJECTS / kept.sha256[:2] / kept.sha256).write_bytes(b"damaged")
-        assert fingerprint(linden) in read_past(place, house.store).erased
-    assert fingerprint(linden) not in read_past(place, None).erased
+        assert fingerprint(linden) in read_history(place, house.store).erased
+    assert fingerprint(linden) not in read_history(place, None).erased
 
 
 def test_a_patient_whose_erasing_was_refused_comes_back(data: Path, place: Path, tmp_path: Path) -> None:
     made = backed_up(data, place)
     with opened(data) as house:
-        linden = house.patients.called(LINDEN.pseudonym)
-        house.log.note("erase_begun", "patient", linden)
-        past = read_past(place, house.store)
+        linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
+        house.log.write_entry("erase_begun", "patient", linden)
+        past = read_history(place, house.store)
     assert restore(made, place, tmp_path / "new", past) == 0

@@ -20,9 +20,9 @@ import pytest
 from sqlalchemy import select, update
 
 from carpus.core.errors import (
-    ChangedMeanwhile,
+    ConcurrentChange,
     DiskFull,
-    ErasureLeadsOut,
+    ErasureBlockedByLink,
     ErasureUnfinished,
     FolderMissing,
     OutputNotWritable,
@@ -30,9 +30,9 @@ from carpus.core.errors import (
 )
 from carpus.core.records import database, erasure, of_clinic, of_sessions, reserve
 from carpus.core.records import store as store_module
-from carpus.core.records.backup import back_up
-from carpus.core.records.changes import new
-from carpus.core.records.keeping import due, kept_until
+from carpus.core.records.backup import create_backup
+from carpus.core.records.changes import insert_row
+from carpus.core.records.keeping import find_due_patients, retention_end
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION
@@ -53,7 +53,7 @@ def house(folder: Path) -> Iterator[House]:
 
 
 def deeds(house: House) -> list[str]:
-    return [entry.did for entry in read_log(house.store)]
+    return [entry.action for entry in read_log(house.store)]
 
 
 def erase_patient(house: House, patient_id: str) -> int:
@@ -71,7 +71,7 @@ def test_what_another_program_has_erased_meanwhile_is_erased(house: House) -> No
     session = measure(house, linden, T0)
     plan = erasure.plan_patient(house.store, linden)
     erasure.erase(house.store, erasure.plan_session(house.store, session), house.log)
-    with pytest.raises(ChangedMeanwhile):  # the patient is still there
+    with pytest.raises(ConcurrentChange):  # the patient is still there
         erasure.erase(house.store, plan, house.log)
 
 
@@ -93,40 +93,40 @@ def test_a_folder_that_another_program_takes_away_while_it_is_looked_at_is_passe
     erasure.erase(house.store, plan, house.log)
     assert not gone.exists()
     assert house.names() == ["Heron 17"]
-    assert house.index.one(kept).path.exists()
+    assert house.index.get(kept).path.exists()
 
 
 def test_a_session_goes_with_its_files_and_rows_and_the_others_stay(folder: Path, house: House) -> None:
     linden = house.patients.add(LINDEN)
     first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=7))
-    path = house.index.one(second).path
+    path = house.index.get(second).path
     kept = set(path.parent.glob(path.stem + ".*"))
     plan = erasure.plan_session(house.store, first)
-    assert (plan.sessions, len(plan.files), plan.pseudonym) == (1, 3, "Linden 42")
+    assert (plan.recording_count, len(plan.files), plan.pseudonym) == (1, 3, "Linden 42")
     assert plan.size_bytes == sum(path.stat().st_size for path in plan.files)
     assert erasure.erase(house.store, plan, house.log) == 3
-    assert [entry.session_id for entry in house.index.of_patient(linden)] == [second]
+    assert [entry.session_id for entry in house.index.patient_sessions(linden)] == [second]
     assert set(path.parent.iterdir()) == kept
     assert deeds(house) == ["erase_begun", "erased"]
     assert traces(folder, first) == []
-    assert house.patients.one(linden).session_count == 1
-    assert house.files.take_in().sessions == 0
+    assert house.patients.get(linden).session_count == 1
+    assert house.files.scan().session_count == 0
 
 
 def test_earlier_results_and_copies_of_a_recording_go_too(folder: Path, house: House) -> None:
     linden = house.patients.add(LINDEN)
     first = measure(house, linden, T0)
-    recording = house.index.of_patient(linden)[0].recording_id
+    recording = house.index.patient_sessions(linden)[0].recording_id
     measure(house, linden, T0 + timedelta(hours=1), recording)
     copy = folder / "sessions" / "a copy.h5"
-    shutil.copy(house.index.one(first).path, copy)
-    house.files.take_in()
+    shutil.copy(house.index.get(first).path, copy)
+    house.files.scan()
     plan = erasure.plan_session(house.store, first)
-    assert plan.sessions == 1
+    assert plan.recording_count == 1
     assert copy in plan.files
     erasure.erase(house.store, plan, house.log)
-    assert house.files.take_in().sessions == 0
-    assert house.index.of_patient(linden) == []
+    assert house.files.scan().session_count == 0
+    assert house.index.patient_sessions(linden) == []
 
 
 def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) -> None:
@@ -136,17 +136,17 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         fill(house, heron)
         (folder / "sessions" / linden / "left over.part").write_bytes(b"x")
         plan = erasure.plan_patient(house.store, linden)
-        assert (plan.sessions, len(plan.files)) == (3, 10)
+        assert (plan.recording_count, len(plan.files)) == (3, 10)
         erasure.erase(house.store, plan, house.log)
         words = (*NAMES, LINDEN.diagnosis, LINDEN.diagnosis.casefold(), linden, *sessions)
         assert traces(folder, *words) == [], "while it is open: also free pages and journals"
         assert house.names() == ["Heron 17"]
-        (other,) = house.patients.listed()
+        (other,) = house.patients.search()
         assert (written(other), other.session_count) == (HERON, 3)
-        kept = [of_sessions.comments(house.store, one.session_id) for one in house.index.of_patient(heron)]
+        kept = [of_sessions.read_comments(house.store, one.session_id) for one in house.index.patient_sessions(heron)]
         assert [len(comments) for comments in kept] == [1, 1, 1]
-        assert of_clinic.last_place(folder, "He") == f"/papers/{HERON.name}"
-        assert of_clinic.recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
+        assert of_clinic.read_last_place(folder, "He") == f"/papers/{HERON.name}"
+        assert of_clinic.read_recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
         assert house.patients.diagnoses() == [f"as {HERON.name}"], "what names nobody stays"
     assert traces(folder, *NAMES, linden, *sessions) == []
 
@@ -158,40 +158,40 @@ def test_a_move_that_fails_leaves_all_as_it_was(folder: Path, house: House, monk
     with monkeypatch.context() as broken:
         broken.setattr(house.store, "do", lambda _: (_ for _ in ()).throw(OutputNotWritable(folder)))
         with pytest.raises(OutputNotWritable):
-            house.index.move(session_id, heron)
+            house.index.move_to_patient(session_id, heron)
     assert {path for path in folder.rglob("*") if path.is_file()} == files
-    path = house.index.one(session_id).path
+    path = house.index.get(session_id).path
     with h5py.File(path, "r+") as file:
         file.attrs["exercise"] = "WRIST_RU"
     with pytest.raises(SessionChanged):
-        house.index.move(session_id, heron)
-    assert house.index.one(session_id).path == path
+        house.index.move_to_patient(session_id, heron)
+    assert house.index.get(session_id).path == path
     path.unlink()
-    house.index.move(session_id, heron)
-    assert house.index.owner(session_id) == heron, "a session whose file is away is moved all the same"
+    house.index.move_to_patient(session_id, heron)
+    assert house.index.owner_id(session_id) == heron, "a session whose file is away is moved all the same"
 
 
 def test_a_session_moved_to_another_patient_stays_with_that_one(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     moved, own = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
-    former = house.index.one(moved)
-    house.index.move(moved, heron)
+    former = house.index.get(moved)
+    house.index.move_to_patient(moved, heron)
     assert not [*former.path.parent.glob(f"{former.path.stem}*")]
-    header, now = read_outline(house.index.one(moved).path).header, house.index.one(moved)
+    header, now = read_outline(house.index.get(moved).path).header, house.index.get(moved)
     assert (header.session_id, header.subject_id, now.path.parent.name) == (moved, "Heron 17", heron)
-    assert verify(now.path).sealed
+    assert verify(now.path).has_checksum
     row = house.store.row(select(SESSION).where(SESSION.c.id == moved))
     assert row.size == now.path.stat().st_size
     assert replace(now, path=former.path) == former
-    angles, others = (read_session(house.index.one(one).path).motion.angles_rad for one in (moved, own))
+    angles, others = (read_session(house.index.get(one).path).motion.angles_rad for one in (moved, own))
     assert (angles == others).all()
     now.path.with_suffix(".carpusraw").write_bytes(b"pictures of nobody")
     erase_patient(house, linden)
     assert traces(folder, "Linden", "Erika Mustermann", linden) == []
-    assert house.index.one(moved).path.exists()
-    assert house.index.one(moved).path.with_suffix(".carpusraw").exists()
+    assert house.index.get(moved).path.exists()
+    assert house.index.get(moved).path.with_suffix(".carpusraw").exists()
     with pytest.raises(KeyError):
-        house.index.one(own)
+        house.index.get(own)
 
 
 def test_files_made_elsewhere_are_named_and_never_touched(tmp_path: Path, folder: Path, house: House) -> None:
@@ -201,11 +201,11 @@ def test_files_made_elsewhere_are_named_and_never_touched(tmp_path: Path, folder
     paths = {name: out / name for name in ("report.pdf", "edited.csv", "gone.csv")}
     for name, path in paths.items():
         path.write_text(name)
-    of_sessions.remember_made(house.store, paths.values(), "export", [mine])
+    of_sessions.record_output_files(house.store, paths.values(), "export", [mine])
     paths["edited.csv"].write_text("with the therapist's own notes")
     paths["gone.csv"].unlink()
     plan = erasure.plan_session(house.store, mine)
-    assert [path.name for path in plan.made] == ["edited.csv", "report.pdf"]
+    assert [path.name for path in plan.output_files] == ["edited.csv", "report.pdf"]
     erasure.erase(house.store, plan, house.log)
     assert sorted(path.name for path in out.iterdir()) == ["edited.csv", "report.pdf"]
     assert traces(folder, "edited.csv", "gone.csv") == []
@@ -220,19 +220,21 @@ def test_no_row_and_no_link_leads_out_of_the_folder(tmp_path: Path, folder: Path
     (folder / "sessions" / "link").symlink_to(mine)
     shutil.rmtree(folder / "sessions" / linden)
     for session_id, path in zip(ids, (str(mine / "b.h5"), "../../mine/b.h5", "link/b.h5"), strict=True):
-        house.store.own(update(SESSION).where(SESSION.c.id == session_id).values(path=path))
-    with pytest.raises(ErasureLeadsOut, match="link"):
+        house.store.execute_local(update(SESSION).where(SESSION.c.id == session_id).values(path=path))
+    with pytest.raises(ErasureBlockedByLink, match="link"):
         erase_patient(house, linden)
-    house.store.own(update(SESSION).where(SESSION.c.id == ids[2]).values(path=str(mine / "c.h5")))
+    house.store.execute_local(update(SESSION).where(SESSION.c.id == ids[2]).values(path=str(mine / "c.h5")))
     (folder / "sessions" / linden).symlink_to(mine)
-    with pytest.raises(ErasureLeadsOut, match=linden):
+    with pytest.raises(ErasureBlockedByLink, match=linden):
         erase_patient(house, linden)
-    assert len(house.index.of_patient(linden)) == 3, "nothing was begun"
-    house.store.own(update(SESSION).values(erasing=1), update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1))
-    erasure.finish_erasing(house.store, house.log)
+    assert len(house.index.patient_sessions(linden)) == 3, "nothing was begun"
+    house.store.execute_local(
+        update(SESSION).values(erasing=1), update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1)
+    )
+    erasure.resume_erasures(house.store, house.log)
     assert len(house.store.rows(select(SESSION))) == 3, "a link that came after the mark is waited for"
     (folder / "sessions" / linden).unlink()
-    erasure.finish_erasing(house.store, house.log)
+    erasure.resume_erasures(house.store, house.log)
     assert sorted(path.name for path in mine.iterdir()) == ["a.h5", "b.h5"]
     assert house.store.rows(select(SESSION)) == []
 
@@ -244,30 +246,30 @@ def test_while_the_share_is_away_nothing_is_erased(
     share.mkdir()
     with opened(folder, sessions=share) as house:
         linden = house.patients.add(LINDEN)
-        path = house.index.one(measure(house, linden, T0)).path
+        path = house.index.get(measure(house, linden, T0)).path
         share.rename(tmp_path / "away")
         with pytest.raises(FolderMissing):
             erasure.plan_patient(house.store, linden)
-        house.store.own(update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1))
+        house.store.execute_local(update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1))
     with opened(folder, sessions=share) as house:
-        erasure.finish_erasing(house.store, house.log)
+        erasure.resume_erasures(house.store, house.log)
         share.mkdir()  # where it is mounted
-        erasure.finish_erasing(house.store, house.log)
+        erasure.resume_erasures(house.store, house.log)
         share.rmdir()
         (tmp_path / "away").rename(share)
         assert path.exists()
-        files_of = erasure._files
+        files_of = erasure._files_to_delete
         with monkeypatch.context() as meanwhile:
             meanwhile.setattr(erasure, "_files", lambda *of: share.rename(tmp_path / "away") and files_of(*of))
-            erasure.finish_erasing(house.store, house.log)
+            erasure.resume_erasures(house.store, house.log)
         (tmp_path / "away").rename(share)
         assert path.exists()
         assert house.store.rows(select(SESSION)), "it went away while it was looked through"
         with monkeypatch.context() as killed:
-            killed.setattr(erasure, "_naming", lambda *_: 1 / 0)  # once the files are gone
+            killed.setattr(erasure, "_clinic_rows_naming", lambda *_: 1 / 0)  # once the files are gone
             with pytest.raises(ZeroDivisionError):
-                erasure.finish_erasing(house.store, house.log)
-        erasure.finish_erasing(house.store, house.log)
+                erasure.resume_erasures(house.store, house.log)
+        erasure.resume_erasures(house.store, house.log)
         assert house.store.rows(select(SESSION)) == [], "it goes on where the share has no other session"
     assert not path.exists()
     assert traces(tmp_path, *NAMES, linden) == []
@@ -278,14 +280,14 @@ def test_what_was_copied_in_and_not_looked_at_brings_nobody_back(folder: Path, h
     first = measure(house, linden, T0)
     copy = record(folder / "sessions" / "copied in" / "a.h5", "linden 42", T0 + timedelta(days=1))
     again = folder / "sessions" / "again.h5"
-    shutil.copy(house.index.one(first).path, again)
+    shutil.copy(house.index.get(first).path, again)
     assert again in erasure.plan_session(house.store, first).files
     plan = erasure.plan_patient(house.store, linden)
     assert {copy, again} <= set(plan.files)
     late = record(folder / "sessions" / "late.h5", "Linden 42", T0 + timedelta(days=2))
     erasure.erase(house.store, plan, house.log)
     assert not late.exists(), "also what came while a person read what goes"
-    assert house.files.take_in().sessions == 0
+    assert house.files.scan().session_count == 0
     assert house.names() == []
     assert traces(folder, *NAMES, linden) == []
 
@@ -294,8 +296,8 @@ def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(fol
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     for patient, when in ((linden, T0), (heron, T0 + timedelta(days=1))):
         path = folder / "sessions" / patient / "wrist.h5"
-        record(path, house.patients.one(patient).pseudonym, when)
-    house.files.take_in()
+        record(path, house.patients.get(patient).pseudonym, when)
+    house.files.scan()
     damaged = folder / "corrections" / "wrist-2.h5"
     damaged.parent.mkdir()
     damaged.write_bytes(b"damaged")
@@ -307,9 +309,9 @@ def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(fol
 
 def test_what_lies_outside_of_patients_folders_stays_and_is_listed(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
-    others = house.index.one(measure(house, heron, T0)).path
+    others = house.index.get(measure(house, heron, T0)).path
     shutil.copy(others, folder / "sessions" / "a copy.h5")
-    house.files.take_in()
+    house.files.scan()
     outside = [folder / "sessions" / "letters" / "a Linden 42.txt", folder / "sessions" / "damaged.h5"]
     outside += [folder.with_name("data.before-restore-20261009-120000"), folder / "records.damaged-1-2.sqlite3"]
     for path in outside:
@@ -317,10 +319,12 @@ def test_what_lies_outside_of_patients_folders_stays_and_is_listed(folder: Path,
         path.write_bytes(b"whose?")
     others.with_name("also Linden 42.txt").write_bytes(b"in the folder of another")
     plan = erasure.plan_patient(house.store, linden)
-    assert (plan.outside[0], set(plan.outside)) == (outside[0], set(outside)), "what is named like the patient first"
+    assert (plan.unassigned_files[0], set(plan.unassigned_files)) == (outside[0], set(outside)), (
+        "what is named like the patient first"
+    )
     erasure.erase(house.store, plan, house.log)
     assert all(path.exists() for path in (*outside, others, others.with_name("also Linden 42.txt")))
-    assert erasure.plan_session(house.store, house.index.of_patient(heron)[0].session_id).outside == ()
+    assert erasure.plan_session(house.store, house.index.patient_sessions(heron)[0].session_id).unassigned_files == ()
 
 
 @pytest.mark.parametrize("after", ["mark", "files"])
@@ -341,7 +345,7 @@ def test_an_erasure_that_is_cut_short_ends_at_the_next_start(
                 erasure.erase(house.store, plan, house.log)
         assert any(path.exists() for path in plan.files) == (after == "mark")
         assert house.names() == []
-        assert house.files.take_in().sessions == 0, "what is to go does not come back"
+        assert house.files.scan().session_count == 0, "what is to go does not come back"
     Library(folder).close()
     assert not any(path.exists() for path in plan.files)
     assert traces(folder, *NAMES, linden, *sessions) == []
@@ -366,8 +370,8 @@ def test_what_cannot_be_deleted_is_told_and_tried_again(
     assert (told.value.subject, told.value.detail) == (held.name, "1")
     assert [path for path in plan.files if path.exists()] == [held]
     assert "erased" not in deeds(house)
-    assert house.index.of_patient(linden) == []
-    erasure.finish_erasing(house.store, house.log)
+    assert house.index.patient_sessions(linden) == []
+    erasure.resume_erasures(house.store, house.log)
     assert not held.exists()
     assert deeds(house)[-1] == "erased"
 
@@ -383,28 +387,30 @@ def test_what_cannot_be_logged_is_not_begun(house: House, monkeypatch: pytest.Mo
     with pytest.raises(OutputNotWritable):
         erasure.erase(house.store, plan, house.log)
     assert all(path.exists() for path in plan.files)
-    assert len(house.index.of_patient(linden)) == 1
+    assert len(house.index.patient_sessions(linden)) == 1
 
 
 def test_the_archive_takes_out_of_lists_and_counts_and_gives_back(house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
     house.index.archive(second, T0)
-    assert [entry.session_id for entry in house.index.of_patient(linden)] == [first]
-    assert house.patients.one(linden).session_count == 1
+    assert [entry.session_id for entry in house.index.patient_sessions(linden)] == [first]
+    assert house.patients.get(linden).session_count == 1
     house.patients.archive(linden, T0)
-    assert [record.patient_id for record in house.patients.listed()] == [heron]
-    assert written(house.patients.one(linden)) == LINDEN
-    assert house.patients.archived() == {linden: T0}
-    assert [entry.session_id for entry, _, _ in house.index.archived()] == [second]
-    again = measure(house, linden, T0 + timedelta(days=2), house.index.one(second).recording_id)
-    assert again not in [one.session_id for one in house.index.of_patient(linden)], "tracked again, it stays archived"
-    house.files.take_in()
+    assert [record.patient_id for record in house.patients.search()] == [heron]
+    assert written(house.patients.get(linden)) == LINDEN
+    assert house.patients.archive_times() == {linden: T0}
+    assert [entry.session_id for entry, _, _ in house.index.list_archived()] == [second]
+    again = measure(house, linden, T0 + timedelta(days=2), house.index.get(second).recording_id)
+    assert again not in [one.session_id for one in house.index.patient_sessions(linden)], (
+        "tracked again, it stays archived"
+    )
+    house.files.scan()
     assert house.names() == ["Heron 17"]
-    house.patients.bring_back(linden)
-    house.index.bring_back(second)
-    assert house.patients.one(linden).session_count == 2
-    assert house.patients.one(linden).result_count == 3
+    house.patients.unarchive(linden)
+    house.index.unarchive(second)
+    assert house.patients.get(linden).session_count == 2
+    assert house.patients.get(linden).result_count == 3
 
 
 def test_what_is_due_is_decided_by_the_last_session(house: House) -> None:
@@ -413,15 +419,15 @@ def test_what_is_due_is_decided_by_the_last_session(house: House) -> None:
         measure(house, linden, T0 - timedelta(days=366 * years))
     measure(house, heron, T0 - timedelta(days=366 * 12))
     measure(house, heron, T0)
-    found = due(house.store, 10, date(2026, 11, 20))
-    assert [(one.pseudonym, one.sessions, one.archived) for one in found] == [("Linden 42", 2, False)]
-    assert found[0].until == kept_until(T0 - timedelta(days=366 * 11), 10)
+    found = find_due_patients(house.store, 10, date(2026, 11, 20))
+    assert [(one.pseudonym, one.sessions, one.is_archived) for one in found] == [("Linden 42", 2, False)]
+    assert found[0].keep_until == retention_end(T0 - timedelta(days=366 * 11), 10)
     house.patients.archive(linden)
-    assert [one.archived for one in due(house.store, 10, date(2026, 11, 20))] == [True]
-    assert due(house.store, 0, date(2026, 11, 20)) == []
-    last_day = found[0].until
-    assert due(house.store, 10, last_day) == []
-    assert len(due(house.store, 10, last_day + timedelta(days=1))) == 1
+    assert [one.is_archived for one in find_due_patients(house.store, 10, date(2026, 11, 20))] == [True]
+    assert find_due_patients(house.store, 0, date(2026, 11, 20)) == []
+    last_day = found[0].keep_until
+    assert find_due_patients(house.store, 10, last_day) == []
+    assert len(find_due_patients(house.store, 10, last_day + timedelta(days=1))) == 1
 
 
 def test_an_identity_that_leads_out_erases_nothing_there(tmp_path: Path, folder: Path, house: House) -> None:
@@ -430,22 +436,25 @@ def test_an_identity_that_leads_out_erases_nothing_there(tmp_path: Path, folder:
     (mine / "letter.txt").write_text("a letter")
     people = [str(mine), "../../mine", "."]
     stays = measure(house, house.patients.add(LINDEN), T0)
-    house.store.do(
-        [new(PATIENT, one, folded=one, pseudonym=f"Oak {number}", erasing=1) for number, one in enumerate(people)]
+    house.store.apply(
+        [
+            insert_row(PATIENT, one, folded=one, pseudonym=f"Oak {number}", erasing=1)
+            for number, one in enumerate(people)
+        ]
     )
     for one in people:
         with pytest.raises(OutputNotWritable):
             house.index.new_path(one, "Oak", "WRIST_FE", "right", T0)
-    erasure.finish_erasing(house.store, house.log)
+    erasure.resume_erasures(house.store, house.log)
     assert (mine / "letter.txt").exists()
-    assert house.index.one(stays).path.exists()
+    assert house.index.get(stays).path.exists()
     assert house.names() == ["Linden 42"]
 
 
 def test_what_another_program_still_reads_is_told_as_left(
     folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(database, "BUSY_MS", 0)
+    monkeypatch.setattr(database, "LOCK_WAIT_MS", 0)
     linden = house.patients.add(LINDEN)
     with contextlib.closing(sqlite3.connect(folder / database.STORE_FILE)) as reader:
         reader.execute("BEGIN")
@@ -453,7 +462,7 @@ def test_what_another_program_still_reads_is_told_as_left(
         with pytest.raises(ErasureUnfinished, match="wal"):
             erase_patient(house, linden)
         reader.rollback()
-    erasure.finish_erasing(house.store, house.log)
+    erasure.resume_erasures(house.store, house.log)
     assert traces(folder, *NAMES) == []
 
 
@@ -461,19 +470,19 @@ def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(fol
     with opened(folder) as house:
         gone = house.patients.add(Patient("Fir 11", "right", name="Li"))
         for words in ("Ligament repair", "Zweizeitige Naht", "Li, second operation", "as of Fir 11"):
-            house.patients.list_diagnosis(words, listed=True)
+            house.patients.set_diagnosis_listed(words, is_listed=True)
         erase_patient(house, gone)
         assert house.patients.diagnoses() == ["Ligament repair", "Zweizeitige Naht"]
 
 
 def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_chance(house: House) -> None:
     kept = ("Dr. Linde\nLindenstraße 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
-    house.patients.list_diagnosis("Flexor tendon, zone 2", listed=True)
+    house.patients.set_diagnosis_listed("Flexor tendon, zone 2", is_listed=True)
     for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
         for address in (*kept, "Family Li\nAsh Street 3"):
-            of_clinic.remember_recipient(house.store, address)
+            of_clinic.save_recipient(house.store, address)
         erase_patient(house, house.patients.add(Patient(pseudonym, "right", name="Li")))
-        assert set(of_clinic.recipients(house.store)) == set(kept), pseudonym
+        assert set(of_clinic.read_recipients(house.store)) == set(kept), pseudonym
         assert house.patients.diagnoses() == ["Flexor tendon, zone 2"]
 
 
@@ -492,14 +501,14 @@ def test_on_a_full_disk_the_list_opens_and_a_patient_is_erased_by_the_room_that_
     with opened(folder) as house:
         linden = house.patients.add(LINDEN)
         sessions = fill(house, linden)
-    reserve.keep_reserve(folder)
+    reserve.create_reserve(folder)
     assert (folder / reserve.RESERVE_FILE).stat().st_size == reserve.RESERVE_BYTES
     monkeypatch.setattr(store_module, "Database", full_while_kept(database.Database))
     with opened(folder) as house:
         plan = erasure.plan_patient(house.store, linden)
-        reserve.keep_reserve(folder)
+        reserve.create_reserve(folder)
         with monkeypatch.context() as full:
-            full.setattr(house.store, "do", full_while_kept(house.store.do))
+            full.setattr(house.store, "do", full_while_kept(house.store.apply))
             erasure.erase(house.store, plan, house.log)
         assert traces(folder, *NAMES, linden, *sessions) == []
     monkeypatch.setattr(store_module, "Database", lambda _: (_ for _ in ()).throw(DiskFull(folder)))
@@ -520,8 +529,8 @@ def test_each_command_calls_a_full_disk_full(tmp_path: Path, folder: Path) -> No
     """A limit of the system that no file may hold a byte: each write is refused as on a full disk."""
     with opened(folder) as house:
         linden = house.patients.add(LINDEN)
-        session = house.index.one(measure(house, linden, T0)).path
-    back_up(folder, tmp_path / "place")
+        session = house.index.get(measure(house, linden, T0)).path
+    create_backup(folder, tmp_path / "place")
     commands = (
         ("erase", "Linden 42", "--data-folder", folder, "--for-good", "Linden 42"),
         ("backup", tmp_path / "full", "--data-folder", folder),

@@ -11,13 +11,13 @@ import pytest
 from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
-from carpus.core.errors import LogUnguarded, OutputNotWritable, ServerGone
+from carpus.core.errors import LogProtectionRestored, OutputNotWritable, ServerUnavailable
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
-from carpus.core.records.log import Log, read_log
-from carpus.core.records.new_sessions import recover
-from carpus.core.records.schema import DEED
+from carpus.core.records.log import AuditLogWriter, read_log
+from carpus.core.records.new_sessions import recover_sessions
+from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.store import Store
 from tests.commands import Command
 from tests.records.samples import LINDEN, T0, measure, opened, traces
@@ -25,17 +25,17 @@ from tests.records.samples import LINDEN, T0, measure, opened, traces
 
 def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
-        house.log.who = lambda: "AB"
-        house.log.note("opened", "session", "0" * 32)
-        house.log.note("erased", "patient", "1" * 32, files=3)
+        house.log.get_initials = lambda: "AB"
+        house.log.write_entry("opened", "session", "0" * 32)
+        house.log.write_entry("erased", "patient", "1" * 32, files=3)
         before = read_log(house.store)
-        mine = {"id": house.store.rows(select(DEED.c.id))[0].id, "at": "", "at_ns": 0, "facts": "{}"}
-        again = insert(DEED).prefix_with("OR REPLACE").values(mine)
-        for change in (update(DEED).values(who="XY"), delete(DEED), again):
+        mine = {"id": house.store.rows(select(AUDIT_LOG.c.id))[0].id, "at": "", "at_ns": 0, "facts": "{}"}
+        again = insert(AUDIT_LOG).prefix_with("OR REPLACE").values(mine)
+        for change in (update(AUDIT_LOG).values(who="XY"), delete(AUDIT_LOG), again):
             with pytest.raises(DatabaseError, match="only added to"):
-                house.store.own(change)
+                house.store.execute_local(change)
         assert read_log(house.store) == before
-        assert [(one.number, one.who, one.did, dict(one.facts)) for one in before] == [
+        assert [(one.number, one.initials, one.action, dict(one.facts)) for one in before] == [
             (1, "AB", "opened", {}), (2, "AB", "erased", {"files": 3}),
         ]  # fmt: skip
         assert before[0].subject == fingerprint("0" * 32)
@@ -43,25 +43,25 @@ def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
 
 def test_a_trigger_that_was_taken_away_is_told_and_there_again(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
-        house.log.note("locked", "program")
-        assert house.store.told == []
+        house.log.write_entry("locked", "program")
+        assert house.store.startup_faults == []
     with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
         database.execute("DROP TRIGGER deed_is_kept")
         database.execute("DELETE FROM deed")
         database.commit()
-    for told in ([LogUnguarded], []):
+    for told in ([LogProtectionRestored], []):
         with opened(tmp_path) as house:
-            assert [type(one) for one in house.store.told] == told
-            house.log.note("locked", "program")
+            assert [type(one) for one in house.store.startup_faults] == told
+            house.log.write_entry("locked", "program")
             with pytest.raises(DatabaseError, match="only added to"):
-                house.store.own(delete(DEED))
+                house.store.execute_local(delete(AUDIT_LOG))
 
 
 @pytest.mark.parametrize("facts", [{"path": "/data/sessions/Linden-42/s.h5"}, {"name": "Ada"}, {"name": "x" * 65}])
 def test_a_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
     with opened(tmp_path) as house:
         with pytest.raises(ValueError):
-            house.log.note("opened", "patient", "", **facts)
+            house.log.write_entry("opened", "patient", "", **facts)
         assert read_log(house.store) == ()
 
 
@@ -69,14 +69,14 @@ def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: P
     said = (" ", "Linden 42", "wr\udc80st", "x" * 65)
     with opened(tmp_path) as house:
         for identity in said:
-            house.log.note("recovered", "session", identity)
+            house.log.write_entry("recovered", "session", identity)
         assert len({one.subject for one in read_log(house.store)}) == len(said)
         assert traces(tmp_path, "Linden") == []
 
 
 def test_the_command_says_it_and_writes_a_table(tmp_path: Path, command: Command) -> None:
     with Store(tmp_path) as store:
-        Log(store, "window", lambda: "AB").note("backed_up", "everything", sessions=7)
+        AuditLogWriter(store, "window", lambda: "AB").write_entry("backed_up", "everything", sessions=7)
     said = command("log", "--data-folder", tmp_path)
     assert said.code == 0
     assert all(word in said.out for word in ("AB", "backed_up", "sessions=7"))
@@ -100,13 +100,13 @@ def test_what_only_reads_does_so_where_nothing_can_be_written(
     with opened(tmp_path) as house:
         linden = house.patients.add(LINDEN)
         measure(house, linden, T0)
-        house.log.note("opened", "patient", linden)
+        house.log.write_entry("opened", "patient", linden)
     before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
 
     def only_reads(folder: Path) -> None:
         raise OutputNotWritable(folder, "Read-only file system")
 
-    monkeypatch.setattr("carpus.core.records.store.make_private", only_reads)
+    monkeypatch.setattr("carpus.core.records.store.make_private_folder", only_reads)
     log = command("log", "--data-folder", tmp_path)
     assert (log.code, "opened" in log.out) == (0, True)
     progress = command("progress", LINDEN.pseudonym, "--sessions", tmp_path)
@@ -127,14 +127,14 @@ def test_the_command_makes_no_store_where_none_is(tmp_path: Path, command: Comma
 
 def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, command: Command) -> None:
     with opened(tmp_path) as house:
-        house.store.own(insert(DEED).values(id="x", at_ns=0, facts="{"))
-        house.log.note("locked", "program")
+        house.store.execute_local(insert(AUDIT_LOG).values(id="x", at_ns=0, facts="{"))
+        house.log.write_entry("locked", "program")
     said = command("log", "--data-folder", tmp_path)
     assert (said.code, "     2  " in said.out, "left out" in said.err) == (0, True, True)
 
 
 def test_what_the_store_tells_before_anybody_listens_is_told_at_the_start(tmp_path: Path) -> None:
     library = Library(tmp_path)
-    library.log_fault(ServerGone("records.clinic.example", "gone"))
-    assert [type(one) for one in recover(library)[1]] == [ServerGone]
+    library.on_fault(ServerUnavailable("records.clinic.example", "gone"))
+    assert [type(one) for one in recover_sessions(library)[1]] == [ServerUnavailable]
     library.close()

@@ -31,33 +31,33 @@ def test_only_its_hash_is_kept(tmp_path: Path) -> None:
     assert "4821" not in content
     assert "$argon2id$v=19$m=65536,t=3," in content, "guessing takes long"
     assert (tmp_path / PIN_FILE).stat().st_mode & 0o777 == 0o600
-    assert pin.try_it("4821", NOW).opened
+    assert pin.check("4821", NOW).is_correct
 
 
 def test_wrong_ones_are_counted_and_then_there_is_a_pause(pin: Pin, tmp_path: Path) -> None:
-    said = [Pin(tmp_path).try_it("0000", NOW) for _ in range(5)]  # each as after a start
-    assert [one.left for one in said] == [4, 3, 2, 1, 0]
-    assert not any(one.opened for one in said)
+    said = [Pin(tmp_path).check("0000", NOW) for _ in range(5)]  # each as after a start
+    assert [one.tries_left for one in said] == [4, 3, 2, 1, 0]
+    assert not any(one.is_correct for one in said)
     assert said[-1].pause_s == 60.0
-    paused = pin.try_it("4821", NOW + timedelta(seconds=20))
-    assert (paused.opened, paused.pause_s) == (False, 40.0)
-    assert pin.try_it("0000", NOW + timedelta(seconds=60)).left == 4, "after it as many as before"
-    assert pin.try_it("4821", NOW + timedelta(seconds=60)).opened
-    assert pin.try_it("0000", NOW + timedelta(seconds=61)).left == 4, "the right one forgives"
+    paused = pin.check("4821", NOW + timedelta(seconds=20))
+    assert (paused.is_correct, paused.pause_s) == (False, 40.0)
+    assert pin.check("0000", NOW + timedelta(seconds=60)).tries_left == 4, "after it as many as before"
+    assert pin.check("4821", NOW + timedelta(seconds=60)).is_correct
+    assert pin.check("0000", NOW + timedelta(seconds=61)).tries_left == 4, "the right one forgives"
 
 
 def test_a_clock_set_back_does_not_lock_for_ever(pin: Pin) -> None:
     for _ in range(5):
-        pin.try_it("0000", NOW)
-    assert pin.try_it("4821", NOW - timedelta(hours=5)).opened
+        pin.check("0000", NOW)
+    assert pin.check("4821", NOW - timedelta(hours=5)).is_correct
 
 
 @pytest.mark.parametrize("content", ["", "{}", '{"pin": "", "refused": 0, "since": ""}', '{"pin": 3}', "[" * 5000])
 def test_a_damaged_file_opens_nothing(pin: Pin, tmp_path: Path, content: str) -> None:
     (tmp_path / PIN_FILE).write_text(content)
     assert pin.is_set
-    assert not pin.try_it("4821", NOW).opened
-    assert not pin.try_it("", NOW).opened
+    assert not pin.check("4821", NOW).is_correct
+    assert not pin.check("", NOW).is_correct
 
 
 def test_it_is_changed_and_taken_away(pin: Pin) -> None:
@@ -65,7 +65,7 @@ def test_it_is_changed_and_taken_away(pin: Pin) -> None:
         with pytest.raises(ValueError):
             pin.set(short)
     pin.set("a longer one")
-    assert not pin.try_it("4821", NOW).opened
-    assert pin.try_it("a longer one", NOW).opened
-    pin.take_away()
+    assert not pin.check("4821", NOW).is_correct
+    assert pin.check("a longer one", NOW).is_correct
+    pin.remove()
     assert not pin.is_set

@@ -24,23 +24,23 @@ from sqlalchemy.pool import NullPool
 
 from carpus.core.errors import (
     CarpusFault,
-    ChangedMeanwhile,
+    ConcurrentChange,
     OutputNotWritable,
-    PseudonymGiven,
+    PatientListVersionUnknown,
+    PseudonymNumbered,
     PseudonymTaken,
-    RegisterVersionUnknown,
-    ServerGone,
+    ServerUnavailable,
     SettingsInvalid,
-    WaitingErased,
+    SpooledSessionErased,
 )
 from carpus.core.records import erasure, hand_over, of_sessions, schema, server
-from carpus.core.records.backup import back_up, backups
+from carpus.core.records.backup import create_backup, list_backups
 from carpus.core.records.changes import PRACTICE, fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
-from carpus.core.records.new_sessions import NewSessions, recover
-from carpus.core.records.restoring import Past, put_in_place, restore
+from carpus.core.records.new_sessions import SessionIntake, recover_sessions
+from carpus.core.records.restoring import LogHistory, activate_restored, restore
 from carpus.core.records.schema import PATIENT, TABLES
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
@@ -83,11 +83,11 @@ def test_what_one_computer_enters_the_other_has_at_once(tmp_path: Path, cluster:
     with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
         linden = a.patients.add(LINDEN)
         session_ids = fill(a, linden)
-        assert (written(b.patients.one(linden)), b.patients.one(linden).session_count) == (LINDEN, 3)
+        assert (written(b.patients.get(linden)), b.patients.get(linden).session_count) == (LINDEN, 3)
         assert b.names("erika MUSTER") == ["Linden 42"]
-        assert b.index.one(session_ids[0]) == a.index.one(session_ids[0])
-        assert b.files.take_in().sessions == 0, "what one computer has looked at the other need not read"
-        assert [one.did for one in read_log(b.store)] == ["opened"]
+        assert b.index.get(session_ids[0]) == a.index.get(session_ids[0])
+        assert b.files.scan().session_count == 0, "what one computer has looked at the other need not read"
+        assert [one.action for one in read_log(b.store)] == ["opened"]
         with pytest.raises(PseudonymTaken):
             b.patients.add(Patient("LINDEN 42", "left"))
         erasure.erase(b.store, erasure.plan_patient(b.store, linden), b.log)
@@ -145,43 +145,43 @@ def test_two_programs_race_and_each_change_is_there_once_or_told(tmp_path: Path,
         one.stdin.flush()  # type: ignore[union-attr]
     said = [one.communicate(timeout=120.0)[0].split() for one in running]
     with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
-        kept = house.patients.one(linden).note.split()
+        kept = house.patients.get(linden).note.split()
         assert sorted(kept) == sorted(mark for _, _, *marks in said for mark in marks), "none lost, none twice"
         assert sum(int(told) for told, *_ in said) + len(kept) == 50
         assert sum(int(taken) for _, taken, *_ in said) == 25, "each name was given to one of the two"
         assert len(house.names("both")) == 25
-        assert house.patients.one(linden).session_count == len(house.index.of_patient(linden)) == 10
+        assert house.patients.get(linden).session_count == len(house.index.patient_sessions(linden)) == 10
 
 
 def test_a_server_that_is_away_is_told_and_what_was_measured_is_listed_when_it_is_back(
     tmp_path: Path, cluster: Cluster, there: str
 ) -> None:
     with closing(Library(tmp_path, url=there)) as library:
-        recover(library)
+        recover_sessions(library)
         linden = library.patients.add(LINDEN)
         cluster.stop()
         try:
-            with pytest.raises(ServerGone):
-                library.patients.listed()
+            with pytest.raises(ServerUnavailable):
+                library.patients.search()
             begin = time.monotonic()
             for _ in range(20):
-                with pytest.raises(ServerGone):
-                    library.patients.listed()
+                with pytest.raises(ServerUnavailable):
+                    library.patients.search()
             assert time.monotonic() - begin < 1.0, "nobody waits for it again"
-            assert library.store.is_away
+            assert library.store.is_server_away
             record(tmp_path / "sessions" / linden / "s.h5", "Linden 42", T0)
             record(tmp_path / "sessions" / uuid.uuid4().hex / "t.h5", "Typed 7", T0)
             with closing(Library(tmp_path, url=there)) as started_now:
-                assert [type(one) for one in recover(started_now)[1]] == [ServerGone]
+                assert [type(one) for one in recover_sessions(started_now)[1]] == [ServerUnavailable]
         finally:
             cluster.start()
-        library.store.server.look()  # type: ignore[union-attr]
-        assert not library.store.is_away
-        assert recover(library) == ([], [])
-        assert {one.pseudonym: one.session_count for one in library.patients.listed()} == {
+        library.store.server.ping()  # type: ignore[union-attr]
+        assert not library.store.is_server_away
+        assert recover_sessions(library) == ([], [])
+        assert {one.pseudonym: one.session_count for one in library.patients.search()} == {
             "Linden 42": 1, "Typed 7": 1,
         }  # fmt: skip
-        assert written(library.patients.one(linden)) == LINDEN
+        assert written(library.patients.get(linden)) == LINDEN
 
 
 def test_who_was_typed_while_it_was_away_and_ends_a_recording_later_is_the_listed_patient(
@@ -190,30 +190,30 @@ def test_who_was_typed_while_it_was_away_and_ends_a_recording_later_is_the_liste
     with closing(Library(tmp_path, url=there)) as library:
         linden = library.patients.add(LINDEN)
         typed = set_up(uuid.uuid4().hex, "linden 42")
-        path = record(NewSessions(library).new_path(typed), "linden 42", T0)
-        session_id = NewSessions(library).entered(typed, path)
+        path = record(SessionIntake(library).new_path(typed), "linden 42", T0)
+        session_id = SessionIntake(library).register(typed, path)
         assert library.session(session_id).header.subject_id == "linden 42", "reviewed at once"
-        assert recover(library) == ([], [])
+        assert recover_sessions(library) == ([], [])
         assert [one.session_id for one in library.sessions(linden)] == [session_id]
-        assert library.owner(session_id) == linden
+        assert library.owner_id(session_id) == linden
 
 
 def test_a_server_that_falls_silent_is_left_after_seconds(
     tmp_path: Path, wired: tuple[Wire, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server, "STALL_S", 0.5)
+    monkeypatch.setattr(server, "STALL_TIMEOUT_S", 0.5)
     wire, url = wired
     with opened(tmp_path, url) as house:
         linden = house.patients.add(LINDEN)
         session_id = measure(house, linden, T0)
         wire.answers_come = False
-        with pytest.raises(ServerGone):
+        with pytest.raises(ServerUnavailable):
             of_sessions.add_comment(house.store, session_id, "not kept", "AB")
         wire.cut()
         wire.answers_come = True
-        house.store.server.look()  # type: ignore[union-attr]
+        house.store.server.ping()  # type: ignore[union-attr]
         of_sessions.add_comment(house.store, session_id, "kept", "AB")
-        assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["kept"]
+        assert [one.text for one in of_sessions.read_comments(house.store, session_id)] == ["kept"]
         wire.cut()
         assert house.names() == ["Linden 42"], "a line that was cut since then is made anew, and nobody hears of it"
 
@@ -246,9 +246,9 @@ def test_a_server_to_which_another_computer_brings_what_it_has_is_away_so_long(t
     with opened(tmp_path, there) as house:
         with engine_of(there).begin() as connection:
             connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
-            with pytest.raises(ServerGone):
+            with pytest.raises(ServerUnavailable):
                 house.names()
-        house.store.server.look()  # type: ignore[union-attr]
+        house.store.server.ping()  # type: ignore[union-attr]
         assert house.names() == []
 
 
@@ -266,7 +266,7 @@ def test_what_the_server_may_not_write_is_told(tmp_path: Path, there: str) -> No
 
 def test_the_log_of_the_server_is_only_added_to(tmp_path: Path, there: str) -> None:
     with opened(tmp_path / "a", there) as a:
-        a.log.note("locked", "program")
+        a.log.write_entry("locked", "program")
     for statement in ("UPDATE deed SET who = 'XY'", "DELETE FROM deed", "TRUNCATE deed"):
         with pytest.raises(DBAPIError, match="only added to"), engine_of(there).begin() as connection:
             connection.execute(text(statement))
@@ -276,10 +276,10 @@ def test_the_log_of_the_server_is_only_added_to(tmp_path: Path, there: str) -> N
 def test_a_server_of_a_newer_carpus_and_a_url_that_is_none_are_told(tmp_path: Path, there: str) -> None:
     with engine_of(there).begin() as connection:
         connection.execute(text("UPDATE alembic_version SET version_num = '99'"))
-    with opened(tmp_path, there) as house, pytest.raises(RegisterVersionUnknown):
+    with opened(tmp_path, there) as house, pytest.raises(PatientListVersionUnknown):
         house.names()
     for url in ("postgresql://", "postgresql://a:b:c@host:port/x"):
-        with pytest.raises((SettingsInvalid, ServerGone)), opened(tmp_path, url) as house:
+        with pytest.raises((SettingsInvalid, ServerUnavailable)), opened(tmp_path, url) as house:
             house.names()
 
 
@@ -287,12 +287,12 @@ def test_who_was_erased_on_another_computer_leaves_no_file_here(tmp_path: Path, 
     with closing(Library(tmp_path / "b", url=there)) as b:
         with opened(tmp_path / "a", there) as a:
             linden = b.patients.add(LINDEN)
-            path = b.index.new_path(linden, "Linden 42", "WRIST_FE", "right", T0)
-            b.index.enter(record(path, "Linden 42", T0), linden)
+            path = b.session_list.new_path(linden, "Linden 42", "WRIST_FE", "right", T0)
+            b.session_list.add(record(path, "Linden 42", T0), linden)
             erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
         assert path.exists(), "another computer's folder is nobody else's"
-        assert [type(one) for one in recover(b)[1]] == [WaitingErased]
-        assert b.patients.listed() == []
+        assert [type(one) for one in recover_sessions(b)[1]] == [SpooledSessionErased]
+        assert b.patients.search() == []
     assert traces(tmp_path, "Linden", "Erika", linden) == []
 
 
@@ -300,15 +300,15 @@ def test_a_back_up_holds_what_the_server_has(tmp_path: Path, there: str) -> None
     with opened(tmp_path / "data", there) as house:
         linden = house.patients.add(LINDEN)
         fill(house, linden)
-        back_up(tmp_path / "data", tmp_path / "place", copy=house.store.copied)
+        create_backup(tmp_path / "data", tmp_path / "place", copy_store=house.store.copy_to_memory)
         wanted = {name: house.store.rows(select(table).order_by(table.c.id)) for name, table in TABLES.items()}
-    restore(backups(tmp_path / "place")[0], tmp_path / "place", tmp_path / "alone", Past())
-    put_in_place(tmp_path / "alone", T0)
+    restore(list_backups(tmp_path / "place")[0], tmp_path / "place", tmp_path / "alone", LogHistory())
+    activate_restored(tmp_path / "alone", T0)
     with opened(tmp_path / "alone") as house:
         for name, table in TABLES.items():
             assert house.store.rows(select(table).order_by(table.c.id)) == wanted[name], name
         names = house.names()
-        house.files.take_in()
+        house.files.scan()
         assert house.names() == names
 
 
@@ -319,7 +319,7 @@ def test_a_server_of_the_first_version_is_raised(tmp_path: Path, cluster: Cluste
         connection.execute(text("INSERT INTO patient (id, folded, pseudonym) VALUES ('a', 'linden 42', 'Linden 42')"))
     with opened(tmp_path, url) as house:
         assert house.names() == ["Linden 42"]
-        house.patients.change(replace(LINDEN, patient_id="a", version=house.patients.one("a").version))
+        house.patients.change(replace(LINDEN, patient_id="a", version=house.patients.get("a").version))
         columns = inspect(engine_of(url))
         for table in schema.METADATA.tables.values():
             assert {one["name"] for one in columns.get_columns(table.name)} == set(table.c.keys())
@@ -341,7 +341,7 @@ def copy_of(folder: Path, url: str, *waiting: list[list[object]]) -> None:
     folder.mkdir()
     shutil.copyfile(GOLDEN, folder / STORE_FILE)
     with engine_of(url).connect() as connection:
-        known = str(connection.execute(hand_over._WHICH).scalar())
+        known = str(connection.execute(hand_over._SERVER_ID_QUERY).scalar())
     with closing(sqlite3.connect(folder / STORE_FILE)) as copy, copy:
         copy.execute("INSERT OR REPLACE INTO own VALUES ('server', ?)", [known])
         for number, change in enumerate(waiting):
@@ -370,11 +370,11 @@ def test_what_waited_in_a_copy_of_the_first_version_arrives_once(tmp_path: Path,
     )  # fmt: skip
     with opened(tmp_path / "a", url, told.append) as a:
         assert sorted(a.names()) == ["Heron 17", "Heron 17 (2)", "Linden 42"]
-        assert a.patients.one(heron).pseudonym == "Heron 17 (2)"
-        assert (a.patients.one(linden).note, a.patients.one(linden).session_count) == ("typed while away", 1)
-        assert a.patients.one(other).note == ""
-        assert [one.text for one in of_sessions.comments(a.store, "s")] == ["Less swelling."]
-    assert [type(one) for one in told] == [ChangedMeanwhile, PseudonymGiven, ChangedMeanwhile, ChangedMeanwhile]
+        assert a.patients.get(heron).pseudonym == "Heron 17 (2)"
+        assert (a.patients.get(linden).note, a.patients.get(linden).session_count) == ("typed while away", 1)
+        assert a.patients.get(other).note == ""
+        assert [one.text for one in of_sessions.read_comments(a.store, "s")] == ["Less swelling."]
+    assert [type(one) for one in told] == [ConcurrentChange, PseudonymNumbered, ConcurrentChange, ConcurrentChange]
     assert list((tmp_path / "a").glob("records*.sqlite3*")) == [], "it would keep the names of who is erased elsewhere"
     assert count(url, "diagnosis") == 1
     copy_of(tmp_path / "b", url, [["new", "diagnosis", "y", {"words": "Boutonniere"}, 0, 1]])
@@ -391,14 +391,14 @@ def test_a_store_that_a_computer_had_alone_goes_to_the_server_but_for_who_was_er
         fill(a, linden)
         of_sessions.add_comment(a.store, measure(a, heron, T0), "gone", "AB")
         measure(a, PRACTICE, T0 + timedelta(days=1))
-        wanted = a.patients.one(linden)
+        wanted = a.patients.get(linden)
     with opened(tmp_path / "b", there) as b:
-        b.log.note("erased", "patient", heron)
+        b.log.write_entry("erased", "patient", heron)
     with opened(tmp_path / "a", there) as a:
-        assert a.patients.listed() == [wanted]
+        assert a.patients.search() == [wanted]
         assert (count(there, "session"), count(there, "comment"), count(there, "made")) == (3, 3, 3)
         assert fingerprint(heron) in {one.subject for one in read_log(a.store)}
-        assert a.files.take_in().sessions == 1, "the practice patient's, by their files"
+        assert a.files.scan().session_count == 1, "the practice patient's, by their files"
     (aside,) = (tmp_path / "a").glob("records*.sqlite3")
     assert "before-server" in aside.name
 
@@ -411,6 +411,6 @@ def test_a_damaged_copy_is_rescued_before_it_goes_to_the_server(tmp_path: Path, 
     content = bytearray((tmp_path / STORE_FILE).read_bytes())
     content[40960:45056] = bytes(4096)
     (tmp_path / STORE_FILE).write_bytes(content)
-    with Store(tmp_path, url=there, tell=told.append) as store:
+    with Store(tmp_path, url=there, on_fault=told.append) as store:
         assert len(store.rows(select(PATIENT.c.id))) > 100
     assert len(list(tmp_path.glob("records.damaged-*.sqlite3"))) == 1

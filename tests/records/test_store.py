@@ -22,25 +22,25 @@ from sqlalchemy import select, update
 
 from carpus.core.errors import (
     CarpusFault,
-    ChangedMeanwhile,
+    ConcurrentChange,
     NameUnsuited,
     OutputNotWritable,
+    PatientListDamaged,
+    PatientListMissing,
+    PatientListRebuilt,
+    PatientListVersionUnknown,
     PseudonymTaken,
-    RegisterDamaged,
-    RegisterMissing,
-    RegisterSetAside,
-    RegisterVersionUnknown,
     SessionUnreadable,
 )
-from carpus.core.measures.by_hand import HandValue
-from carpus.core.names import name_of
+from carpus.core.measures.by_hand import ManualValue
+from carpus.core.names import normalize_name
 from carpus.core.records import of_clinic, of_sessions, patients, schema
-from carpus.core.records.changes import PRACTICE, new
-from carpus.core.records.database import STORE_FILE, Database, set_aside
-from carpus.core.records.keeping import due
+from carpus.core.records.changes import PRACTICE, insert_row
+from carpus.core.records.database import STORE_FILE, Database, move_aside
+from carpus.core.records.keeping import find_due_patients
 from carpus.core.records.kept_sets import read_sets
 from carpus.core.records.log import read_log
-from carpus.core.records.patients import WORDS, columns, suggest_pseudonym
+from carpus.core.records.patients import WORDS, patient_columns, suggest_pseudonym
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -57,25 +57,25 @@ def test_what_is_entered_is_found_again(tmp_path: Path) -> None:
         patient_id = house.patients.add(LINDEN)
         session_id = measure(house, patient_id, T0)
     with opened(tmp_path) as house:
-        (found,) = house.patients.listed()
+        (found,) = house.patients.search()
         assert (found.patient_id, written(found)) == (patient_id, LINDEN)
         assert (found.session_count, found.last_session, found.last_exercise) == (1, T0, "WRIST_FE")
-        (session,) = house.index.of_patient(patient_id)
+        (session,) = house.index.patient_sessions(patient_id)
         assert (session.session_id, session.created, session.hand, session.frames) == (session_id, T0, "right", 4)
         assert session.path.parent.name == patient_id
         assert session.duration_s == pytest.approx(0.1)
-        assert session.by == "AB"
-        assert house.index.one(session_id) == session
+        assert session.initials == "AB"
+        assert house.index.get(session_id) == session
         row = house.store.row(select(schema.SESSION))
         assert row.size == session.path.stat().st_size
-        version = house.patients.one(patient_id).version
+        version = house.patients.get(patient_id).version
         measure(house, patient_id, T0)
         house.patients.change(
             Patient("Oak 11", "right", patient_id=patient_id, version=version)
         )  # a session is no change of it
-        house.files.take_in()
+        house.files.scan()
         assert house.names() == ["Oak 11"], "a new name keeps its sessions"
-        assert len(house.index.of_patient(patient_id)) == 2
+        assert len(house.index.patient_sessions(patient_id)) == 2
 
 
 def test_the_last_session_comes_first(tmp_path: Path) -> None:
@@ -90,9 +90,9 @@ def test_the_last_session_comes_first(tmp_path: Path) -> None:
         measure(house, linden, datetime.fromisoformat("2026-11-14T07:00:00+11:00"))
         measure(house, heron, later)
         assert house.names() == ["Heron 17", "Linden 42", "Fir 12"]
-        assert house.patients.one(heron).last_session == later
-        assert [s.created.day for s in house.index.of_patient(linden)] == [14, 11]
-        assert house.index.of_patient(never) == []
+        assert house.patients.get(heron).last_session == later
+        assert [s.created.day for s in house.index.patient_sessions(linden)] == [14, 11]
+        assert house.index.patient_sessions(never) == []
 
 
 def test_search(tmp_path: Path) -> None:
@@ -116,15 +116,15 @@ def test_a_pseudonym_belongs_to_one_patient(tmp_path: Path) -> None:
         with pytest.raises(PseudonymTaken):
             house.patients.change(Patient("linden 42", "left", patient_id=heron))
         house.patients.change(Patient("linden 42", "both", note="changed", patient_id=linden))
-        assert house.patients.one(linden).note == "changed"
-        assert written(house.patients.one(heron)) == HERON
-        assert house.patients.called("LINDEN 42") == linden
-        with pytest.raises(ChangedMeanwhile):
+        assert house.patients.get(linden).note == "changed"
+        assert written(house.patients.get(heron)) == HERON
+        assert house.patients.id_of_pseudonym("LINDEN 42") == linden
+        with pytest.raises(ConcurrentChange):
             house.patients.change(Patient("Oak 11", "left", patient_id="nobody"))
         with pytest.raises(KeyError):
-            house.patients.one("nobody")
+            house.patients.get("nobody")
         with pytest.raises(KeyError):
-            house.index.one("nothing")
+            house.index.get("nothing")
 
 
 def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) -> None:
@@ -134,10 +134,10 @@ def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) ->
     for path in tmp_path.glob(f"{STORE_FILE}*"):
         path.unlink()
     with opened(tmp_path) as house:
-        house.files.take_in()
+        house.files.scan()
         assert house.names() == ["Linden 42", "Heron 17"]
-        people = house.patients.listed()
-        assert {e.session_id for one in people for e in house.index.of_patient(one.patient_id)} == before
+        people = house.patients.search()
+        assert {e.session_id for one in people for e in house.index.patient_sessions(one.patient_id)} == before
         entry = people[0]
         assert (entry.side, entry.name, entry.note) == ("right", "", "")  # names were only in the store
 
@@ -145,7 +145,7 @@ def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) ->
 def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden, folder = house.patients.add(LINDEN), house.store.sessions_folder
-        away = house.index.one(measure(house, linden, T0))
+        away = house.index.get(measure(house, linden, T0))
         of_sessions.add_comment(house.store, away.session_id, "still written", "AB")
         away.path.rename(folder / "moved.h5")
         record(folder / "from elsewhere" / "a.h5", "linden 42", T0 + timedelta(days=1))
@@ -155,18 +155,18 @@ def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tm
         (folder / "e.h5").write_bytes((folder / "d.h5").read_bytes())
         (folder / "junk.h5").write_text("not a session")
         (folder / "s.h5.12345678.part").write_text("being recorded")
-        found = house.files.take_in()
-        assert (found.sessions, sorted(house.names())) == (5, ["Linden 42", "Wren 33"])
+        found = house.files.scan()
+        assert (found.session_count, sorted(house.names())) == (5, ["Linden 42", "Wren 33"])
         assert [fault.subject for fault in found.faults] == [str(folder / "junk.h5")]
-        assert written(house.patients.one(linden)) == LINDEN
-        assert [entry.path.name for entry in house.index.of_patient(linden)] == ["a.h5", "moved.h5"]
-        assert house.patients.one(house.patients.called("Wren 33")).session_count == 2
-        assert house.patients.one(house.patients.called("Wren 33")).side == "both"
+        assert written(house.patients.get(linden)) == LINDEN
+        assert [entry.path.name for entry in house.index.patient_sessions(linden)] == ["a.h5", "moved.h5"]
+        assert house.patients.get(house.patients.id_of_pseudonym("Wren 33")).session_count == 2
+        assert house.patients.get(house.patients.id_of_pseudonym("Wren 33")).side == "both"
         (folder / "moved.h5").unlink()
-        again = house.files.take_in()
-        assert (again.sessions, again.faults, len(house.names())) == (0, (), 2)
-        assert house.index.one(away.session_id).path == folder / "moved.h5", "opening it tells that its file is away"
-        assert [one.text for one in of_sessions.comments(house.store, away.session_id)] == ["still written"]
+        again = house.files.scan()
+        assert (again.session_count, again.faults, len(house.names())) == (0, (), 2)
+        assert house.index.get(away.session_id).path == folder / "moved.h5", "opening it tells that its file is away"
+        assert [one.text for one in of_sessions.read_comments(house.store, away.session_id)] == ["still written"]
 
 
 @pytest.mark.parametrize("how", ["exchanged", "moved over", "copied over", "another's"])
@@ -174,7 +174,7 @@ def test_a_file_in_another_s_place_is_listed_as_what_it_is(tmp_path: Path, how: 
     with opened(tmp_path) as house:
         ids = [measure(house, house.patients.add(entry), T0) for entry in (LINDEN, HERON)]
         of_sessions.add_comment(house.store, ids[0], "mine", "AB")
-        mine, other = (house.index.one(one).path for one in ids)
+        mine, other = (house.index.get(one).path for one in ids)
         if how == "exchanged":
             mine.rename(tmp_path / "aside")
             other.rename(mine)
@@ -190,12 +190,12 @@ def test_a_file_in_another_s_place_is_listed_as_what_it_is(tmp_path: Path, how: 
             if path.exists():
                 os.utime(path, ns=(1, 1))
         for _ in range(2):
-            house.files.take_in()
+            house.files.scan()
             for session_id in ids:
-                path = house.index.one(session_id).path
+                path = house.index.get(session_id).path
                 assert not path.exists() or read_outline(path).header.session_id == session_id
-            assert house.index.one(ids[1]).path.exists()
-            assert [one.text for one in of_sessions.comments(house.store, ids[0])] == ["mine"]
+            assert house.index.get(ids[1]).path.exists()
+            assert [one.text for one in of_sessions.read_comments(house.store, ids[0])] == ["mine"]
         assert house.names("Wren") == (["Wren 12"] if how == "another's" else [])
 
 
@@ -204,8 +204,8 @@ def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
         linden = house.patients.add(LINDEN, T0)
         session_id = measure(house, linden, T0)
         of_sessions.add_comment(house.store, session_id, "well", "AB")
-        of_clinic.note_backup(house.store, T0, "place", 1, 1)
-        house.store.do([new(schema.DEED, "0", at="soon", at_ns=0, facts="{}")])
+        of_clinic.save_backup_record(house.store, T0, "place", 1, 1)
+        house.store.apply([insert_row(schema.AUDIT_LOG, "0", at="soon", at_ns=0, facts="{}")])
         house.index.archive(session_id)
         house.patients.archive(linden)
         for table, names in {
@@ -213,13 +213,13 @@ def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
             schema.COMMENT: ("entered",), schema.BACKUP: ("made",),
         }.items():  # fmt: skip
             unzoned = dict.fromkeys(names, "2026-10-09T09:51")
-            house.store.own(update(table).where(table.c.id != PRACTICE).values(unzoned))
-        assert [(one.session_id, when) for one, _, when in house.index.archived()] == [(session_id, T0)]
-        assert house.patients.archived() == {linden: T0}
-        assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["well"]
-        last = of_clinic.last_backup(house.store)
-        assert last.missing == 1, "nobody knows since when"
-        assert [one.patient_id for one in due(house.store, 10, date(2050, 1, 1))] == [linden]
+            house.store.execute_local(update(table).where(table.c.id != PRACTICE).values(unzoned))
+        assert [(one.session_id, when) for one, _, when in house.index.list_archived()] == [(session_id, T0)]
+        assert house.patients.archive_times() == {linden: T0}
+        assert [one.text for one in of_sessions.read_comments(house.store, session_id)] == ["well"]
+        last = of_clinic.read_last_backup(house.store)
+        assert last.later_sessions == 1, "nobody knows since when"
+        assert [one.patient_id for one in find_due_patients(house.store, 10, date(2050, 1, 1))] == [linden]
         assert len(read_log(house.store)) == 1
 
 
@@ -238,7 +238,7 @@ def test_the_data_folder_is_its_owners_only_names_are_in_the_store_only_and_it_c
     assert holding == {STORE_FILE}
     old.rename(new)
     with opened(new) as house:
-        (session,) = house.index.of_patient(patient_id)
+        (session,) = house.index.patient_sessions(patient_id)
         assert session.path.is_file()
         assert session.path.is_relative_to(new)
 
@@ -266,7 +266,7 @@ def test_several_threads_and_two_programs_at_once(tmp_path: Path) -> None:
         try:
             for number in range(start, start + 20):
                 house.patients.add(Patient(f"Oak {number}", "left"))
-                house.patients.listed("oak")
+                house.patients.search("oak")
         except BaseException as fault:
             faults.append(fault)
 
@@ -317,8 +317,8 @@ def test_what_a_damaged_file_says_of_itself_keeps_no_start_from_going_on(tmp_pat
         path = house.store.sessions_folder / "1.h5.part"
         path.write_bytes(b"nothing")
         fault = SessionUnreadable(path, "unknown protocol 'wr\udc80st6'")
-        assert house.files.first_told([fault]) == [fault]
-        assert house.files.first_told([fault]) == []
+        assert house.files.filter_new_faults([fault]) == [fault]
+        assert house.files.filter_new_faults([fault]) == []
         assert "wr\\udc80st6" in fault.detail
         str(fault).encode("utf-8")
 
@@ -327,17 +327,17 @@ def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, url:
     with opened(tmp_path, url) as one, opened(tmp_path, url) as other:
         linden = one.patients.add(LINDEN)
         session_id = measure(one, linden, T0)
-        read = other.patients.one(linden)
+        read = other.patients.get(linden)
         one.patients.change(replace(read, note="mine"))
-        with pytest.raises(ChangedMeanwhile):
+        with pytest.raises(ConcurrentChange):
             other.patients.change(replace(read, note="yours"))
-        assert other.patients.one(linden).note == "mine"
+        assert other.patients.get(linden).note == "mine"
         for mine, yours in (({0: "pain"}, {1: ""}), ({2: ""}, {3: ""})):
-            _, version = of_sessions.choices(other.store, session_id)
-            of_sessions.keep_choices(one.store, session_id, RepetitionChoices(mine), version)
-            with pytest.raises(ChangedMeanwhile):
-                of_sessions.keep_choices(other.store, session_id, RepetitionChoices(yours), version)
-            assert of_sessions.choices(other.store, session_id)[0].left_out == mine
+            _, version = of_sessions.read_choices(other.store, session_id)
+            of_sessions.save_choices(one.store, session_id, RepetitionChoices(mine), version)
+            with pytest.raises(ConcurrentChange):
+                of_sessions.save_choices(other.store, session_id, RepetitionChoices(yours), version)
+            assert of_sessions.read_choices(other.store, session_id)[0].excluded == mine
 
 
 def test_programs_comment_on_one_session_and_log_it_at_once_and_nothing_is_lost(tmp_path: Path) -> None:
@@ -355,7 +355,7 @@ def test_programs_comment_on_one_session_and_log_it_at_once_and_nothing_is_lost(
             subprocess.Popen([sys.executable, "-c", code, str(tmp_path), session_id, name]) for name in ("one", "other")
         ]
         assert [one.wait(120) for one in running] == [0, 0]
-        texts = [one.text for one in of_sessions.comments(house.store, session_id)]
+        texts = [one.text for one in of_sessions.read_comments(house.store, session_id)]
         assert sorted(texts) == sorted(f"{name} {number}" for name in ("one", "other") for number in range(20))
         assert [text for text in texts if text.startswith("one")] == [f"one {number}" for number in range(20)]
         assert len(read_log(house.store)) == 40
@@ -365,10 +365,10 @@ UNSEEN = ("\u00ad", "\u200b", "\u202e", "\n", "\ud800", "\0", "\u3164", "\ufe0f"
 
 
 def test_names_are_composed_of_any_language_and_without_signs_that_nobody_sees(tmp_path: Path) -> None:
-    assert name_of("Zoe\u0308 3") == "Zo\u00eb 3"
-    assert name_of("Fir  11") == "Fir 11"
+    assert normalize_name("Zoe\u0308 3") == "Zo\u00eb 3"
+    assert normalize_name("Fir  11") == "Fir 11"
     for name in ("Müller-Lüdenscheidt", "李 小龍", "Ольга 7", "O’Neill 12"):
-        assert name_of(f"  {name} ") == name
+        assert normalize_name(f"  {name} ") == name
     with opened(tmp_path) as house:
         for text in (*(f"Lin{sign}den" for sign in UNSEEN), "\u202eLinden", "Fir\ufe0f", "x" * 101):
             for entry in (Patient(text, "left"), Patient("Oak 11", "left", name=text)):
@@ -381,8 +381,8 @@ def test_names_are_composed_of_any_language_and_without_signs_that_nobody_sees(t
 def test_a_damaged_store_is_set_aside_told_and_made_again(tmp_path: Path, content: bytes) -> None:
     (tmp_path / STORE_FILE).write_bytes(content)
     with Store(tmp_path) as store:
-        (fault,) = store.told
-        assert isinstance(fault, RegisterSetAside)
+        (fault,) = store.startup_faults
+        assert isinstance(fault, PatientListRebuilt)
         assert Path(fault.subject).read_bytes() == content
 
 
@@ -391,7 +391,7 @@ def test_a_store_that_lacks_a_column_is_damaged(tmp_path: Path) -> None:
     with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
         database.execute("ALTER TABLE goal DROP COLUMN side")
     with Store(tmp_path) as store:
-        assert [type(one) for one in store.told] == [RegisterSetAside]
+        assert [type(one) for one in store.startup_faults] == [PatientListRebuilt]
 
 
 @pytest.mark.parametrize("how", ["deleted", "emptied"])
@@ -402,37 +402,39 @@ def test_a_store_that_is_gone_while_sessions_are_there_is_told(tmp_path: Path, h
         for path in tmp_path.glob(f"{STORE_FILE}*"):
             path.unlink() if how == "deleted" else path.write_bytes(b"")
         with opened(tmp_path) as house:
-            assert [type(one) for one in house.store.told] == [RegisterMissing] * with_session
+            assert [type(one) for one in house.store.startup_faults] == [PatientListMissing] * with_session
             measure(house, house.patients.add(LINDEN), T0)
     with opened(tmp_path) as house:
-        assert house.store.told == []
+        assert house.store.startup_faults == []
 
 
 def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
     """One page of two hundred patients is lost; all others stay, with what was written of them."""
     with opened(tmp_path) as house:
-        people = [new(schema.PATIENT, f"{one:032x}", **columns(Patient(f"Oak {one}", "left", note="x" * 300)))
-                  for one in range(200)]  # fmt: skip
-        house.store.do(people)
+        people = [
+            insert_row(schema.PATIENT, f"{one:032x}", **patient_columns(Patient(f"Oak {one}", "left", note="x" * 300)))
+            for one in range(200)
+        ]
+        house.store.apply(people)
         ends = [measure(house, people[place].id, T0) for place in (0, 100, -1)]
         for session_id in ends:
             of_sessions.add_comment(house.store, session_id, "Less swelling.", "AB")
-        house.log.note("locked", "program")
+        house.log.write_entry("locked", "program")
     content = bytearray((tmp_path / STORE_FILE).read_bytes())
     page = content.index(b"oak 100Oak 100") // 4096 * 4096
     content[page : page + 4096] = bytes(4096)
     (tmp_path / STORE_FILE).write_bytes(content)
     with opened(tmp_path) as house:
-        (fault,) = house.store.told
-        assert isinstance(fault, RegisterSetAside)
-        house.files.take_in()
+        (fault,) = house.store.startup_faults
+        assert isinstance(fault, PatientListRebuilt)
+        house.files.scan()
         found = {row.id for row in house.store.rows(select(schema.PATIENT))}
         assert 180 < len(found & {one.id for one in people}) < 200
         for place, session_id in zip((0, -1), (ends[0], ends[-1]), strict=True):
-            assert house.index.owner(session_id) == people[place].id
-            assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["Less swelling."]
-        assert house.patients.one(house.index.owner(ends[1])).pseudonym == "Oak 100"
-        assert [one.did for one in read_log(house.store)] == ["locked"]
+            assert house.index.owner_id(session_id) == people[place].id
+            assert [one.text for one in of_sessions.read_comments(house.store, session_id)] == ["Less swelling."]
+        assert house.patients.get(house.index.owner_id(ends[1])).pseudonym == "Oak 100"
+        assert [one.action for one in read_log(house.store)] == ["locked"]
 
 
 @pytest.mark.parametrize("version", ["99", "", "0", "../x%"])
@@ -441,7 +443,9 @@ def test_a_store_of_a_version_that_is_not_known_is_told_and_left_as_it_is(tmp_pa
     with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
         database.execute("UPDATE alembic_version SET version_num = ?", (version,))
         database.commit()
-    with pytest.raises(RegisterVersionUnknown, match=re.escape(f"version {version or '?'}, this Carpus reads up to")):
+    with pytest.raises(
+        PatientListVersionUnknown, match=re.escape(f"version {version or '?'}, this Carpus reads up to")
+    ):
         Store(tmp_path)
     assert not list(tmp_path.glob("*damaged*"))
 
@@ -451,10 +455,10 @@ def test_the_first_version_is_read(tmp_path: Path) -> None:
     golden = Path(__file__).with_name("golden") / "version-1.sqlite3"
     (tmp_path / STORE_FILE).write_bytes(golden.read_bytes())
     with opened(tmp_path) as house:
-        (linden,) = house.patients.listed("muster")
-        (session,) = house.index.of_patient(linden.patient_id)
+        (linden,) = house.patients.search("muster")
+        (session,) = house.index.patient_sessions(linden.patient_id)
         assert (written(linden), session.exercise) == (LINDEN, "WRIST_FE")
-        assert [one.text for one in of_sessions.comments(house.store, session.session_id)] == ["Less swelling."]
+        assert [one.text for one in of_sessions.read_comments(house.store, session.session_id)] == ["Less swelling."]
 
 
 def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_path: Path) -> None:
@@ -462,17 +466,17 @@ def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_
         linden = house.patients.add(LINDEN)
         house.patients.add(replace(HERON, diagnosis="wrist  sprain", onset="injury"))
         for words in ("Mallet finger", "Wrist sprain", LINDEN.diagnosis, "wrist sprain"):
-            house.patients.list_diagnosis(words, listed=True)
+            house.patients.set_diagnosis_listed(words, is_listed=True)
         assert house.patients.diagnoses() == [LINDEN.diagnosis, "Wrist sprain", "Mallet finger"]
         assert (house.names("tendon repair"), house.names("SPRAIN")) == (["Linden 42"], ["Heron 17"])
-        house.patients.list_diagnosis("mallet FINGER", listed=False)
+        house.patients.set_diagnosis_listed("mallet FINGER", is_listed=False)
         house.patients.change(replace(LINDEN, diagnosis="", onset="", onset_day=None, patient_id=linden))
         assert house.patients.diagnoses() == ["Wrist sprain", LINDEN.diagnosis], (
             "nobody has it now, and it stays listed"
         )
         assert house.names("repair") == []
-        house.store.own(update(schema.PATIENT).values(onset="fall", onset_day="soon"))
-        one = house.patients.one(linden)
+        house.store.execute_local(update(schema.PATIENT).values(onset="fall", onset_day="soon"))
+        one = house.patients.get(linden)
         assert (one.onset, one.onset_day) == ("", None), "what another program wrote is left out"
 
 
@@ -480,14 +484,14 @@ def test_a_patient_met_by_file_is_who_the_folder_says(tmp_path: Path, url: str) 
     with opened(tmp_path, url) as house:
         given = new_id()
         record(house.store.sessions_folder / given / "s.h5", HERON.pseudonym, T0)
-        house.files.take_in()
-        (met,) = house.patients.listed()
+        house.files.scan()
+        (met,) = house.patients.search()
         assert (met.patient_id, met.session_count) == (given, 1), "the folder says who it is"
-        assert house.patients.one(given).name == ""
+        assert house.patients.get(given).name == ""
         house.patients.change(replace(HERON, pseudonym="Heron 18", patient_id=given))
         record(house.store.sessions_folder / given / "t.h5", HERON.pseudonym, T0)
-        house.files.take_in()
-        assert [(one.patient_id, one.session_count) for one in house.patients.listed()] == [(given, 2)]
+        house.files.scan()
+        assert [(one.patient_id, one.session_count) for one in house.patients.search()] == [(given, 2)]
 
 
 def test_what_is_done_at_home_is_kept_with_the_patient(tmp_path: Path) -> None:
@@ -495,9 +499,9 @@ def test_what_is_done_at_home_is_kept_with_the_patient(tmp_path: Path) -> None:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         first = HomePlan(("WRIST_FE", "FIST_HOOK"), 10, 3, T0.date(), None, "", "", "it")
         for plan in (first, replace(first, times=5, again=date(2026, 10, 16), at="11:30", note="Bring the splint")):
-            patients.keep_home_plan(house.store, linden, plan)
-            assert patients.home_plan(house.store, linden) == plan
-        assert patients.home_plan(house.store, heron) is None
+            patients.save_home_plan(house.store, linden, plan)
+            assert patients.read_home_plan(house.store, linden) == plan
+        assert patients.read_home_plan(house.store, heron) is None
 
 
 def test_tracking_a_file_loads_no_database(tmp_path: Path) -> None:
@@ -513,14 +517,14 @@ def test_two_programs_that_meet_a_damaged_store_lose_nothing_of_it(tmp_path: Pat
     content, now = b"this is no store at all" * 100, datetime(2026, 10, 9)
     path = tmp_path / STORE_FILE
     path.write_bytes(content)
-    aside = set_aside(path, now)
+    aside = move_aside(path, now)
     path.write_bytes(b"another")
-    assert set_aside(path, now) != aside
+    assert move_aside(path, now) != aside
     assert aside.read_bytes() == content, "never onto a name that is there"
     path.write_bytes(content)
     with ThreadPoolExecutor(4) as programs:
         stores = list(programs.map(lambda _: Store(tmp_path), range(4)))
-    assert sum(len(one.told) for one in stores) == 1, "one sets it aside, the others find the new one"
+    assert sum(len(one.startup_faults) for one in stores) == 1, "one sets it aside, the others find the new one"
     for one in stores:
         one.close()
 
@@ -530,20 +534,24 @@ def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
     with opened(tmp_path, tell=told.append) as house:
         linden = house.patients.add(LINDEN)
         session_id = measure(house, linden, T0)
-        of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: "pain"}), 0)
+        of_sessions.save_choices(house.store, session_id, RepetitionChoices({0: "pain"}), 0)
         for day in (9, 10, 11):
-            value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, day), (17.0,), "")
-            patients.enter_by_hand(house.store, linden, [value])
-        measured = house.store.rows(select(schema.MEASURED.c.id).order_by(schema.MEASURED.c.entered_ns))
+            value = ManualValue("WRIST_ROUND", "", "right", date(2026, 10, day), (17.0,), "")
+            patients.add_manual_measurements(house.store, linden, [value])
+        measured = house.store.rows(
+            select(schema.MANUAL_MEASUREMENT.c.id).order_by(schema.MANUAL_MEASUREMENT.c.entered_ns)
+        )
         for row, damage in zip(measured, ({"tries": "[1"}, {"day": "yesterday"}), strict=False):
-            house.store.own(update(schema.MEASURED).where(schema.MEASURED.c.id == row.id).values(**damage))
-        house.store.own(update(schema.CORRECTION).values(edges_s="no"))
-        house.store.do([new(schema.EXERCISE_SET, "s", name="s", discs="wrist6", parts="[")])
+            house.store.execute_local(
+                update(schema.MANUAL_MEASUREMENT).where(schema.MANUAL_MEASUREMENT.c.id == row.id).values(**damage)
+            )
+        house.store.execute_local(update(schema.CORRECTION).values(edges_s="no"))
+        house.store.apply([insert_row(schema.EXERCISE_SET, "s", name="s", discs="wrist6", parts="[")])
         for _ in range(2):
-            assert [one.day.day for one in patients.by_hand(house.store, linden)] == [11]
-            assert of_sessions.choices(house.store, session_id)[0] == RepetitionChoices()
+            assert [one.day.day for one in patients.read_manual_measurements(house.store, linden)] == [11]
+            assert of_sessions.read_choices(house.store, session_id)[0] == RepetitionChoices()
             assert read_sets(house.store) == ()
-    assert [type(one) for one in told] == [RegisterDamaged] * 4
+    assert [type(one) for one in told] == [PatientListDamaged] * 4
 
 
 def test_close_while_another_reads_closes_the_connection_when_it_is_returned(tmp_path: Path) -> None:

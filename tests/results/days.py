@@ -7,18 +7,18 @@ from dataclasses import replace
 from datetime import timedelta
 from typing import Any
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.measure import Measure
 from tests.ui.fakes import NOW
 
 
-def days_ago(one: SessionFigures, days: int, **changes: Any) -> SessionFigures:
+def days_ago(one: SessionResults, days: int, **changes: Any) -> SessionResults:
     """A session and recording of its own, called by its day, with other changes."""
     own = {"when": NOW - timedelta(days=days), "session_id": str(days), "recording_id": str(days)}
     return replace(one, **own | changes)
 
 
-def with_ranges(one: SessionFigures, change: Callable[[Measure], dict[str, Any]]) -> SessionFigures:
+def with_ranges(one: SessionResults, change: Callable[[Measure], dict[str, Any]]) -> SessionResults:
     """Change every range by new values of its fields."""
     rows = (replace(row, **change(row)) if row.group == "range" else row for row in one.measures)
     return replace(one, measures=tuple(rows))

@@ -10,15 +10,15 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles
 from carpus.core.results.motion_curves import motion_columns
-from carpus.core.results.progress import compare
-from carpus.core.results.ranges import in_order, isb_sd_rad
-from carpus.ui.words.session import method
+from carpus.core.results.progress import compare_ranges
+from carpus.core.results.ranges import isb_sd_rad, with_angle_order
+from carpus.ui.words.session import method_words
 from tests.ui.fakes import NOW, figures_once, session
 
 
 def test_the_same_turns_are_read_in_the_order_of_the_isb() -> None:
     made = session(exercise="FREE", motion="mixed")
-    turned = in_order(made, "isb")
+    turned = with_angle_order(made, "isb")
     table = {column.name: column.values for column in motion_columns(made, made.motion)}
     for k, name in enumerate(("deviation", "flexion", "pronosupination")):
         assert np.allclose(np.degrees(turned.motion.angles_rad[:, k]), table[f"isb_{name}_deg"], equal_nan=True)
@@ -27,9 +27,9 @@ def test_the_same_turns_are_read_in_the_order_of_the_isb() -> None:
     again = Rotation.from_euler("YZX", order).as_matrix()
     assert np.allclose(again, made.motion.rotation_w2_w0, atol=1e-9)
     assert np.array_equal(turned.motion.rotation_w2_w0, made.motion.rotation_w2_w0)
-    assert in_order(made, "zyx") is made
+    assert with_angle_order(made, "zyx") is made
     with pytest.raises(ValueError, match="isb"):
-        in_order(turned, "zyx")
+        with_angle_order(turned, "zyx")
 
 
 @pytest.mark.parametrize("pose_deg", [(0.0, 0.0, 0.0), (20.0, 60.0, 0.0), (-15.0, -40.0, 25.0)])
@@ -43,7 +43,7 @@ def test_the_deviations_are_those_of_many_draws(pose_deg: tuple[float, float, fl
 
 
 def test_what_is_not_known_stays_so() -> None:
-    turned = in_order(session(lost=[(20.0, 22.0)]), "isb").motion
+    turned = with_angle_order(session(lost=[(20.0, 22.0)]), "isb").motion
     gone = np.isnan(session(lost=[(20.0, 22.0)]).motion.angles_rad)
     assert np.array_equal(np.isnan(turned.angles_rad), gone)
     assert np.array_equal(np.isnan(turned.angles_sd_rad), gone)
@@ -51,10 +51,10 @@ def test_what_is_not_known_stays_so() -> None:
 
 def test_the_report_says_the_order_and_orders_are_never_compared() -> None:
     plain = figures_once(session(session_id="before"))
-    other = figures_once(in_order(session(when=NOW), "isb"))
-    assert "ISB" in method(other, 6, compared=False)
-    assert "ISB" not in method(plain, 6, compared=False)
-    assert {item.verdict for item in compare(plain, other)} == {"not_judged"}
-    assert all("angle_order" in item.reasons for item in compare(plain, other))
+    other = figures_once(with_angle_order(session(when=NOW), "isb"))
+    assert "ISB" in method_words(other, 6, compared=False)
+    assert "ISB" not in method_words(plain, 6, compared=False)
+    assert {item.verdict for item in compare_ranges(plain, other)} == {"not_judged"}
+    assert all("angle_order" in item.reasons for item in compare_ranges(plain, other))
     alike = replace(plain, angle_order="isb")
-    assert all("angle_order" not in item.reasons for item in compare(alike, other))
+    assert all("angle_order" not in item.reasons for item in compare_ranges(alike, other))

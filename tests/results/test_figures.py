@@ -12,10 +12,16 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.hand.exercises import Movement, exercise_named
-from carpus.core.results.figures import SessionFigures, data_digest, session_figures
+from carpus.core.hand.exercises import Movement, get_exercise
+from carpus.core.results.figures import SessionResults, compute_data_digest, compute_session_results
 from carpus.core.results.norms import total_norm, wrist_norm
-from carpus.core.results.progress import compare, other_hand_of, previous_of, progress, unfair_reasons
+from carpus.core.results.progress import (
+    compare_ranges,
+    compute_progress,
+    find_other_hand,
+    find_previous,
+    incomparable_reasons,
+)
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event
 from carpus.ui.words.further import measure_name, value_words
@@ -24,11 +30,11 @@ from tests.ui.fakes import NOW, figures_once, session
 
 
 @pytest.fixture(scope="module")
-def figures() -> SessionFigures:
+def figures() -> SessionResults:
     return figures_once(session())
 
 
-def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigures) -> None:
+def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionResults) -> None:
     stored = session()
     angle = np.degrees(stored.motion.angles_rad[:, 1])
     time = stored.timestamp_s - stored.timestamp_s[0]
@@ -40,21 +46,21 @@ def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigu
     assert extension.mean == pytest.approx(-np.mean(bottoms), abs=0.3)
     assert arc.mean == pytest.approx(flexion.mean + extension.mean, abs=1e-9)
     assert flexion.sd == pytest.approx(np.std(tops, ddof=1), abs=0.3)
-    assert flexion.count == figures.counted == 9
+    assert flexion.count == figures.repetition_count == 9
 
 
-def test_a_repetition_left_out_leaves_the_mean(figures: SessionFigures) -> None:
+def test_a_repetition_left_out_leaves_the_mean(figures: SessionResults) -> None:
     arc = figures.find("flexion", "arc")
     without = figures_once(session(), RepetitionChoices({6: "pain"}))
-    assert without.counted == 8
-    assert without.repetitions[6].reason == "pain"
+    assert without.repetition_count == 8
+    assert without.repetitions[6].exclusion_reason == "pain"
     assert without.find("flexion", "arc").mean == pytest.approx((sum(arc.values) - arc.values[6]) / 8)
     nothing = figures_once(session(), RepetitionChoices(dict.fromkeys(range(9), "trial")))
     assert nothing.wrist_ranges == ()
-    assert nothing.speed("peak speed") is None
+    assert nothing.speed_measure("peak speed") is None
 
 
-def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: SessionFigures) -> None:
+def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: SessionResults) -> None:
     rep = figures.repetitions[3]
     middle = 0.5 * (rep.start_s + rep.end_s)
     moved = figures_once(session(), RepetitionChoices({}, {3: (rep.start_s, middle - 1.5)}))
@@ -63,27 +69,31 @@ def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: Session
     assert after.values[:3] == pytest.approx(before.values[:3])
 
 
-def test_hidden_stretches_do_not_count(figures: SessionFigures) -> None:
+def test_hidden_stretches_do_not_count(figures: SessionResults) -> None:
     names = ("CMC1", "MCP2", "MCP3", "MCP4")
     rep = figures.repetitions[2]
     covered = session(hidden=[(rep.start_s, rep.end_s, name) for name in names])
     seen = figures_once(covered)
-    assert any(r.unmeasured == "hidden" for r in seen.repetitions) or len(seen.repetitions) < len(figures.repetitions)
+    assert any(r.unmeasured_reason == "hidden" for r in seen.repetitions) or len(seen.repetitions) < len(
+        figures.repetitions
+    )
     assert seen.quality.measured_share < 0.95
     assert seen.quality.hidden_share == pytest.approx(4 / 6 * (1 - seen.quality.measured_share), abs=0.01)
 
 
 def test_free_movement_reports_every_angle_and_is_never_judged() -> None:
     free = figures_once(session(exercise="FREE", motion="mixed"))
-    assert [row.angle for row in free.wrist_ranges if row.what == "arc"] == [1, 0, 2]
-    assert {item.verdict for item in compare(free, replace(free, when=NOW + timedelta(days=1)))} == {"not_judged"}
+    assert [row.wrist_angle for row in free.wrist_ranges if row.quantity == "arc"] == [1, 0, 2]
+    assert {item.verdict for item in compare_ranges(free, replace(free, when=NOW + timedelta(days=1)))} == {
+        "not_judged"
+    }
 
 
 @pytest.mark.parametrize("difference_deg", [0.0, 9.9, 10.1, -9.9, -10.1, 40.0])
-def test_a_change_is_one_only_beyond_its_limit(figures: SessionFigures, difference_deg: float) -> None:
+def test_a_change_is_one_only_beyond_its_limit(figures: SessionResults, difference_deg: float) -> None:
     before = replace(figures, when=NOW - timedelta(days=7))
     after = with_ranges(figures, lambda row: {"mean": row.mean + difference_deg})
-    verdicts = {item.after.what: item.verdict for item in compare(before, after)}
+    verdicts = {item.after.quantity: item.verdict for item in compare_ranges(before, after)}
     sign = "improved" if difference_deg > 0 else "worse"
     assert verdicts["flexion"] == ("no_change" if abs(difference_deg) <= 10 else sign)
     assert verdicts["arc"] == ("no_change" if abs(difference_deg) <= 10 * math.sqrt(2) else sign)
@@ -94,30 +104,30 @@ def test_a_change_is_one_only_beyond_its_limit(figures: SessionFigures, differen
     [
         ({"side": "left"}, "side"),
         ({"protocol": "hand21"}, "protocol"),
-        ({"exercise": exercise_named("WRIST_RU")}, "exercise"),
+        ({"exercise": get_exercise("WRIST_RU")}, "exercise"),
         ({"repetitions": ()}, "few_repetitions_after"),
         ({"measures": "unknown"}, "unknown"),
     ],
 )
 def test_ranges_of_unlike_sessions_are_not_judged(
-    figures: SessionFigures, changes: dict[str, Any], reason: str
+    figures: SessionResults, changes: dict[str, Any], reason: str
 ) -> None:
     other = days_ago(with_ranges(figures, lambda row: {"mean": row.mean + 30}), -1)
     if "measures" in changes:
         changes = {"measures": with_ranges(figures, lambda _: {"mean": math.nan}).measures}
-    found = compare(figures, replace(other, **changes))
+    found = compare_ranges(figures, replace(other, **changes))
     assert found
     assert all(reason in item.reasons and item.verdict == "not_judged" for item in found)
 
 
-def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionFigures) -> None:
+def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionResults) -> None:
     sessions = [days_ago(figures, day) for day in (21, 14, 7, 0)]
     sessions[2] = replace(sessions[2], quality=replace(sessions[2].quality, distance_m=0.9))
-    course = progress(sessions[::-1])
-    assert [point.fair for point in course.points] == [True, True, False, True]
+    course = compute_progress(sessions[::-1])
+    assert [point.is_comparable for point in course.points] == [True, True, False, True]
     assert course.points[2].reasons == ("distance",)
-    assert course.first is sessions[0]
-    assert course.last is sessions[3]
+    assert course.reference is sessions[0]
+    assert course.current is sessions[3]
 
 
 @pytest.mark.parametrize(
@@ -125,59 +135,59 @@ def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures:
     [(0.099, 4.9, ()), (-0.101, 0.0, ("distance",)), (0.0, 5.1, ("start_angle",)), (0.0, -5.1, ("start_angle",))],
 )
 def test_ten_centimetres_or_five_degrees_are_another_set_up(
-    figures: SessionFigures, farther_m: float, turned_deg: float, reasons: tuple[str, ...]
+    figures: SessionResults, farther_m: float, turned_deg: float, reasons: tuple[str, ...]
 ) -> None:
     quality = replace(figures.quality, distance_m=figures.quality.distance_m + farther_m)
     other = replace(figures, quality=quality, start_angles_deg=figures.start_angles_deg + np.array([0, turned_deg, 0]))
-    assert unfair_reasons(figures, other) == reasons
+    assert incomparable_reasons(figures, other) == reasons
 
 
 @pytest.mark.parametrize("reason", ["forearm_moved", "doubtful", "not_counted", "simulated", "distance"])
 @pytest.mark.parametrize("which", ["before", "after"])
-def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures, reason: str, which: str) -> None:
+def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionResults, reason: str, which: str) -> None:
     quality = figures.quality
     unfair = {
-        "forearm_moved": {"quality": replace(quality, forearm_mm=25.0)},
+        "forearm_moved": {"quality": replace(quality, forearm_movement_mm=25.0)},
         "doubtful": {"findings": (CalibrationFinding("swapped", ("MCP2", "MCP3")),)},
         "not_counted": {"not_counted": True},
         "simulated": {"simulated": True},
         "distance": {"quality": replace(quality, distance_m=quality.distance_m + 0.2)},
     }[reason]
     before, after = figures, days_ago(with_ranges(figures, lambda row: {"mean": row.mean + 30}), -1)
-    assert {item.verdict for item in compare(before, after)} == {"improved"}
-    headline = progress([before, after]).headline
-    assert (headline.after.what, headline.verdict) == ("arc", "improved"), "the answer is about the arc first"
+    assert {item.verdict for item in compare_ranges(before, after)} == {"improved"}
+    headline = compute_progress([before, after]).main_comparison
+    assert (headline.after.quantity, headline.verdict) == ("arc", "improved"), "the answer is about the arc first"
     spoilt = (replace(before, **unfair), after) if which == "before" else (before, replace(after, **unfair))
-    changes = compare(*spoilt)
+    changes = compare_ranges(*spoilt)
     assert {item.verdict for item in changes} == {"not_judged"}
     assert all(reason in item.reasons for item in changes)
-    assert not progress(spoilt).comparisons
+    assert not compute_progress(spoilt).comparisons
 
 
-def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figures: SessionFigures) -> None:
+def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figures: SessionResults) -> None:
     near = replace(figures, findings=(CalibrationFinding("distance", (), 0.5, 0.6, "m"),))
-    assert unfair_reasons(figures, near) == ()
+    assert incomparable_reasons(figures, near) == ()
 
 
-def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionFigures) -> None:
+def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionResults) -> None:
     sessions = [days_ago(figures, day, simulated=True) for day in (9, 6, 3, 0)]
-    assert all(point.fair for point in progress(sessions).points)
+    assert all(point.is_comparable for point in compute_progress(sessions).points)
     sessions[2] = replace(sessions[2], simulated=False)
-    course = progress(sessions)
-    assert [point.fair for point in course.points] == [False, False, True, False]
-    assert course.first is sessions[2]
-    assert previous_of(sessions, sessions[3]) is sessions[1]
+    course = compute_progress(sessions)
+    assert [point.is_comparable for point in course.points] == [False, False, True, False]
+    assert course.reference is sessions[2]
+    assert find_previous(sessions, sessions[3]) is sessions[1]
 
 
 def test_source_targets_and_the_calibrations_findings_stay_with_the_figures() -> None:
     stored = session()
 
-    def with_parameters(content: dict[str, object]) -> SessionFigures:
+    def with_parameters(content: dict[str, object]) -> SessionResults:
         header = replace(stored.header, parameters=json.dumps(content))
         return figures_once(replace(stored, header=header))
 
-    assert with_parameters({"source": {"simulated": "yes"}}).simulated
-    assert not with_parameters({"source": {"format": "tum"}}).simulated
+    assert with_parameters({"source": {"simulated": "yes"}}).is_simulated
+    assert not with_parameters({"source": {"format": "tum"}}).is_simulated
     assert with_parameters({"set_up": {"targets_deg": [40.0, None]}}).targets_deg == pytest.approx(
         (40.0, np.nan), nan_ok=True
     )
@@ -188,11 +198,11 @@ def test_source_targets_and_the_calibrations_findings_stay_with_the_figures() ->
     assert figures_once(stored).findings == (doubted,)
 
 
-def test_previous_and_other_hand_are_the_last_of_their_kind_that_count(figures: SessionFigures) -> None:
+def test_previous_and_other_hand_are_the_last_of_their_kind_that_count(figures: SessionResults) -> None:
     history = [days_ago(figures, days) for days in (9, 5, -1)]
     history += [days_ago(figures, days, side="left") for days in (3, 2)] + [figures]
-    assert (previous_of(history, figures).session_id, other_hand_of(history, figures).session_id) == ("5", "2")
-    assert previous_of([history[0], replace(history[1], not_counted=True)], figures) is history[0]
+    assert (find_previous(history, figures).session_id, find_other_hand(history, figures).session_id) == ("5", "2")
+    assert find_previous([history[0], replace(history[1], not_counted=True)], figures) is history[0]
 
 
 def test_pain_and_notes_come_from_the_events() -> None:
@@ -201,14 +211,14 @@ def test_pain_and_notes_come_from_the_events() -> None:
         events=(Event(start + 1, "pain", "2"), Event(start + 5, "note", "rest"), Event(start + 9, "pain", "4"))
     )
     figures = figures_once(stored)
-    assert figures.pain == (2, 4)
-    assert figures.pain_s == pytest.approx((1.0, 9.0))
+    assert figures.pain_scores == (2, 4)
+    assert figures.pain_times_s == pytest.approx((1.0, 9.0))
     assert figures.notes == ((pytest.approx(5.0), "rest"),)
 
 
 def test_usual_values_stand_beside_what_their_source_covers_and_name_it() -> None:
     def ends(movement: Movement, angle: int, exercise: str) -> tuple[float, float] | None:
-        norm = wrist_norm(movement, angle, exercise_named(exercise))
+        norm = wrist_norm(movement, angle, get_exercise(exercise))
         return None if norm is None else (norm.low_deg, norm.high_deg)
 
     assert ends("arc", 1, "WRIST_FE") == (120.0, 150.0)
@@ -216,28 +226,28 @@ def test_usual_values_stand_beside_what_their_source_covers_and_name_it() -> Non
     assert ends("pronation", 2, "FOREARM_PS") == ends("supination", 2, "FOREARM_PS") == (80.0, 80.0)
     assert ends("flexion", 1, "WRIST_RU") is None, "nobody asked for all of it"
     assert ends("flexion", 1, "FREE") is None
-    assert total_norm(3, exercise_named("FIST_HOOK")) is None, "the source speaks of a fist"
-    for norm in (wrist_norm("flexion", 1, exercise_named("WRIST_FE")), total_norm(3, exercise_named("FIST_COMPOSITE"))):
+    assert total_norm(3, get_exercise("FIST_HOOK")) is None, "the source speaks of a fist"
+    for norm in (wrist_norm("flexion", 1, get_exercise("WRIST_FE")), total_norm(3, get_exercise("FIST_COMPOSITE"))):
         assert norm.source in norm.sentence()
         assert "adults" in norm.sentence()
         assert "women and men" in norm.sentence()
 
 
 def test_the_digest_tells_two_measurements_apart() -> None:
-    assert data_digest(session()) == data_digest(session())
-    assert data_digest(session()) != data_digest(session(scale=0.999))
+    assert compute_data_digest(session()) == compute_data_digest(session())
+    assert compute_data_digest(session()) != compute_data_digest(session(scale=0.999))
 
 
-def test_shown_differences_agree_with_the_shown_means(figures: SessionFigures) -> None:
+def test_shown_differences_agree_with_the_shown_means(figures: SessionResults) -> None:
     for step in np.linspace(-20, 20, 81):
         after = with_ranges(figures, lambda row, step=float(step): {"mean": row.mean + step})  # type: ignore[misc]
-        for item in compare(figures, after):
-            assert item.shown_difference_deg == math.floor(item.after.mean + 0.5) - math.floor(item.before.mean + 0.5)
+        for item in compare_ranges(figures, after):
+            assert item.display_difference_deg == math.floor(item.after.mean + 0.5) - math.floor(item.before.mean + 0.5)
 
 
 def test_the_best_is_the_quickest_and_the_smoothest() -> None:
     figures = figures_once(session())
-    speed = {row.what: row for row in figures.group("speed")}
+    speed = {row.quantity: row for row in figures.measures_in_group("speed")}
     assert speed["movement time"].count >= 3
     assert speed["movement time"].best < speed["movement time"].mean
     assert speed["mean speed"].best > speed["mean speed"].mean
@@ -252,32 +262,32 @@ def test_of_the_other_hand_too_a_recording_counts_by_its_newest_result() -> None
     again = replace(first, session_id="two", created=NOW)
     assert first.recording_id == again.recording_id
     for history in ([first, again], [again, first]):
-        assert other_hand_of(history, mine) is again
+        assert find_other_hand(history, mine) is again
 
 
 @pytest.mark.parametrize("fps", [5.0, 1.5])
 def test_a_session_of_few_frames_a_second_has_its_figures(fps: float) -> None:
     stored = session()
     few = replace(stored, timestamp_s=stored.timestamp_s[0] + np.arange(len(stored)) / fps, repetitions=())
-    found = session_figures(few)
-    assert {row.what for row in found.wrist_ranges} >= {"flexion", "extension", "arc"}
+    found = compute_session_results(few)
+    assert {row.quantity for row in found.wrist_ranges} >= {"flexion", "extension", "arc"}
     assert found.quality.frames == len(stored)
-    assert not [one.what for one in found.group("task") if one.unknown == "failed"]
+    assert not [one.quantity for one in found.measures_in_group("task") if one.unknown_reason == "failed"]
 
 
 @pytest.mark.parametrize(
     "broken", ["further_measures.held_tremor", "figures.measure_still_angles", "figures.quality_of"]
 )
 def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
-    broken: str, figures: SessionFigures, monkeypatch: pytest.MonkeyPatch
+    broken: str, figures: SessionResults, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:
         raise ZeroDivisionError
 
     monkeypatch.setattr(f"carpus.core.results.{broken}", fail)
-    found = session_figures(session())
+    found = compute_session_results(session())
     assert repr(found.wrist_ranges) == repr(figures.wrist_ranges), "by repr: a NaN equals no NaN"
-    assert repr(found.group("speed")) == repr(figures.group("speed"))
-    (missing,) = (one for one in found.group("task") if one.unknown == "failed")
+    assert repr(found.measures_in_group("speed")) == repr(figures.measures_in_group("speed"))
+    (missing,) = (one for one in found.measures_in_group("task") if one.unknown_reason == "failed")
     assert value_words(missing) == "not available: it could not be computed"
     assert measure_name(missing)[0].isupper()

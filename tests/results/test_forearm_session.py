@@ -9,15 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.hand.exercises import exercise_named
-from carpus.core.measures.by_hand import measure_named
-from carpus.core.results.figures import session_figures
-from carpus.core.results.measures_table import measure_rows
-from carpus.core.results.motion_curves import seen_angle
+from carpus.core.hand.exercises import get_exercise
+from carpus.core.measures.by_hand import find_manual_measure
+from carpus.core.results.figures import compute_session_results
+from carpus.core.results.measures_table import build_measure_rows
+from carpus.core.results.motion_curves import visible_angle_deg
 from carpus.core.results.norms import wrist_norm
-from carpus.core.results.ranges import STILL
-from carpus.core.results.repetition_rows import repetitions_of
-from carpus.core.results.seen import session_curves
+from carpus.core.results.ranges import LARGEST_SIZE
+from carpus.core.results.repetition_rows import compute_repetitions
+from carpus.core.results.seen import wrist_curves
 from carpus.core.session.values import Session
 from tests.ui.fakes import figures_once, session
 
@@ -30,35 +30,35 @@ def turned(side: str) -> Session:
 def test_ranges_of_a_forearm_count_from_thumb_up_on_both_hands(side: str) -> None:
     stored = turned(side)
     lowest, highest = np.degrees([stored.motion.angles_rad[:, 2].min(), stored.motion.angles_rad[:, 2].max()])
-    rows = {row.what: row for row in figures_once(stored).wrist_ranges}
+    rows = {row.quantity: row for row in figures_once(stored).wrist_ranges}
     assert rows["pronation"].mean == pytest.approx(90.0 - lowest, abs=4.0)
     assert rows["supination"].mean == pytest.approx(highest - 90.0, abs=4.0)
     assert rows["arc"].mean == pytest.approx(highest - lowest, abs=4.0)
     assert 90.0 < rows["pronation"].mean < 100.0
-    drawn = session_curves(stored).angles_deg[:, 2]
+    drawn = wrist_curves(stored).angles_deg[:, 2]
     assert drawn == pytest.approx(np.degrees(stored.motion.angles_rad[:, 2]) - 90.0)
-    assert np.nanmax(seen_angle(stored, "pronosupination")) == pytest.approx(highest - 90.0, abs=4.0)
+    assert np.nanmax(visible_angle_deg(stored, "pronosupination")) == pytest.approx(highest - 90.0, abs=4.0)
 
 
 def test_what_is_measured_by_hand_stands_beside_the_same_angle() -> None:
     """A therapist who reads 94 degrees of pronation and Carpus mean the same pose."""
     figures = figures_once(turned("right"))
-    row = figures.find(*(measure_named("PRONATION").figure or ("", "")))
+    row = figures.find(*(find_manual_measure("PRONATION").session_measure or ("", "")))
     assert row is not None
     norm = wrist_norm("pronation", 2, figures.exercise)
     assert norm is not None
-    assert norm.low_deg <= row.mean <= measure_named("PRONATION").most
+    assert norm.low_deg <= row.mean <= find_manual_measure("PRONATION").max_value
 
 
 def test_the_table_of_repetitions_keeps_the_angle_of_the_file() -> None:
     stored = turned("right")
-    found = repetitions_of(stored)
+    found = compute_repetitions(stored)
     assert found.angle == "pronosupination"
     highest = float(stored.motion.angles_rad[:, 2].max())
     assert [row.angle_rad for row in found.rows if row.counted] == pytest.approx(
         [highest] * sum(row.counted for row in found.rows), abs=math.radians(4)
     )
-    said = {row.measure: row.positive for row in measure_rows(figures_once(stored), "x")}
+    said = {row.measure: row.positive for row in build_measure_rows(figures_once(stored), "x")}
     assert said["supination"] == "supinated, 0 is thumb up"
 
 
@@ -71,15 +71,17 @@ def test_beside_another_movement_a_rotation_is_none_of_the_forearm() -> None:
         stored, motion=replace(stored.motion, angles_rad=angles),
         calibration=replace(stored.calibration, start_angles_rad=start),
     )  # fmt: skip
-    still, other = (one.find("pronosupination", STILL) for one in (session_figures(began), figures_once(stored)))
+    still, other = (
+        one.find("pronosupination", LARGEST_SIZE) for one in (compute_session_results(began), figures_once(stored))
+    )
     assert still.mean == pytest.approx(other.mean)
     free = replace(stored, header=replace(stored.header, exercise="FIST_COMPOSITE"))
-    assert {row.what for row in session_figures(free).wrist_ranges if row.angle == 2} == {"arc"}
+    assert {row.quantity for row in compute_session_results(free).wrist_ranges if row.wrist_angle == 2} == {"arc"}
 
 
 def test_targets_of_an_older_session_are_those_of_palm_down_converted() -> None:
     stored = turned("right")
     parameters = json.dumps({"set_up": {"targets_deg": [60.0, None]}})
-    aimed = session_figures(replace(stored, header=replace(stored.header, parameters=parameters)))
+    aimed = compute_session_results(replace(stored, header=replace(stored.header, parameters=parameters)))
     assert aimed.targets_deg[0] == -30.0
-    assert exercise_named("FOREARM_PS") == aimed.exercise
+    assert get_exercise("FOREARM_PS") == aimed.exercise

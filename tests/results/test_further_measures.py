@@ -8,26 +8,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.further_measures import _distance_sd_m, session_reaches
-from carpus.core.results.measure import Measure, measure_values
-from carpus.core.results.measures_table import measure_rows
-from carpus.core.results.norms import SHARE_OF_OTHER, grade_share, total_shares
-from carpus.ui.words.further import further_table, main_words, measure_name, short_words
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.further_measures import _thumb_distance_sd_m, find_session_reaches
+from carpus.core.results.measure import Measure, summarise_values
+from carpus.core.results.measures_table import build_measure_rows
+from carpus.core.results.norms import SHARE_OF_OTHER, compute_total_shares, grade_share
+from carpus.ui.words.further import measure_name, short_task_summary, task_summary, task_table
 from carpus.ui.words.ranges import range_table
-from carpus.ui.words.session import method
-from carpus.ui.words.table import cell_words
+from carpus.ui.words.session import method_words
+from carpus.ui.words.table import cell_text
 from tests.ui.fakes import figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 
-def named(figures: SessionFigures, name: str, of: str) -> Measure:
-    return next(item for item in figures.group("task") if item.key == (of, name))
+def named(figures: SessionResults, name: str, of: str) -> Measure:
+    return next(item for item in figures.measures_in_group("task") if item.key == (of, name))
 
 
-def without_words(figures: SessionFigures) -> set[str]:
+def without_words(figures: SessionResults) -> set[str]:
     """Measures that the report calls by the name they have in files."""
-    return {item.what for item in figures.group("task") if item.what in measure_name(item)}
+    return {item.quantity for item in figures.measures_in_group("task") if item.quantity in measure_name(item)}
 
 
 def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_fist() -> None:
@@ -41,10 +41,14 @@ def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_f
     assert named(figures, "peak speed", "reach").mean > 200.0
     aperture = np.linalg.norm(np.diff(made.motion.joint_position_m[:, [4, 8]], axis=1)[:, 0], axis=1)
     assert named(figures, "largest aperture", "TIP1-TIP2").mean <= 1e3 * float(np.nanmax(aperture)) + 1e-6
-    assert not any(row.of.startswith("TAM") for row in figures.joint_ranges)
-    assert "TAM" not in method(figures, 21, compared=False)
-    assert {row.measure for row in measure_rows(figures, "s")} >= {"straightness", "largest aperture", "movement time"}
-    assert "trained angle" not in {row.of for row in measure_rows(figures, "s")}, "by its name, as in every table"
+    assert not any(row.subject.startswith("TAM") for row in figures.joint_ranges)
+    assert "TAM" not in method_words(figures, 21, compared=False)
+    assert {row.measure for row in build_measure_rows(figures, "s")} >= {
+        "straightness",
+        "largest aperture",
+        "movement time",
+    }
+    assert "trained angle" not in {row.of for row in build_measure_rows(figures, "s")}, "by its name, as in every table"
 
 
 def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> None:
@@ -100,16 +104,16 @@ def test_a_hidden_thumb_is_coherent_until_its_pose_falls_apart() -> None:
 def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
     figures = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist"))
     assert without_words(figures) == set()
-    shares = figures.group("share")
-    assert {share.of for share in shares} <= {f"TAM{finger}" for finger in (1, 2, 3, 4, 5)}
+    shares = figures.measures_in_group("share")
+    assert {share.subject for share in shares} <= {f"TAM{finger}" for finger in (1, 2, 3, 4, 5)}
     for share in shares:
-        row = figures.find(share.of, "arc")
-        assert share.mean == row.mean / (140.0 if share.of == "TAM1" else 260.0)
-        assert (grade_share(share) is None) == row.at_least
+        row = figures.find(share.subject, "arc")
+        assert share.mean == row.mean / (140.0 if share.subject == "TAM1" else 260.0)
+        assert (grade_share(share) is None) == row.is_lower_bound
     other = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
-    beside = total_shares(figures.joint_ranges, figures.exercise, other.joint_ranges)
-    assert all(share.what == SHARE_OF_OTHER for share in beside)
-    assert all(share.mean > 1.0 for share in beside if share.of != "TAM1"), "of a hand that bends less"
+    beside = compute_total_shares(figures.joint_ranges, figures.exercise, other.joint_ranges)
+    assert all(share.quantity == SHARE_OF_OTHER for share in beside)
+    assert all(share.mean > 1.0 for share in beside if share.subject != "TAM1"), "of a hand that bends less"
     assert named(figures, "co-flexion", "PIP2_flexion, PIP3_flexion").mean > 0.5
 
 
@@ -124,21 +128,21 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
     figures = figures_once(replace(made, motion=replace(motion, angles_rad=angles)))
     row = figures.find("flexion", "extension")
     assert -24.0 < row.mean < -12.0
-    shown = {cell_words(line[0]): line[1] for line in range_table(figures, None, None).rows}
+    shown = {cell_text(line[0]): line[1] for line in range_table(figures, None, None).rows}
     assert "Extension deficit" in shown
     assert "-" not in shown["Extension deficit"]
     assert "\N{MINUS SIGN}" not in shown["Extension deficit"]
 
 
 def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -> None:
-    lost = measure_values("task", "reach", "smoothness", "SPARC", (math.nan, math.nan), unknown="too_slow")
-    gone = measure_values("task", "return", "smoothness", "SPARC", (math.nan,))
+    lost = summarise_values("task", "reach", "smoothness", "SPARC", (math.nan, math.nan), unknown_reason="too_slow")
+    gone = summarise_values("task", "return", "smoothness", "SPARC", (math.nan,))
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     figures = replace(figures, measures=(lost, gone))
-    (row,) = further_table(figures).rows
+    (row,) = task_table(figures).rows
     assert row[:2] == ("Smoothness (SPARC), out", "too slow to judge")
     assert not any(row[2:])
-    row = next(row for row in measure_rows(figures, "s") if (row.measure, row.of) == ("smoothness", "reach"))
+    row = next(row for row in build_measure_rows(figures, "s") if (row.measure, row.of) == ("smoothness", "reach"))
     assert row.count == 0
     assert math.isnan(row.mean)
 
@@ -150,15 +154,17 @@ def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
     for k in (2, 3, 4, 5):
         for name in ("touches", "least distance"):
             unseen = named(figures, name, f"TIP1-TIP{k}")
-            assert unseen.unknown == "hidden"
+            assert unseen.unknown_reason == "hidden"
             assert math.isnan(unseen.mean)
-            assert named(plain, name, f"TIP1-TIP{k}").unknown == ""
-    assert main_words(figures) == "Whether the thumb touched the finger tips was hidden from the camera"
-    assert short_words(figures) == "Touches hidden"
+            assert named(plain, name, f"TIP1-TIP{k}").unknown_reason == ""
+    assert task_summary(figures) == "Whether the thumb touched the finger tips was hidden from the camera"
+    assert short_task_summary(figures) == "Touches hidden"
     assert not any(
-        math.isfinite(item.mean) for item in figures.group("task") if item.of in ("thumb across", "thumb back")
+        math.isfinite(item.mean)
+        for item in figures.measures_in_group("task")
+        if item.subject in ("thumb across", "thumb back")
     )
-    rows = [row[place : place + 2] for row in further_table(figures).rows for place in (0, 3)]
+    rows = [row[place : place + 2] for row in task_table(figures).rows for place in (0, 3)]
     said = [today for name, today in rows if "across" in str(name)]
     assert said == ["hidden from the camera"], "one line for all that is not known of the ways"
 
@@ -170,7 +176,7 @@ def test_hidden_tips_may_have_touched_within_two_standard_deviations(sds: float,
     away = tips[:, 4] - tips[:, 8]
     tips[:, 4] = tips[:, 8] + 0.030 * away / np.linalg.norm(away, axis=1, keepdims=True)
     apart = replace(made.motion, joint_position_m=tips)
-    scale = (0.030 - 0.015) / sds / _distance_sd_m(replace(made, motion=apart), 1)
+    scale = (0.030 - 0.015) / sds / _thumb_distance_sd_m(replace(made, motion=apart), 1)
     unsure = replace(apart, joint_angles_sd_rad=apart.joint_angles_sd_rad * scale[:, None])
     found = named(figures_once(replace(made, motion=unsure)), "touches", "TIP1-TIP2")
     assert found.mean == pytest.approx(touches, nan_ok=True)
@@ -179,7 +185,7 @@ def test_hidden_tips_may_have_touched_within_two_standard_deviations(sds: float,
 def test_a_reach_that_goes_out_of_sight_half_way_has_no_time() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     plain = figures_once(made)
-    times = session_reaches(made, np.ones(len(made), dtype=bool))
+    times = find_session_reaches(made, np.ones(len(made), dtype=bool))
     middle = 0.5 * (times[0].start_s + times[0].end_s)
     gone = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(middle, middle + 0.5)])
     figures = figures_once(gone)

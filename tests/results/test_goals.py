@@ -9,30 +9,30 @@ from functools import cache
 
 import pytest
 
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import proposals
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.progress import propose_goals
 from tests.results.days import with_ranges
 from tests.ui.fakes import NOW, figures_once, session
 
-FLEXION = exercise_named("WRIST_FE")
+FLEXION = get_exercise("WRIST_FE")
 
 
 @cache
-def base() -> SessionFigures:
+def base() -> SessionResults:
     return figures_once(session(seconds=26.0))
 
 
-def of_day(day: int, mean_deg: float, **changes: object) -> SessionFigures:
+def of_day(day: int, mean_deg: float, **changes: object) -> SessionResults:
     """The same session on another day, with another mean of flexion."""
-    shown = with_ranges(base(), lambda row: {"mean": mean_deg} if row.what == "flexion" else {})
+    shown = with_ranges(base(), lambda row: {"mean": mean_deg} if row.quantity == "flexion" else {})
     return replace(shown, when=NOW + timedelta(days=day), **changes)  # type: ignore[arg-type]
 
 
-def flexion(history: Sequence[SessionFigures]) -> tuple[float, float, int, float]:
-    found = next(one for one in proposals(history, FLEXION, "right", "wrist6") if one.direction == 1)
-    return found.goal_deg, found.told_from_deg, found.sessions, found.basis_deg
+def flexion(history: Sequence[SessionResults]) -> tuple[float, float, int, float]:
+    found = next(one for one in propose_goals(history, FLEXION, "right", "wrist6") if one.direction == 1)
+    return found.goal_deg, found.detectable_from_deg, found.sessions, found.basis_deg
 
 
 def test_the_goal_is_a_small_step_above_the_mean_of_the_last_three_sessions_that_compare() -> None:
@@ -41,8 +41,8 @@ def test_the_goal_is_a_small_step_above_the_mean_of_the_last_three_sessions_that
     assert flexion([*history, of_day(20, 80.0, not_counted=True)]) == flexion(history)
     assert flexion([*history, of_day(20, 80.0, side="left")]) == flexion(history)
     assert flexion([of_day(0, 88.0)])[0] == 90.0
-    assert not [one for one in proposals([of_day(0, 96.0)], FLEXION, "right", "wrist6") if one.direction == 1]
-    assert proposals([], FLEXION, "right", "wrist6") == ()
+    assert not [one for one in propose_goals([of_day(0, 96.0)], FLEXION, "right", "wrist6") if one.direction == 1]
+    assert propose_goals([], FLEXION, "right", "wrist6") == ()
 
 
 def test_it_is_never_above_what_the_clinic_own_measurement_error_can_tell() -> None:
@@ -55,4 +55,4 @@ def test_it_is_never_above_what_the_clinic_own_measurement_error_can_tell() -> N
 def test_what_the_camera_did_not_see_to_its_end_proposes_nothing() -> None:
     one = of_day(0, 40.0)
     hidden = with_ranges(one, lambda _: {"at_least": True})
-    assert proposals([hidden], FLEXION, "right", "wrist6") == ()
+    assert propose_goals([hidden], FLEXION, "right", "wrist6") == ()

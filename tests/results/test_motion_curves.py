@@ -7,21 +7,21 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from carpus.core.results.motion_curves import motion_columns, motion_curves
+from carpus.core.results.motion_curves import compute_motion_curves, motion_columns
 from tests.ui.fakes import session
 from tests.ui.hand_fakes import hand_session
 
 
 def test_curves_and_table_are_those_of_the_session() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(5.0, 6.0)])
-    curves, motion = motion_curves(made), made.motion
+    curves, motion = compute_motion_curves(made), made.motion
     table = {column.name: column.values for column in motion_columns(made, made.motion)}
     tip = curves.joint_mm[:, curves.joint_names.index("TIP3")]
     stored_tip_m = motion.joint_position_m[:, made.header.protocol.markers.index("TIP3")]
     for drawn, stored, name in (
         (curves.position_mm, 1e3 * motion.position_m, "position_{}_mm"),
         (curves.velocity_mm_s, 1e3 * motion.velocity_m_s, "velocity_{}_mm_s"),
-        (curves.turning_deg_s, np.degrees(motion.angular_velocity_rad_s), "angular_velocity_{}_deg_s"),
+        (curves.angular_velocity_deg_s, np.degrees(motion.angular_velocity_rad_s), "angular_velocity_{}_deg_s"),
         (tip, 1e3 * stored_tip_m, "joint_TIP3_{}_mm"),
     ):
         told = np.column_stack([table[name.format(letter)] for letter in "xyz"])
@@ -38,7 +38,7 @@ def test_curves_and_table_are_those_of_the_session() -> None:
 def test_the_axes_are_those_of_the_hand_in_the_frame_of_the_places() -> None:
     made = session()
     turn = np.tile([0.0, 0.0, 0.2], (len(made), 1))
-    curves = motion_curves(replace(made, motion=replace(made.motion, w0_turn_rad=turn)))
+    curves = compute_motion_curves(replace(made, motion=replace(made.motion, w0_turn_rad=turn)))
     angle = np.arctan2(curves.axes[0, 1, 0], curves.axes[0, 0, 0])
     plain = np.arctan2(made.motion.rotation_w2_w0[0, 1, 0], made.motion.rotation_w2_w0[0, 0, 0])
     assert abs(angle - plain - 0.2) < 1e-3

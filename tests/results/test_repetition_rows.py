@@ -14,16 +14,16 @@ import pytest
 from numpy.lib.recfunctions import repack_fields
 
 from carpus.core.measures.motion_range import motion_range
-from carpus.core.measures.repetitions import FoundRepetitions, Repetition, Stroke, find_repetitions
-from carpus.core.measures.signals import even_signal
-from carpus.core.results.figures import session_figures
+from carpus.core.measures.repetitions import Repetition, RepetitionAnalysis, Stroke, find_repetitions
+from carpus.core.measures.signals import resample_evenly
+from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import (
     HIDDEN,
     RepetitionChoices,
-    Trained,
-    measured_repetitions,
-    on_clock,
-    repetitions_of,
+    TrainedAngle,
+    compute_repetitions,
+    measure_repetitions,
+    with_time_offset,
 )
 from carpus.core.results.session_lines import repetition_lines
 from carpus.core.session.reader import read_session, verify
@@ -49,7 +49,7 @@ def test_a_stop_is_in_the_table_of_the_file(path: Path, session: Session) -> Non
         assert table.attrs["angle"] == "flexion"
         units = dict(zip(table.dtype.names, table.attrs["column_units"], strict=True))
         rows = table[()]
-    assert verify(path).sealed
+    assert verify(path).has_checksum
     assert {units[name] for name in ("start", "peak", "end", "pause_time")} == {"s"}
     assert (units["arc"], units["peak_speed"]) == ("rad", "rad/s")
     assert len(rows) == 3
@@ -73,13 +73,13 @@ def test_a_stop_is_in_the_table_of_the_file(path: Path, session: Session) -> Non
 @pytest.mark.parametrize("which", ["stopping", "both sides"])
 def test_file_figures_and_recount_are_the_same(which: str, session: Session) -> None:
     chosen = session if which == "stopping" else simulated()
-    found = repetitions_of(chosen)
-    shown = session_figures(chosen).repetitions
+    found = compute_repetitions(chosen)
+    shown = compute_session_results(chosen).repetitions
     start_s = float(chosen.timestamp_s[0])
     assert len(found.rows) == len(shown) >= 3
     for row, one in zip(found.rows, shown, strict=True):
         assert one.row is not None
-        assert astuple(on_clock(one.row, start_s)) == pytest.approx(astuple(row), nan_ok=True)
+        assert astuple(with_time_offset(one.row, start_s)) == pytest.approx(astuple(row), nan_ok=True)
         assert (one.start_s + start_s, one.end_s + start_s) == pytest.approx((row.start_s, row.end_s))
         assert row.start_s < row.peak_s < row.end_s
     if which == "stopping":
@@ -89,7 +89,7 @@ def test_file_figures_and_recount_are_the_same(which: str, session: Session) -> 
 
 
 def test_choices_of_a_person_change_what_is_shown_and_not_the_file(session: Session) -> None:
-    figures = session_figures(session, RepetitionChoices({1: "pain"}, {2: (11.0, 15.0)}))
+    figures = compute_session_results(session, RepetitionChoices({1: "pain"}, {2: (11.0, 15.0)}))
     rows = [one.row for one in figures.repetitions]
     assert [row.reason for row in rows if row] == ["", "pain", ""]
     assert [row.counted for row in rows if row] == [True, False, True]
@@ -101,13 +101,13 @@ def test_a_repetition_that_was_hardly_seen_says_so(session: Session) -> None:
     time_s = session.timestamp_s - session.timestamp_s[0]
     status = np.asarray(session.status).copy()
     status[(time_s > 6.5) & (time_s < 7.4) | (time_s > 7.6) & (time_s < 8.5)] = 1
-    rows = repetitions_of(replace(session, status=status)).rows
+    rows = compute_repetitions(replace(session, status=status)).rows
     assert [row.reason for row in rows] == ["", HIDDEN, ""]
     assert [row.counted for row in rows] == [True, False, True]
 
 
 def test_the_summary_has_a_line_for_each(session: Session) -> None:
-    lines = repetition_lines(session_figures(session, RepetitionChoices({1: "pain"})))
+    lines = repetition_lines(compute_session_results(session, RepetitionChoices({1: "pain"})))
     assert len(lines) == 3
     assert "arc 50.0 deg" in lines[0]
     assert "SPARC -2.5" in lines[0]
@@ -115,13 +115,13 @@ def test_the_summary_has_a_line_for_each(session: Session) -> None:
     assert "not counted: pain" in lines[1]
 
 
-def trained_in(knots_s: list[float], knots_deg: list[float], found: FoundRepetitions | None = None) -> Trained:
+def trained_in(knots_s: list[float], knots_deg: list[float], found: RepetitionAnalysis | None = None) -> TrainedAngle:
     """Straight ways between knots, with noise."""
     time_s = np.arange(0.0, knots_s[-1], 1 / 60)
     noise_deg = np.random.default_rng(4).normal(0.0, 0.2, len(time_s))
-    angle = even_signal(time_s, np.radians(np.interp(time_s, knots_s, knots_deg) + noise_deg))
+    angle = resample_evenly(time_s, np.radians(np.interp(time_s, knots_s, knots_deg) + noise_deg))
     sd = replace(angle, value=np.full(len(angle.value), 0.01))
-    return Trained(
+    return TrainedAngle(
         "flexion", found or find_repetitions(angle), angle, sd, angle, False, lambda some: motion_range(angle, sd, some)
     )
 
@@ -131,7 +131,7 @@ def test_motion_to_both_sides_lies_within_its_repetitions() -> None:
     knots_s = np.cumsum([0.0, 1.0, *[0.8, 0.6] * 6, 0.8, 2.0])
     knots_deg = [0.0, 0.0, *[side for side in (40.0, -40.0) * 3 for _ in range(2)], 0.0, 0.0]
     trained = trained_in(knots_s.tolist(), knots_deg)
-    rows = [one.row for one in measured_repetitions(trained, RepetitionChoices())]
+    rows = [one.row for one in measure_repetitions(trained, RepetitionChoices())]
     assert len(rows) == 3
     for k, row in enumerate(rows):
         high_s, low_s = 2.1 + 2.8 * k, 3.5 + 2.8 * k
@@ -146,10 +146,10 @@ def test_motion_to_both_sides_lies_within_its_repetitions() -> None:
 def test_an_arc_that_may_have_been_larger_is_a_lower_bound() -> None:
     knots_deg = [0.0, 0.0, 50.0, 50.0, 0.0, 0.0, 50.0, 50.0, 0.0, 0.0]
     trained = trained_in([0.0, 1.0, 2.0, 2.5, 3.5, 4.0, 5.0, 5.5, 6.5, 8.0], knots_deg)
-    hidden = (trained.seen.time_s > 2.05) & (trained.seen.time_s < 2.45)
-    seen = even_signal(trained.seen.time_s, trained.seen.value, ~hidden)
-    trained = replace(trained, seen=seen, range_of=lambda some: motion_range(seen, trained.seen_sd, some))
-    rows = [one.row for one in measured_repetitions(trained, RepetitionChoices())]
+    hidden = (trained.measured.time_s > 2.05) & (trained.measured.time_s < 2.45)
+    seen = resample_evenly(trained.measured.time_s, trained.measured.value, ~hidden)
+    trained = replace(trained, seen=seen, measure_range=lambda some: motion_range(seen, trained.measured_sd, some))
+    rows = [one.row for one in measure_repetitions(trained, RepetitionChoices())]
     assert [row.at_least for row in rows] == [True, False]
     assert all(row.counted for row in rows)
 
@@ -188,10 +188,10 @@ def test_half_a_repetition_is_listed_and_never_counted(by: str, ends: str) -> No
     if by == "start":
         value = np.concatenate((piece[::-1], still, np.tile(one, 3), still))
     time_s = np.arange(len(value)) / 30.0
-    angle, sd = even_signal(time_s, value), even_signal(time_s, np.full(len(value), 0.01))
+    angle, sd = resample_evenly(time_s, value), resample_evenly(time_s, np.full(len(value), 0.01))
     found = find_repetitions(angle)
-    trained = Trained("flexion", found, angle, sd, angle, False, lambda some: motion_range(angle, sd, some))
-    rows = [each.row for each in measured_repetitions(trained, RepetitionChoices())]
+    trained = TrainedAngle("flexion", found, angle, sd, angle, False, lambda some: motion_range(angle, sd, some))
+    rows = [each.row for each in measure_repetitions(trained, RepetitionChoices())]
     whole = [row for row in rows if row.counted]
     (cut,) = [row for row in rows if not row.counted]
     assert cut.reason == f"cut_by_{by}"
@@ -206,7 +206,7 @@ def test_half_a_repetition_is_listed_and_never_counted(by: str, ends: str) -> No
     edge_s = cut.start_s if by == "start" else cut.end_s - seen_until_s
     assert edge_s == pytest.approx(0.0, abs=1e-6), "to the last picture"
     # Its quickest moment may be in what was not seen.
-    short = [stroke for each in measured_repetitions(trained, RepetitionChoices()) for stroke in each.strokes]
+    short = [stroke for each in measure_repetitions(trained, RepetitionChoices()) for stroke in each.strokes]
     assert all(math.isnan(each.peak_speed_rad_s) or each.arc_rad > math.radians(59.0) for each in short)
 
 
@@ -215,10 +215,10 @@ def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() 
     tracked = replace(trained.tracked, value=np.where(np.abs(trained.tracked.time_s - 8.0) < 0.45, np.nan, 0.3))
     whole = Repetition(5.0, 9.0, 0.55)
     piece = Repetition(1.0, 5.0, 1.0, "cut_by_gap", 5.0)
-    trained = replace(trained, tracked=tracked, found=FoundRepetitions((whole,), (), (piece,)))
+    trained = replace(trained, tracked=tracked, found=RepetitionAnalysis((whole,), (), (piece,)))
 
     def reasons(edges_s: dict[int, tuple[float, float]]) -> list[str]:
-        return [each.row.reason for each in measured_repetitions(trained, RepetitionChoices({}, edges_s))]
+        return [each.row.reason for each in measure_repetitions(trained, RepetitionChoices({}, edges_s))]
 
     assert reasons({}) == ["cut_by_gap", HIDDEN]
     assert reasons({1: (5.0, 7.4)}) == ["cut_by_gap", ""], "what is left was seen"
@@ -227,9 +227,9 @@ def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() 
 
 
 def test_who_comes_back_too_far_has_the_peak_at_the_turn() -> None:
-    whole = FoundRepetitions((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 2.4, True), Stroke(2.4, 5.0, False)))
+    whole = RepetitionAnalysis((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 2.4, True), Stroke(2.4, 5.0, False)))
     trained = trained_in([0.0, 1.0, 2.0, 2.8, 4.4, 5.5], [0.0, 0.0, 50.0, 50.0, -60.0, -60.0], whole)
-    (one,) = measured_repetitions(trained, RepetitionChoices())
+    (one,) = measure_repetitions(trained, RepetitionChoices())
     assert one.row.peak_s == pytest.approx(2.4, abs=0.2)
     assert math.degrees(one.row.angle_rad) == pytest.approx(50.0, abs=1.0)
 
@@ -242,11 +242,11 @@ def rows_of(way_deg: dict[float, float], hidden: tuple[float, float] = (0.0, 0.0
     share = (time_s - knots_s[at]) / np.diff(knots_s)[at]
     value = knots_deg[at] + np.diff(knots_deg)[at] * (10 * share**3 - 15 * share**4 + 6 * share**5)
     seen = ~((time_s > hidden[0]) & (time_s < hidden[1]))
-    angle = even_signal(time_s, np.radians(value), seen)
-    sd = even_signal(time_s, np.full(len(time_s), np.radians(0.3)), seen)
+    angle = resample_evenly(time_s, np.radians(value), seen)
+    sd = resample_evenly(time_s, np.full(len(time_s), np.radians(0.3)), seen)
     found = find_repetitions(angle)
-    trained = Trained("flexion", found, angle, sd, angle, True, lambda some: motion_range(angle, sd, some))
-    return [one.row for one in measured_repetitions(trained, RepetitionChoices())]
+    trained = TrainedAngle("flexion", found, angle, sd, angle, True, lambda some: motion_range(angle, sd, some))
+    return [one.row for one in measure_repetitions(trained, RepetitionChoices())]
 
 
 def test_a_gap_on_the_way_does_not_make_the_rest_part_of_a_repetition() -> None:

@@ -10,11 +10,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.motion_curves import seen_angle
-from carpus.core.results.ranges import finger_keys
-from carpus.core.results.repetition_rows import RepetitionChoices, ShownRepetition
-from carpus.core.results.side_by_side import in_step, ordered, pair_reasons, partner_of, side_by_side
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.motion_curves import visible_angle_deg
+from carpus.core.results.ranges import finger_measure_keys
+from carpus.core.results.repetition_rows import RepetitionChoices, RepetitionResult
+from carpus.core.results.side_by_side import (
+    align_playback,
+    compare_pair,
+    find_partner,
+    order_pair,
+    pair_incomparable_reasons,
+)
 from tests.results.days import days_ago
 from tests.ui.fakes import NOW, figures_once, session
 from tests.ui.hand_fakes import hand_session
@@ -23,11 +29,11 @@ RATE_HZ = 30.0
 lengths = st.lists(st.tuples(st.floats(0.0, 3.0), st.floats(0.4, 8.0)), max_size=6)
 
 
-def repetitions(parts: list[tuple[float, float]], rest_s: float = 1.5) -> tuple[list[ShownRepetition], float]:
+def repetitions(parts: list[tuple[float, float]], rest_s: float = 1.5) -> tuple[list[RepetitionResult], float]:
     """Repetitions with pauses before them, and how long the recording is."""
     at, out = 0.0, []
     for pause_s, length_s in parts:
-        out.append(ShownRepetition(at + pause_s, at + pause_s + length_s, ""))
+        out.append(RepetitionResult(at + pause_s, at + pause_s + length_s, ""))
         at += pause_s + length_s
     return out, at + rest_s
 
@@ -38,12 +44,12 @@ def test_neither_recording_ever_goes_back_and_both_are_played_whole(
     mine: list[tuple[float, float]], other: list[tuple[float, float]]
 ) -> None:
     (first, first_s), (second, second_s) = repetitions(mine), repetitions(other, 2.5)
-    together = in_step(first, second, (first_s, second_s))
+    together = align_playback(first, second, (first_s, second_s))
     assert (np.diff(together.player_s) > 0.0).all()
     assert (np.diff(together.first_s) >= 0.0).all()
     assert (np.diff(together.second_s) >= 0.0).all()
-    assert together.at(0.0) == (0.0, 0.0)
-    assert together.at(together.end_s) == pytest.approx((first_s, second_s))
+    assert together.recording_times(0.0) == (0.0, 0.0)
+    assert together.recording_times(together.end_s) == pytest.approx((first_s, second_s))
     assert len(together.starts_s) == min(len(first), len(second))
 
 
@@ -52,10 +58,10 @@ def test_by_part_both_are_at_the_same_part_of_every_repetition(
     mine: list[tuple[float, float]], other: list[tuple[float, float]], share: float
 ) -> None:
     (first, first_s), (second, second_s) = repetitions(mine), repetitions(other)
-    together = in_step(first, second, (first_s, second_s))
+    together = align_playback(first, second, (first_s, second_s))
     for start_s, a, b in zip(together.starts_s, first, second, strict=False):
         length_s = a.end_s - a.start_s
-        at_first, at_second = together.at(start_s + share * length_s)  # the first runs at its own speed
+        at_first, at_second = together.recording_times(start_s + share * length_s)  # the first runs at its own speed
         assert at_first == pytest.approx(a.start_s + share * length_s)
         assert at_second == pytest.approx(b.start_s + share * (b.end_s - b.start_s))
 
@@ -65,102 +71,108 @@ def test_a_place_in_a_recording_is_found_again(
     mine: list[tuple[float, float]], other: list[tuple[float, float]], share: float
 ) -> None:
     (first, first_s), (second, second_s) = repetitions(mine), repetitions(other)
-    together = in_step(first, second, (first_s, second_s))
-    assert together.at(together.when_first(share * first_s))[0] == pytest.approx(share * first_s, abs=1e-6)
-    assert together.at(together.when_second(share * second_s))[1] == pytest.approx(share * second_s, abs=1e-6)
+    together = align_playback(first, second, (first_s, second_s))
+    assert together.recording_times(together.player_time_of_first(share * first_s))[0] == pytest.approx(
+        share * first_s, abs=1e-6
+    )
+    assert together.recording_times(together.player_time_of_second(share * second_s))[1] == pytest.approx(
+        share * second_s, abs=1e-6
+    )
 
 
 def test_edges_that_a_person_moved_over_each_other_and_an_empty_recording_can_be_played() -> None:
-    crossed = [ShownRepetition(1.0, 4.0, ""), ShownRepetition(3.0, 5.0, "")]
+    crossed = [RepetitionResult(1.0, 4.0, ""), RepetitionResult(3.0, 5.0, "")]
     plain, plain_s = repetitions([(1.0, 2.0), (0.0, 2.0)])
-    together = in_step(crossed, plain, (6.0, plain_s))
+    together = align_playback(crossed, plain, (6.0, plain_s))
     assert (np.diff(together.first_s) >= 0.0).all()
-    assert together.at(together.end_s) == pytest.approx((6.0, plain_s))
-    nothing = in_step([], [], (0.0, 0.0))
-    assert nothing.at(0.0) == nothing.at(nothing.end_s) == (0.0, 0.0)
+    assert together.recording_times(together.end_s) == pytest.approx((6.0, plain_s))
+    nothing = align_playback([], [], (0.0, 0.0))
+    assert nothing.recording_times(0.0) == nothing.recording_times(nothing.end_s) == (0.0, 0.0)
 
 
 # --- what is said ---------------------------------------------------------------------------------------------
 @pytest.fixture(scope="module")
-def figures() -> SessionFigures:
+def figures() -> SessionResults:
     return figures_once(session())
 
 
 @pytest.fixture(scope="module")
-def left() -> SessionFigures:
+def left() -> SessionResults:
     return figures_once(session(NOW, 1.25, session_id="left", side="left"))
 
 
-def test_a_session_beside_itself_shows_no_difference(figures: SessionFigures) -> None:
-    both = side_by_side(figures, figures)
-    assert both.fair
+def test_a_session_beside_itself_shows_no_difference(figures: SessionResults) -> None:
+    both = compare_pair(figures, figures)
+    assert both.is_comparable
     assert both.ranges
     for one in both.ranges:
         assert one.difference_deg == 0.0
         assert one.verdict == "no_change"
-        assert not one.is_beyond
+        assert not one.is_beyond_error
 
 
 def test_a_mirrored_hand_equals_the_other() -> None:
     right, left = session(), session(session_id="left", side="left")
-    both = side_by_side(figures_once(right), figures_once(left))
+    both = compare_pair(figures_once(right), figures_once(left))
     assert both.relation == "hands"
-    assert both.fair
+    assert both.is_comparable
     for one in both.ranges:
         assert one.difference_deg == pytest.approx(0.0, abs=1.0)
 
 
 def test_two_hands_differ_only_beyond_error_and_neither_way_round_matters(
-    figures: SessionFigures, left: SessionFigures
+    figures: SessionResults, left: SessionResults
 ) -> None:
-    both, turned = side_by_side(figures, left), side_by_side(left, figures)
-    arc = next(one for one in both.ranges if one.after.what == "arc")
-    assert both.main is arc
-    assert arc.is_beyond
+    both, turned = compare_pair(figures, left), compare_pair(left, figures)
+    arc = next(one for one in both.ranges if one.after.quantity == "arc")
+    assert both.main_comparison is arc
+    assert arc.is_beyond_error
     assert arc.difference_deg < -arc.limit_deg
     for one, other in zip(both.ranges, turned.ranges, strict=True):
         assert one.difference_deg == pytest.approx(-other.difference_deg)
-        assert one.is_beyond == other.is_beyond
+        assert one.is_beyond_error == other.is_beyond_error
         assert one.limit_deg == other.limit_deg
 
 
-def test_an_unfair_pair_is_not_judged_and_says_why(figures: SessionFigures, left: SessionFigures) -> None:
+def test_an_unfair_pair_is_not_judged_and_says_why(figures: SessionResults, left: SessionResults) -> None:
     far = replace(left, quality=replace(left.quality, distance_m=0.95))
-    both = side_by_side(figures, far)
+    both = compare_pair(figures, far)
     assert both.reasons == ("distance",)
     assert {one.verdict for one in both.ranges} == {"not_judged"}
     other = figures_once(session(exercise="WRIST_RU", motion="deviation", session_id="other"))
-    assert "exercise" in side_by_side(figures, other).reasons
-    apart = side_by_side(figures, other)
-    assert apart.main is None, "they have no movement in common"
-    assert len(apart.alone) == len(figures.wrist_ranges) + len(other.wrist_ranges), (
+    assert "exercise" in compare_pair(figures, other).reasons
+    apart = compare_pair(figures, other)
+    assert apart.main_comparison is None, "they have no movement in common"
+    assert len(apart.unpaired) == len(figures.wrist_ranges) + len(other.wrist_ranges), (
         "what each has is shown all the same"
     )
     few = figures_once(session(session_id="few"), RepetitionChoices(dict.fromkeys(range(7), "pain")))
-    assert pair_reasons(figures, few) == pair_reasons(few, figures) == ("few_repetitions_after",)
-    assert "angle_order" in pair_reasons(figures, replace(left, angle_order="isb"))
+    assert (
+        pair_incomparable_reasons(figures, few) == pair_incomparable_reasons(few, figures) == ("few_repetitions_after",)
+    )
+    assert "angle_order" in pair_incomparable_reasons(figures, replace(left, angle_order="isb"))
 
 
-def test_the_affected_hand_and_the_newer_date_stand_first(figures: SessionFigures, left: SessionFigures) -> None:
+def test_the_affected_hand_and_the_newer_date_stand_first(figures: SessionResults, left: SessionResults) -> None:
     for pair in ((figures, left), (left, figures)):
-        assert [one.side for one in ordered(*pair)] == ["right", "left"]
-        assert [one.side for one in ordered(*pair, "left")] == ["left", "right"]
+        assert [one.side for one in order_pair(*pair)] == ["right", "left"]
+        assert [one.side for one in order_pair(*pair, "left")] == ["left", "right"]
     older = replace(figures, when=NOW - timedelta(days=7), session_id="older")
-    assert ordered(older, figures) == ordered(figures, older) == (figures, older)
+    assert order_pair(older, figures) == order_pair(figures, older) == (figures, older)
 
 
 def test_a_partner_is_the_other_hand_of_the_day_then_the_last_fair_session(
-    figures: SessionFigures, left: SessionFigures
+    figures: SessionResults, left: SessionResults
 ) -> None:
     older, oldest, before = days_ago(figures, 7), days_ago(figures, 30), days_ago(left, 20)
     far = replace(older, quality=replace(older.quality, distance_m=0.95))
-    assert partner_of([figures, left, older], figures) == left
-    assert partner_of([figures, before, older, oldest], figures) == older
-    assert partner_of([figures, before, far, oldest], figures) == oldest, "the last that compares"
-    assert partner_of([figures, before], figures) == before
-    assert partner_of([figures, older], older) == figures
-    assert partner_of([figures], figures) is None
-    assert partner_of([figures, replace(older, not_counted=True)], figures) is None
+    assert find_partner([figures, left, older], figures) == left
+    assert find_partner([figures, before, older, oldest], figures) == older
+    assert find_partner([figures, before, far, oldest], figures) == oldest, "the last that compares"
+    assert find_partner([figures, before], figures) == before
+    assert find_partner([figures, older], older) == figures
+    assert find_partner([figures], figures) is None
+    assert find_partner([figures, replace(older, not_counted=True)], figures) is None
 
 
 def test_of_the_whole_hand_the_fingers_compare() -> None:
@@ -169,13 +181,13 @@ def test_of_the_whole_hand_the_fingers_compare() -> None:
         hand_session(share=0.6, session_id="left", side="left", hides_beyond_deg=200.0),
     )
     first, second = figures_once(other), figures_once(stored)
-    both = side_by_side(first, second, finger_keys(0))
-    assert [one.after.of for one in both.ranges] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
-    assert both.main.is_beyond
-    assert both.main.difference_deg < 0.0
-    assert np.nanmax(seen_angle(stored, "TAM3")) == pytest.approx(second.find("TAM3", "arc").best, abs=12.0)
-    assert np.isnan(seen_angle(stored, "no such joint")).all()
-    assert np.isnan(seen_angle(session(), "TAM3")).all()
+    both = compare_pair(first, second, finger_measure_keys(0))
+    assert [one.after.subject for one in both.ranges] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
+    assert both.main_comparison.is_beyond_error
+    assert both.main_comparison.difference_deg < 0.0
+    assert np.nanmax(visible_angle_deg(stored, "TAM3")) == pytest.approx(second.find("TAM3", "arc").best, abs=12.0)
+    assert np.isnan(visible_angle_deg(stored, "no such joint")).all()
+    assert np.isnan(visible_angle_deg(session(), "TAM3")).all()
 
 
 def test_a_hidden_end_of_either_hand_is_judged_only_where_it_is_sure() -> None:
@@ -183,9 +195,9 @@ def test_a_hidden_end_of_either_hand_is_judged_only_where_it_is_sure() -> None:
     hidden = figures_once(hand_session(hides_beyond_deg=62.0))
     small = figures_once(hand_session(share=0.3, session_id="left", side="left", hides_beyond_deg=200.0))
     for pair in ((hidden, small), (small, hidden)):
-        both = side_by_side(*pair, finger_keys(3))
-        middle = next(one for one in both.ranges if one.after.of == "PIP3_flexion")
-        sides = {one.at_least for one in (middle.before, middle.after)}
+        both = compare_pair(*pair, finger_measure_keys(3))
+        middle = next(one for one in both.ranges if one.after.subject == "PIP3_flexion")
+        sides = {one.is_lower_bound for one in (middle.before, middle.after)}
         assert sides == {True, False}
-        assert middle.is_beyond
+        assert middle.is_beyond_error
         assert (middle.difference_deg > 0.0) == (middle.verdict == "improved")

@@ -104,7 +104,7 @@ def _background(
     camera = hung.camera
     v, u = np.mgrid[0 : camera.height_px, 0 : camera.width_px].astype(np.float64)
     ideal = camera.undistort(np.stack((u.ravel(), v.ravel()), axis=-1)).reshape(*u.shape, 2)
-    ray = camera.back_project(ideal, np.ones(u.shape))
+    ray = camera.backproject(ideal, np.ones(u.shape))
     up = hung.turn @ np.array([0.0, 0.0, 1.0])
     foot = hung.to_camera(np.array([0.0, 0.0, -hung.table_m]))
     depth = (foot @ up) / (ray @ up)

@@ -139,7 +139,7 @@ def test_paper_has_its_middle_where_the_truth_says() -> None:
 def test_palm_and_neutral_frame_are_as_the_contract_says(take: Take) -> None:
     truth = take.truth
     palm = truth.disc_position_cam_m[0, list(truth.protocol.palm)]
-    axes = wrist_axes(palm, towards=np.array([0.0, 0.0, -1.0]))
+    axes = wrist_axes(palm, dorsal_direction=np.array([0.0, 0.0, -1.0]))
     assert np.allclose(axes, truth.rotation_w0_cam, atol=1e-6)
     assert np.allclose(truth.rotation_w2_w0[0], np.eye(3), atol=1e-9)
     assert np.allclose(truth.angles_rad[0], 0.0, atol=1e-9)

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.camera import Camera
-from carpus.core.hand.protocols import MarkerProtocol, protocol_named
+from carpus.core.hand.protocols import MarkerProtocol, get_protocol
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import Detections, FloatArray, Moment, Side, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, FloatArray, KinematicState, Side, TrackedFrame, TrackStatus
 from tests.second_patient.camera import Hung
 from tests.second_patient.discs import NAMES
 from tests.second_patient.motions import Motion, Row
@@ -65,7 +65,7 @@ class Truth:
 
 def truth_of(row: Row, patient: Patient, motion: Motion, hung: Hung, time_s: FloatArray, stamp_s: FloatArray) -> Truth:
     """True values at times (N,) after the first; nothing is rendered, so what is visible is still unknown."""
-    protocol = protocol_named(row.protocol)
+    protocol = get_protocol(row.protocol)
     rows = [NAMES.index(name) for name in protocol.markers]
     posture = motion.at(time_s)
     placed = patient.placed(posture)
@@ -212,7 +212,7 @@ def _row(truth: Truth, i: int) -> TrackedFrame:
         index=i,
         timestamp_s=float(truth.timestamp_s[i]),
         status=TrackStatus.TRACKED if palm >= _PALM_NEEDED else TrackStatus.PREDICTED,
-        moment=Moment(
+        kinematics=KinematicState(
             position_m=truth.position_m[i],
             velocity_m_s=truth.velocity_m_s[i],
             w0_turn_rad=np.zeros(3),

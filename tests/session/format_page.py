@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from carpus.core.session import schema
 from carpus.core.session.schema import Field
-from carpus.core.session.seal import ATTRIBUTE
+from carpus.core.session.seal import CHECKSUM_ATTRIBUTE
 
 _HEAD = f"""\
 # Session file
@@ -23,7 +23,7 @@ short; the attribute `{schema.RECOVERED}` then says when. It also finishes the p
 
 Datasets that have a row for each frame, blob or event are packed (gzip and shuffle, which any HDF5 library unpacks). \
 Every chunk has a Fletcher32 check sum, which any HDF5 library checks when it reads. A finished session has the \
-attribute `{ATTRIBUTE}`: SHA-256 over all datasets, attributes and names but itself; \
+attribute `{CHECKSUM_ATTRIBUTE}`: SHA-256 over all datasets, attributes and names but itself; \
 `carpus verify FILE` compares it. It has no key: it shows changes by accident, not who made them. Only \
 hard links and plain chunked or contiguous storage inside the file \
 are read, packed by nothing else.

@@ -15,9 +15,9 @@ from carpus.core.calibration.result import Calibration, CalibrationFinding, Clic
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.journal import RecordingJournal
-from carpus.core.session.values import RawPictures, SessionHeader, new_header
+from carpus.core.session.values import EncodedImages, SessionHeader, new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import Detections, Moment, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, KinematicState, TrackedFrame, TrackStatus
 
 CAMERA = Camera(570.25, 571.5, 314.0, 235.5, 640, 480, (0.04, -0.12, 0.001, -0.0003, 0.07), origin="file")
 SESSION_ID = uuid.UUID("12345678-1234-5678-1234-567812345678")
@@ -82,7 +82,7 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
         index=row,
         timestamp_s=time_of(row),
         status=TrackStatus.LOST if lost else TrackStatus((0, 1, 3)[row % 3]),
-        moment=Moment(
+        kinematics=KinematicState(
             position_m=blank * rng.normal(size=3),
             velocity_m_s=blank * rng.normal(size=3),
             w0_turn_rad=blank * rng.normal(size=3),
@@ -135,7 +135,7 @@ def begun(
     header: SessionHeader | None = None,
     rows: int = 0,
     camera: Camera = CAMERA,
-    pictures: Callable[[int], RawPictures] | None = None,
+    pictures: Callable[[int], EncodedImages] | None = None,
     calibration: Calibration | None = None,
     **options: Any,
 ) -> SessionWriter:

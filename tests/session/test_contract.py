@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.session.values import motion_of
+from carpus.core.session.values import stack_states
 from carpus.core.version import __version__
 from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once
 
@@ -98,7 +98,7 @@ def write(path: Path, protocol: MarkerProtocol) -> Path:
     with begun(path, make_header(protocol), N) as writer:
         writer.add_event(time_of(3), "note", "Schmerz am Daumen: 3°")
         writer.add_event(time_of(9), "repetition")
-        writer.write_smoothed(motion_of(list(reversed(frames))))
+        writer.write_motion(stack_states(list(reversed(frames))))
     return path
 
 
@@ -166,7 +166,7 @@ def test_every_number_is_where_it_belongs(tmp_path: Path) -> None:
                 continue
             of_moment = path.startswith(("/wrist", "/joints"))
             for row, frame in enumerate(frames):
-                expected = getattr(frame.moment if of_moment else frame, attribute)
+                expected = getattr(frame.kinematics if of_moment else frame, attribute)
                 np.testing.assert_array_equal(file[path][row], expected, err_msg=path)
             if of_moment:
                 np.testing.assert_array_equal(file["/smoothed" + path][()], file[path][()][::-1], err_msg=path)

@@ -15,7 +15,7 @@ import pytest
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session import schema
 from carpus.core.session.reader import read_detections, read_raw, read_session, verify
-from carpus.core.session.values import RawPictures
+from carpus.core.session.values import EncodedImages
 from tests.session.samples import CAMERA, time_of
 
 GOLDEN = Path(__file__).parent / "golden"
@@ -77,8 +77,8 @@ def test_an_old_session_is_read_value_by_value(tmp_path: Path, version: int, pro
             assert file[place].shape[0] > 0
             np.testing.assert_array_equal(values, file[place][()], err_msg=place)
         assert np.isfinite(file["/wrist/angles"][0]).all()
-    assert pictures == [RawPictures(bytes([row]) * 20, b"d" * row) for row in range(ROWS)]
-    assert verify(path).sealed == (version > 1)
+    assert pictures == [EncodedImages(bytes([row]) * 20, b"d" * row) for row in range(ROWS)]
+    assert verify(path).has_checksum == (version > 1)
     assert path.read_bytes() == before
 
 
@@ -87,7 +87,7 @@ def test_readings_on_the_back_of_the_hand_are_read_value_by_value(tmp_path: Path
     table = read_detections(unpacked("v2-surface.h5", tmp_path))
     for row in range(ROWS):
         count = row % 4 * 3
-        blobs, steps = table.of_frame(row), np.arange(count)
+        blobs, steps = table.get_frame(row), np.arange(count)
         for kept, u, v, depth_m in (
             (blobs.surface, 100.0 + row + steps, 200.0 + 2 * steps, 0.6),
             (blobs.fingers, 300.0 + row + steps, 50.0 + steps, 0.7),

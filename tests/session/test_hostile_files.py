@@ -19,7 +19,7 @@ import pytest
 from carpus.core.errors import SessionUnreadable
 from carpus.core.session import reader, reading_process
 from carpus.core.session.reader import ReadingProcess, read_detections, read_outline, read_raw, read_session
-from carpus.core.session.values import RawPictures, Session
+from carpus.core.session.values import EncodedImages, Session
 from tests.session.samples import begun, make_frame, make_header, written_once
 
 ROWS = 40
@@ -28,7 +28,7 @@ ROWS = 40
 @written_once
 def stored(path: Path, *, raw: bool = False) -> Path:
     """A sound session."""
-    pictures = (lambda _: RawPictures(b"c" * 50, b"d" * 30)) if raw else None
+    pictures = (lambda _: EncodedImages(b"c" * 50, b"d" * 30)) if raw else None
     with begun(path, make_header(session_id=uuid.uuid4()), ROWS, pictures=pictures) as writer:
         writer.add_event(make_frame(1).timestamp_s, "note", "x")
     return path
@@ -190,7 +190,7 @@ def another(monkeypatch: pytest.MonkeyPatch) -> ReadingProcess:
     own = ReadingProcess()
     for name, question in {"loop": sleepless, "greed": greedy, "die": dying}.items():
         monkeypatch.setitem(reading_process.QUESTIONS, name, question)
-    monkeypatch.setattr(reader, "_may_fork", lambda: True)  # a new process would not know these questions
+    monkeypatch.setattr(reader, "_can_fork", lambda: True)  # a new process would not know these questions
     return own
 
 
@@ -205,9 +205,9 @@ def test_what_a_file_does_to_its_reader_ends_there(
     path = stored(tmp_path / "s.h5")
     start_s = time.monotonic()
     with pytest.raises(SessionUnreadable, match=said):
-        another.ask(name, path)
+        another.request(name, path)
     assert time.monotonic() - start_s < 60.0  # 1.2 s of a processor's time, on a computer with other work
-    read = another.ask("session", path)
+    read = another.request("session", path)
     assert isinstance(read, Session)
     assert len(read) == ROWS
     another.end()
@@ -223,10 +223,10 @@ def test_a_reader_that_could_not_be_started_is_started_for_the_next_file(
 
     with monkeypatch.context() as full:
         full.setattr("multiprocessing.popen_fork.Popen._launch", no_process)
-        full.setattr(reader, "_may_fork", lambda: True)
+        full.setattr(reader, "_can_fork", lambda: True)
         with pytest.raises(OSError, match="no more processes"):
-            own.ask("outline", path)
-    assert own.ask("outline", path) is not None
+            own.request("outline", path)
+    assert own.request("outline", path) is not None
     own.end()
 
 
@@ -235,7 +235,7 @@ def test_one_process_serves_many_files(tmp_path: Path) -> None:
     paths = [stored(tmp_path / f"{number}.h5") for number in range(5)]
     seen = set()
     for path in paths:
-        own.ask("outline", path)
+        own.request("outline", path)
         seen.add(own._child.pid)
     own.end()
     assert len(seen) == 1

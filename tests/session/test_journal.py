@@ -13,7 +13,7 @@ import pytest
 
 from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.hand.protocols import HAND21
-from carpus.core.session.blocks import Blocks, frame_blocks
+from carpus.core.session.blocks import Blocks, build_frame_blocks
 from carpus.core.session.journal import JournalReader, unpack_arrays
 from carpus.core.session.schema import TableLayout
 from tests.moments import with_moment
@@ -50,7 +50,7 @@ def check_prefix(path: Path, batches: int) -> None:
     found = stored(path)
     assert len(found) == batches
     for number, blocks in enumerate(found):
-        expected = frame_blocks(layout, [make_frame(number * BATCH + row) for row in range(BATCH)])
+        expected = build_frame_blocks(layout, [make_frame(number * BATCH + row) for row in range(BATCH)])
         assert blocks.keys() == expected.keys()
         for name, data in blocks.items():
             np.testing.assert_array_equal(data, expected[name], name)
@@ -153,5 +153,5 @@ def test_full_disk_is_told_and_what_was_stored_stays(tmp_path: Path) -> None:
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert rows_stored(tmp_path / "s.journal") == int(done.stdout) > 0
     last = stored(tmp_path / "s.journal")[-1]
-    expected = make_frame(int(done.stdout) - 1, HAND21).moment.joint_position_m
+    expected = make_frame(int(done.stdout) - 1, HAND21).kinematics.joint_position_m
     np.testing.assert_array_equal(last["/joints/position"][-1], expected)

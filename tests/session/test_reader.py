@@ -14,7 +14,7 @@ from carpus.core.depth_sensor import D455
 from carpus.core.errors import SessionUnreadable
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.reader import has_raw, read_detections, read_session
-from carpus.core.session.values import Event, Motion, motion_of, new_header
+from carpus.core.session.values import Event, Motion, new_header, stack_states
 from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once
 
 SEEN = dataclasses.replace(CAMERA, sensor=D455, distortion_model="inverse_brown_conrady")
@@ -26,7 +26,7 @@ N = 12
 def write(path: Path, protocol: MarkerProtocol = WRIST6) -> Path:
     with begun(path, make_header(protocol), N, SEEN) as session:
         session.add_event(time_of(2), "note", "ein Wort")
-        session.write_smoothed(motion_of([make_frame(row + 100, protocol) for row in range(N)]))
+        session.write_motion(stack_states([make_frame(row + 100, protocol) for row in range(N)]))
     return path
 
 
@@ -56,9 +56,9 @@ def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> N
         assert file.attrs["format_version"] == 3, "an older Carpus must not take this lens for plumb_bob"
     assert_same(session.calibration, make_calibration(protocol))
     assert session.calibration.verdict.findings[0].markers == ("MCP2", "MCP3")
-    assert_same(session.motion, motion_of(frames))
+    assert_same(session.motion, stack_states(frames))
     assert isinstance(session.smoothed, Motion)
-    assert_same(session.smoothed, motion_of([make_frame(row + 100, protocol) for row in range(N)]))
+    assert_same(session.smoothed, stack_states([make_frame(row + 100, protocol) for row in range(N)]))
     assert session.status.tolist() == [frame.status for frame in frames]
     assert session.markers.doubted.tolist() == [frame.doubted.tolist() for frame in frames]
     assert session.calibration.straight_fingers == (True, True, False, True, True)
@@ -68,7 +68,7 @@ def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> N
     assert session.recovered == ""
     table = read_detections(session.path)
     for row, frame in enumerate(frames):
-        assert_same(table.of_frame(row), frame.detections)
+        assert_same(table.get_frame(row), frame.detections)
     assert not has_raw(session.path)
 
 
@@ -175,5 +175,5 @@ def test_parameters_of_another_program_are_no_trouble(
     header = dataclasses.replace(make_header(), parameters=parameters)
     begun(tmp_path / "s.h5", header).close()
     found = read_session(tmp_path / "s.h5").header
-    assert found.simulated == simulated
+    assert found.is_simulated == simulated
     np.testing.assert_array_equal(found.targets_deg, targets_deg)

@@ -9,9 +9,9 @@ from pathlib import Path
 import h5py
 import pytest
 
-from carpus.core.dates import iso, time_of_day
+from carpus.core.dates import moment_from_timestamp, to_iso
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.records.values import Patient, newest_results
+from carpus.core.records.values import Patient, select_latest_versions
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import new_header
 from tests.records.samples import opened
@@ -39,7 +39,7 @@ def write(path: Path, tracked: datetime = TRACKED, recorded: datetime = MOVED, r
 def test_the_day_is_that_of_the_movement(tmp_path: Path) -> None:
     recording = str(uuid.uuid4())
     header = read_session(write(tmp_path / "s.h5", recording=recording)).header
-    assert header.when == MOVED
+    assert header.recording_time == MOVED
     assert datetime.fromisoformat(header.created) == TRACKED
     assert header.recording_id == recording
     with h5py.File(tmp_path / "s.h5") as file:
@@ -61,20 +61,20 @@ def to_version_1(path: Path, origin: str = "", camera_clock: bool = False) -> Pa
 
 def test_an_old_file_is_read_and_says_what_it_can(tmp_path: Path) -> None:
     first = read_outline(to_version_1(write(tmp_path / "a.h5"))).header
-    assert first.when.timestamp() == pytest.approx(time_of(0), abs=1.0), "its pictures' times count from 1970"
+    assert first.recording_time.timestamp() == pytest.approx(time_of(0), abs=1.0), "its pictures' times count from 1970"
     assert first.recording_id == first.session_id
     again = read_outline(to_version_1(write(tmp_path / "b.h5"), origin=first.session_id)).header
     assert again.recording_id == first.session_id
     by_camera = read_outline(to_version_1(write(tmp_path / "c.h5"), camera_clock=True)).header
-    assert by_camera.when == TRACKED
+    assert by_camera.recording_time == TRACKED
 
 
 def test_a_camera_s_own_clock_is_no_date() -> None:
-    assert time_of_day(12.25) is None
-    assert time_of_day(float("nan")) is None
-    assert time_of_day(datetime.now(UTC).timestamp() + 7 * 86400.0) is None
-    assert time_of_day(MOVED.timestamp()) == MOVED
-    assert datetime.fromisoformat(iso(MOVED)) == MOVED
+    assert moment_from_timestamp(12.25) is None
+    assert moment_from_timestamp(float("nan")) is None
+    assert moment_from_timestamp(datetime.now(UTC).timestamp() + 7 * 86400.0) is None
+    assert moment_from_timestamp(MOVED.timestamp()) == MOVED
+    assert datetime.fromisoformat(to_iso(MOVED)) == MOVED
 
 
 def test_a_recording_counts_once_by_its_newest_result(tmp_path: Path) -> None:
@@ -83,14 +83,14 @@ def test_a_recording_counts_once_by_its_newest_result(tmp_path: Path) -> None:
         recording = str(uuid.uuid4())
         folder = house.store.sessions_folder / "Linden-42"
         for number, tracked in enumerate((TRACKED, TRACKED + timedelta(days=9), TRACKED + timedelta(days=2))):
-            house.index.enter(write(folder / f"{number}.h5", tracked, recording=recording), patient)
+            house.index.add(write(folder / f"{number}.h5", tracked, recording=recording), patient)
         other = write(folder / "other.h5", TRACKED - timedelta(days=400), MOVED + timedelta(days=7))
-        house.index.enter(other, patient)
-        record = house.patients.one(patient)
+        house.index.add(other, patient)
+        record = house.patients.get(patient)
         assert (record.session_count, record.result_count) == (2, 4)
         assert record.last_session == MOVED + timedelta(days=7), "the last movement, not the last tracking"
-        kept = newest_results(house.index.of_patient(patient))
+        kept = select_latest_versions(house.index.patient_sessions(patient))
         assert [entry.path.name for entry in kept] == ["other.h5", "1.h5"]
         assert [entry.recorded for entry in kept] == [MOVED + timedelta(days=7), MOVED]
-        house.files.take_in()
-        assert house.patients.one(patient).session_count == 2
+        house.files.scan()
+        assert house.patients.get(patient).session_count == 2

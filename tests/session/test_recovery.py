@@ -15,15 +15,15 @@ import pytest
 
 from carpus.core.errors import RecordingMissing, SessionUnreadable
 from carpus.core.records.recordings import (
-    Recovery,
+    RecoveryResult,
     SessionDraft,
     publish_session,
-    recordings_folder,
     recover_recordings,
+    spool_folder,
     write_session,
 )
 from carpus.core.session.reader import read_detections, read_session, verify
-from carpus.core.session.values import Motion, motion_of
+from carpus.core.session.values import Motion, stack_states
 from tests.commands import Command
 from tests.session.samples import journal_of, make_frame, time_of
 from tests.session.test_golden import unpacked
@@ -40,7 +40,7 @@ def interrupt(path: Path, rows: int = N, smoothed: int = 0) -> Path:
     if rows:
         journal.add_event(time_of(1), "note", "x")
     if smoothed:
-        journal.add_smoothed(motion_of([make_frame(row + 100) for row in range(smoothed)]))
+        journal.add_smoothed(stack_states([make_frame(row + 100) for row in range(smoothed)]))
     journal.close()
     return path
 
@@ -57,15 +57,15 @@ def test_interrupted_recording_becomes_the_session_that_stop_would_have_made(tmp
     whole = write_session(interrupt(tmp_path / "whole.journal", smoothed=N))
     interrupt(tmp_path / "a" / "s.journal", smoothed=N)
     recovery = recover_recordings(tmp_path / "a", NOW)
-    assert recovery == Recovery((tmp_path / "a" / "s.h5",), (), ())
+    assert recovery == RecoveryResult((tmp_path / "a" / "s.h5",), (), ())
     assert [path.name for path in (tmp_path / "a").iterdir()] == ["s.h5"]
     session, other = read_session(tmp_path / "a" / "s.h5"), read_session(whole)
     assert (len(session), session.recovered) == (N, "2026-11-14T08:00:00+00:00")
     assert session.repetitions == other.repetitions
     assert [event.text for event in session.events] == ["x"]
-    assert verify(session.path).sealed
+    assert verify(session.path).has_checksum
     for field in fields(Motion):
-        expected = getattr(motion_of([make_frame(row + 100) for row in range(N)]), field.name)
+        expected = getattr(stack_states([make_frame(row + 100) for row in range(N)]), field.name)
         np.testing.assert_array_equal(getattr(session.smoothed, field.name), expected)
 
 
@@ -73,10 +73,10 @@ def test_draft_that_follows_a_journal_ends_as_one_made_at_once(tmp_path: Path) -
     journal = journal_of(tmp_path / "s.journal", 1100)
     draft = SessionDraft(journal.path)
     draft.read()
-    journal.add_smoothed(motion_of([make_frame(row) for row in range(700)]))
+    journal.add_smoothed(stack_states([make_frame(row) for row in range(700)]))
     for row in range(1100, 1130):
         journal.append(make_frame(row))
-    journal.add_smoothed(motion_of([make_frame(row) for row in range(700, 1130)]))
+    journal.add_smoothed(stack_states([make_frame(row) for row in range(700, 1130)]))
     journal.flush()
     followed = draft.finish()
     draft.discard()
@@ -132,7 +132,7 @@ def test_recording_that_runs_is_left_alone_by_other_programs(tmp_path: Path) -> 
     command = [sys.executable, "-c", program, str(tmp_path)]
     elsewhere = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert elsewhere.stdout.split() == [str(journal.path)]
-    assert recover_recordings(tmp_path).busy == (journal.path,)
+    assert recover_recordings(tmp_path).in_progress == (journal.path,)
     journal.close()
     assert recover_recordings(tmp_path).recovered == (tmp_path / "s.h5",)
 
@@ -174,11 +174,11 @@ def test_part_file_of_an_older_carpus_is_recovered(tmp_path: Path) -> None:
     session = read_session(tmp_path / "v2-wrist6.h5")
     assert (len(session), session.recovered, session.smoothed) == (12, "2026-11-14T08:00:00+00:00", None)
     np.testing.assert_array_equal(
-        session.motion.angles_rad, np.array([make_frame(row).moment.angles_rad for row in range(12)])
+        session.motion.angles_rad, np.array([make_frame(row).kinematics.angles_rad for row in range(12)])
     )
     assert [event.text for event in session.events] == ["Grüße"]
     assert len(read_detections(session.path).blobs) == sum(len(make_frame(row).detections) for row in range(12))
-    assert verify(session.path).sealed
+    assert verify(session.path).has_checksum
 
 
 @pytest.mark.parametrize("harm", ["end too early", "events broken", "rows missing"])
@@ -209,10 +209,10 @@ def test_damaged_part_file_gives_the_rows_that_are_whole(tmp_path: Path, harm: s
 def test_part_file_that_is_added_to_is_left_alone(tmp_path: Path) -> None:
     part = old_part(tmp_path)
     os.utime(part)
-    assert recover_recordings(tmp_path).busy == (part,)
+    assert recover_recordings(tmp_path).in_progress == (part,)
     with h5py.File(part, "r+"):
         os.utime(part, (0, 0))
-        assert recover_recordings(tmp_path).busy == (part,)
+        assert recover_recordings(tmp_path).in_progress == (part,)
 
 
 @pytest.mark.parametrize("links", [True, False])
@@ -249,7 +249,7 @@ def test_recover_command_of_a_data_folder_finishes_what_waits_on_this_computer(
 ) -> None:
     data = tmp_path / "data"
     (data / "sessions").mkdir(parents=True)
-    place = recordings_folder(data) / "patient"
+    place = spool_folder(data) / "patient"
     place.mkdir(parents=True)
     interrupt(place / "s.journal")
     done = command("recover", data / given)

@@ -6,7 +6,7 @@ import dataclasses
 from importlib import resources
 
 from carpus.core.session import schema
-from carpus.core.types import Moment, TrackedFrame
+from carpus.core.types import KinematicState, TrackedFrame
 from tests.session.format_page import format_page
 
 
@@ -17,6 +17,8 @@ def test_the_page_in_the_repository_is_the_schema_s() -> None:
 
 
 def test_a_moment_has_the_columns_of_the_schema_and_no_others() -> None:
-    assert [field.attribute for field in schema.MOTION_FIELDS] == [field.name for field in dataclasses.fields(Moment)]
+    assert [field.attribute for field in schema.MOTION_FIELDS] == [
+        field.name for field in dataclasses.fields(KinematicState)
+    ]
     own = {field.attribute for field in schema.FRAME_FIELDS if field not in schema.MOTION_FIELDS}
     assert own <= {field.name for field in dataclasses.fields(TrackedFrame)}

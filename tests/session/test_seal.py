@@ -14,8 +14,8 @@ from carpus.core.errors import SessionChanged, SessionUnfinished, SessionUnreada
 from carpus.core.records.recordings import write_session
 from carpus.core.session import opened
 from carpus.core.session.reader import verify
-from carpus.core.session.seal import seal_of
-from carpus.core.session.values import RawPictures, Verified, motion_of
+from carpus.core.session.seal import compute_checksum
+from carpus.core.session.values import EncodedImages, VerificationResult, stack_states
 from carpus.core.session.writer import SessionWriter
 from tests.commands import Command
 from tests.session.samples import begun, make_frame, stored_journal, time_of, written_once
@@ -27,11 +27,11 @@ ROWS = 30
 def filled(path: Path) -> SessionWriter:
     writer = begun(path, raw_depth_unit_m=1e-3)
     for row in range(ROWS):
-        writer.append(make_frame(row), RawPictures(bytes([row]) * 70, b"d" * 30))
+        writer.append(make_frame(row), EncodedImages(bytes([row]) * 70, b"d" * 30))
         if row % 7 == 0:
             writer.add_event(time_of(row), "note", f"Grüße {row}")
             writer.flush()
-    writer.write_smoothed(motion_of([make_frame(row) for row in range(ROWS)]))
+    writer.write_motion(stack_states([make_frame(row) for row in range(ROWS)]))
     return writer
 
 
@@ -44,14 +44,16 @@ def stored(path: Path) -> Path:
 def test_a_recovered_session_is_sealed_and_a_part_file_is_not(tmp_path: Path) -> None:
     with pytest.raises(SessionUnfinished):
         verify(unpacked("v2-wrist6.h5.0123abcd.part", tmp_path))
-    assert verify(write_session(stored_journal(tmp_path / "s.journal", ROWS))) == Verified(ROWS, sealed=True)
+    assert verify(write_session(stored_journal(tmp_path / "s.journal", ROWS))) == VerificationResult(
+        ROWS, has_checksum=True
+    )
 
 
 def test_a_session_from_before_there_were_seals(tmp_path: Path) -> None:
     path = stored(tmp_path / "s.h5")
     with h5py.File(path, "r+") as file:
         del file.attrs["seal"]
-    assert verify(path) == Verified(ROWS, sealed=False)
+    assert verify(path) == VerificationResult(ROWS, has_checksum=False)
 
 
 CHANGES: dict[str, Callable[[h5py.File], object]] = {
@@ -69,7 +71,7 @@ CHANGES: dict[str, Callable[[h5py.File], object]] = {
 @pytest.mark.parametrize("change", CHANGES)
 def test_any_change_shows(tmp_path: Path, change: str) -> None:
     path = stored(tmp_path / "s.h5")
-    assert verify(path) == Verified(ROWS, sealed=True)
+    assert verify(path) == VerificationResult(ROWS, has_checksum=True)
     with h5py.File(path, "r+") as file:
         CHANGES[change](file)
     with pytest.raises(SessionChanged):
@@ -81,7 +83,7 @@ def test_the_same_bytes_of_another_type_or_shape_have_another_seal(tmp_path: Pat
     for number, stored_as in enumerate((values, values.view("i8"), values.reshape(2, 3))):
         with h5py.File(tmp_path / f"{number}.h5", "w") as file:
             file["values"] = stored_as
-            seals.add(seal_of(file))
+            seals.add(compute_checksum(file))
     assert len(seals) == 3
 
 
@@ -89,7 +91,7 @@ def test_opening_for_writing_without_a_change_does_not_show(tmp_path: Path) -> N
     path = stored(tmp_path / "s.h5")
     with h5py.File(path, "r+") as file:
         file["/wrist/angles"][...] = file["/wrist/angles"][...]
-    assert verify(path).sealed
+    assert verify(path).has_checksum
 
 
 def test_flipped_bits(tmp_path: Path) -> None:

@@ -18,9 +18,9 @@ import pytest
 from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.hand.protocols import HAND21
 from carpus.core.session import disk, writer
-from carpus.core.session.blocks import smoothed_blocks
+from carpus.core.session.blocks import build_motion_blocks
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_raw, read_session, verify
-from carpus.core.session.values import Motion, RawPictures, motion_of
+from carpus.core.session.values import EncodedImages, Motion, stack_states
 from carpus.core.session.writer import SessionWriter
 from tests.moments import with_moment
 from tests.session.samples import begun, make_frame, make_header
@@ -126,10 +126,10 @@ def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> 
 
 def test_a_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
     session = begun(tmp_path / "s.h5", make_header(HAND21), rows=3)
-    smoothed = motion_of([make_frame(row + 100, HAND21) for row in range(3)])
+    smoothed = stack_states([make_frame(row + 100, HAND21) for row in range(3)])
     with pytest.raises(ValueError, match="/smoothed"):
-        session.write_smoothed(motion_of([make_frame(0, HAND21)]))
-    session.write_smoothed(smoothed)
+        session.write_motion(stack_states([make_frame(0, HAND21)]))
+    session.write_motion(smoothed)
     session.close()
     verify(tmp_path / "s.h5")
     read = read_session(tmp_path / "s.h5").smoothed
@@ -139,8 +139,8 @@ def test_a_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
 
 def test_a_smoothed_result_that_does_not_come_to_all_frames_is_left_out(tmp_path: Path) -> None:
     session = begun(tmp_path / "s.h5", rows=4)
-    session.add_smoothed(smoothed_blocks(session._layout, motion_of([make_frame(0), make_frame(1)])))
-    session.drop_smoothed()
+    session.add_motion_blocks(build_motion_blocks(session._layout, stack_states([make_frame(0), make_frame(1)])))
+    session.drop_motion()
     session.close()
     verify(tmp_path / "s.h5")
     assert read_session(tmp_path / "s.h5").smoothed is None
@@ -148,7 +148,7 @@ def test_a_smoothed_result_that_does_not_come_to_all_frames_is_left_out(tmp_path
 
 def test_pictures_come_back_byte_for_byte(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
-    pictures = [RawPictures(b"color %d" % row * row, b"" if row == 2 else b"depth %d" % row) for row in range(5)]
+    pictures = [EncodedImages(b"color %d" % row * row, b"" if row == 2 else b"depth %d" % row) for row in range(5)]
     session = begun(path, raw_depth_unit_m=0.001)
     for row, raw in enumerate(pictures):
         session.append(make_frame(row), raw)

@@ -13,13 +13,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.depth_sensor import DepthSensor, NoiseLaw
-from carpus.core.simulation.appearance import light_of
+from carpus.core.depth_sensor import DepthSensor, NoiseModel
+from carpus.core.simulation.appearance import room_light
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.trouble import covered_discs, false_blobs, frame_times, passing_thing
-from carpus.core.simulation.truth import Truth, protocol_rows, truth_of
+from carpus.core.simulation.trouble import (
+    sample_covered_markers,
+    sample_false_blobs,
+    sample_frame_times,
+    sample_passing_rod,
+)
+from carpus.core.simulation.truth import Truth, compute_truth, protocol_rows
 from carpus.core.types import Detections, FloatArray
 from tests.simulation.visibility import coarse_visibility
 
@@ -40,23 +45,23 @@ class BlobDepth:
     place in the picture, over ``cell_px``; ``bias_m`` of what is constant for a marker over a recording (the matching
     window flattens knuckles); ``stated`` what the detector says."""
 
-    sd: NoiseLaw
-    pattern: NoiseLaw
+    sd: NoiseModel
+    pattern: NoiseModel
     bias_m: float
-    stated: NoiseLaw
+    stated: NoiseModel
     cell_px: float = 9.0
 
 
 def blob_depth(sensor: DepthSensor) -> BlobDepth:
     """By the kind of a sensor, as shares of what it states of itself."""
     if sensor.kind == "structured light":
-        return BlobDepth(NoiseLaw(0.0, 0.97e-3), NoiseLaw(0.0, 0.42e-3), 0.00045, NoiseLaw(0.0, 1.55e-3))
+        return BlobDepth(NoiseModel(0.0, 0.97e-3), NoiseModel(0.0, 0.42e-3), 0.00045, NoiseModel(0.0, 1.55e-3))
     sd, pattern, bias_m, stated, cell_px = _STEREO if sensor.kind == "active stereo" else _TIME_OF_FLIGHT
     stays = sensor.stays
     if sensor.kind == "active stereo":  # knuckles lose by the square of the window's width
-        stays, wider = NoiseLaw(0.0, stays.square_per_m), sensor.patch_px / _FITTED_PATCH_PX
+        stays, wider = NoiseModel(0.0, stays.square_per_m), sensor.patch_px / _FITTED_PATCH_PX
         bias_m, cell_px = bias_m * wider**2, cell_px * wider
-    return BlobDepth(sensor.reading.times(sd), stays.times(pattern), bias_m, sensor.reading.times(stated), cell_px)
+    return BlobDepth(sensor.reading.scale(sd), stays.scale(pattern), bias_m, sensor.reading.scale(stated), cell_px)
 
 
 _FITTED_PATCH_PX = 11.0
@@ -86,16 +91,16 @@ def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
     In the first frame every disc is found, as the calibration needs it.
     """
     scene = Scene(spec)
-    times = frame_times(spec)
-    truth = truth_of(scene, times)
+    times = sample_frame_times(spec)
+    truth = compute_truth(scene, times)
     t = times.color_s
-    count, markers = truth.disc_pixel.shape[:2]
-    rng = spec.random(RandomStream.MEASUREMENTS)
+    count, markers = truth.marker_px.shape[:2]
+    rng = spec.generator(RandomStream.MEASUREMENTS)
     rows = protocol_rows(spec)
     pose = scene.pose(t)
-    share, facing = coarse_visibility(scene, pose, t, passing_thing(scene))
+    share, facing = coarse_visibility(scene, pose, t, sample_passing_rod(scene))
     share, facing = share[:, rows], facing[:, rows]
-    seen = (share > 0.5) & ~covered_discs(spec, t)[:, rows]
+    seen = (share > 0.5) & ~sample_covered_markers(spec, t)[:, rows]
     truth = dataclasses.replace(truth, visible_share=np.where(seen, share, 0.0))
 
     noise = _Noise(spec, scene, rng)
@@ -104,10 +109,10 @@ def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
     bias_px = noisy * rng.normal(0.0, CENTER_BIAS_PX, (markers, 2))
     bias_m = noisy * rng.normal(0.0, noise.blob.bias_m, markers)
     depth_pose = scene.pose(times.depth_s)
-    depth_true = scene.to_camera(scene.discs_w0_m(depth_pose)[:, rows])[..., 2]
-    pixel = noise.pixel(truth.disc_pixel + bias_px + wander_px)
-    depth = noise.depth(truth.disc_pixel, depth_true + bias_m)
-    area = noise.area(truth.disc_position_cam_m[..., 2], scene.patient.disc_radius_m[rows]) * facing
+    depth_true = scene.to_camera(scene.markers_w0_m(depth_pose)[:, rows])[..., 2]
+    pixel = noise.pixel(truth.marker_px + bias_px + wander_px)
+    depth = noise.depth(truth.marker_px, depth_true + bias_m)
+    area = noise.area(truth.marker_position_cam_m[..., 2], scene.patient.marker_radius_m[rows]) * facing
 
     false_px, false_z, false_radius, false_there = _false_places(scene, t)
     false_pixel, false_depth = noise.pixel(false_px), noise.depth(false_px, false_z)
@@ -139,7 +144,7 @@ class _Noise:
         self._on = 1.0 if spec.sensor_noise else 0.0
         self._camera = scene.camera
         self._scale = depth_scale(spec)
-        self._center_sd_px = CENTER_SD_PX[light_of(spec)]
+        self._center_sd_px = CENTER_SD_PX[room_light(spec)]
         self.blob = blob_depth(self._camera.sensor)
         cell_px = self.blob.cell_px
         cells = (int(self._camera.height_px / cell_px) + 1, int(self._camera.width_px / cell_px) + 1)
@@ -176,7 +181,7 @@ class _Noise:
 
 def _false_places(scene: Scene, time_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
     """Pixels (N, B, 2), depths (N, B), radii (B,) and presence (N, B) of the false blobs."""
-    blobs = [blob for blob in false_blobs(scene) if blob.radius_m >= LEAST_FOUND_M]
+    blobs = [blob for blob in sample_false_blobs(scene) if blob.radius_m >= LEAST_FOUND_M]
     count = len(time_s)
     if not blobs:
         return np.empty((count, 0, 2)), np.empty((count, 0)), np.empty(0), np.empty((count, 0), dtype=bool)

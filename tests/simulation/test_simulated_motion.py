@@ -10,28 +10,28 @@ import pytest
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.protocols import HAND21, PALM_MARKERS
 from carpus.core.simulation.hand_motion import STILL_S, StrokePath
-from carpus.core.simulation.motions import MOTIONS, motion_of
+from carpus.core.simulation.motions import MOTIONS, create_motion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import truth_of
+from carpus.core.simulation.truth import compute_truth
 
 
 @pytest.mark.parametrize("option", [{"dropped_share": 1.5}, {"seconds": 0.0}, {"skin_tone": 9}, {"motion": "dance"}])
 def test_impossible_options_are_refused(option: dict) -> None:
     with pytest.raises(SettingsInvalid):
-        motion_of(RecordingSpec(**option))
+        create_motion(RecordingSpec(**option))
 
 
 @pytest.mark.parametrize("name", MOTIONS)
 def test_every_motion_starts_still_and_has_no_jump(name: str) -> None:
-    motion = motion_of(RecordingSpec(seed=3, motion=name, protocol="hand21", seconds=6.0, tremor_deg=1.0))
+    motion = create_motion(RecordingSpec(seed=3, motion=name, protocol="hand21", seconds=6.0, tremor_deg=1.0))
     still = np.linspace(0.0, 0.7, 20)
     assert STILL_S >= 0.7
     np.testing.assert_allclose(motion.wrist_angles_rad(still), 0.0, atol=1e-12)
     np.testing.assert_allclose(np.ptp(motion.joint_angles_rad(still), axis=0), 0.0, atol=1e-12)
-    np.testing.assert_allclose(motion.carry_m(still), 0.0, atol=1e-12)
+    np.testing.assert_allclose(motion.arm_displacement_m(still), 0.0, atol=1e-12)
     fine = np.arange(0.0, 6.0, 0.001)
-    for channel in (motion.wrist_angles_rad(fine), motion.joint_angles_rad(fine), motion.carry_m(fine)):
+    for channel in (motion.wrist_angles_rad(fine), motion.joint_angles_rad(fine), motion.arm_displacement_m(fine)):
         speed = np.diff(channel, axis=0) / 0.001
         assert np.abs(np.diff(speed, axis=0)).max() < 0.5  # a jump in posture would be of the order of 1000
 
@@ -41,7 +41,7 @@ def test_every_motion_starts_still_and_has_no_jump(name: str) -> None:
 )
 def test_single_axis_motions_fill_their_range_and_leave_the_others(name: str, axis: int, degrees: float) -> None:
     time_s = np.arange(0.0, 12.0, 0.01)
-    angles = np.degrees(motion_of(RecordingSpec(seed=1, motion=name, seconds=12.0)).wrist_angles_rad(time_s))
+    angles = np.degrees(create_motion(RecordingSpec(seed=1, motion=name, seconds=12.0)).wrist_angles_rad(time_s))
     assert 0.9 * degrees < angles[:, axis].max() < degrees + 2.0
     assert 0.9 * degrees < -angles[:, axis].min() < degrees + 2.0
     assert np.abs(np.delete(angles, axis, axis=1)).max() < 2.5
@@ -52,7 +52,7 @@ def test_options_shape_the_motion() -> None:
 
     def flexion(**options: object) -> np.ndarray:
         spec = RecordingSpec(seed=1, motion="flexion", seconds=12.0, **options)  # type: ignore[arg-type]
-        return np.degrees(motion_of(spec).wrist_angles_rad(time_s)[:, 1])
+        return np.degrees(create_motion(spec).wrist_angles_rad(time_s)[:, 1])
 
     def crossings(angle: np.ndarray) -> int:
         return int(np.count_nonzero(np.diff(np.sign(angle - 5.0)) > 0))
@@ -68,14 +68,14 @@ def test_options_shape_the_motion() -> None:
 
 def test_fast_deviation_turns_at_its_frequency() -> None:
     time_s = np.arange(1.0, 11.0, 0.01)
-    angle = motion_of(RecordingSpec(seed=1, motion="fast_deviation", seconds=12.0)).wrist_angles_rad(time_s)[:, 0]
+    angle = create_motion(RecordingSpec(seed=1, motion="fast_deviation", seconds=12.0)).wrist_angles_rad(time_s)[:, 0]
     spectrum = np.abs(np.fft.rfft(angle - angle.mean()))
     assert np.fft.rfftfreq(len(angle), 0.01)[spectrum.argmax()] == pytest.approx(1.7, abs=0.12)
 
 
 def test_reaching_is_as_measured_on_people() -> None:
     time_s = np.arange(0.0, 4.0, 0.002)
-    carry = motion_of(RecordingSpec(seed=2, motion="reach", seconds=4.0)).carry_m(time_s)
+    carry = create_motion(RecordingSpec(seed=2, motion="reach", seconds=4.0)).arm_displacement_m(time_s)
     speed = np.linalg.norm(np.gradient(carry, 0.002, axis=0), axis=1)
     assert 0.36 < np.linalg.norm(carry, axis=1).max() < 0.40
     assert 0.60 < speed.max() < 0.80
@@ -87,8 +87,8 @@ def test_reaching_is_as_measured_on_people() -> None:
 
 def test_coupled_and_free_end_joints() -> None:
     time_s = np.arange(0.0, 6.0, 0.05)
-    coupled = motion_of(RecordingSpec(motion="hook", protocol="hand21"))
-    free = motion_of(RecordingSpec(motion="hook", protocol="hand21", dip="free"))
+    coupled = create_motion(RecordingSpec(motion="hook", protocol="hand21"))
+    free = create_motion(RecordingSpec(motion="hook", protocol="hand21", dip="free"))
     assert len(coupled.joint_names) == 17
     assert len(free.joint_names) == 21
     end = np.degrees(free.joint_angles_rad(time_s)[:, free.joint_names.index("DIP3_flexion")])
@@ -99,28 +99,30 @@ def test_coupled_and_free_end_joints() -> None:
 
 def test_stroke_path_holds_and_passes_through_its_postures() -> None:
     path = StrokePath(np.array([0.0, 1.0, 2.0, 3.0]), np.array([[0.0], [2.0], [2.0], [-1.0]]))
-    np.testing.assert_allclose(path.at(np.array([-1.0, 1.0, 1.5, 2.0, 2.5, 3.0, 9.0]))[:, 0], [0, 2, 2, 2, 0.5, -1, -1])
+    np.testing.assert_allclose(
+        path.evaluate(np.array([-1.0, 1.0, 1.5, 2.0, 2.5, 3.0, 9.0]))[:, 0], [0, 2, 2, 2, 0.5, -1, -1]
+    )
 
 
 def test_palm_discs_are_one_rigid_body_in_every_frame() -> None:
-    truth = truth_of(Scene(RecordingSpec(seed=5, motion="mixed", protocol="hand21")))
-    palm = truth.disc_position_cam_m[:, [HAND21.markers.index(name) for name in PALM_MARKERS]]
+    truth = compute_truth(Scene(RecordingSpec(seed=5, motion="mixed", protocol="hand21")))
+    palm = truth.marker_position_cam_m[:, [HAND21.markers.index(name) for name in PALM_MARKERS]]
     gaps = np.linalg.norm(palm[:, :, None] - palm[:, None], axis=-1)
     assert np.ptp(gaps, axis=0).max() < 1e-12
-    moved = truth_of(Scene(RecordingSpec(seed=5, motion="flexion", skin_movement_mm=6.0)))
-    wrist_to_knuckle = np.linalg.norm(moved.disc_position_cam_m[:, 0] - moved.disc_position_cam_m[:, 3], axis=-1)
+    moved = compute_truth(Scene(RecordingSpec(seed=5, motion="flexion", skin_movement_mm=6.0)))
+    wrist_to_knuckle = np.linalg.norm(moved.marker_position_cam_m[:, 0] - moved.marker_position_cam_m[:, 3], axis=-1)
     assert 2e-3 < np.ptp(wrist_to_knuckle) < 5e-3
 
 
 def test_wrist_disc_hardly_moves_in_deviation_and_turns_about_the_joint_under_it() -> None:
     scene = Scene(RecordingSpec(seed=6, motion="deviation"))
-    truth = truth_of(scene)
+    truth = compute_truth(scene)
     assert np.linalg.norm(truth.position_m, axis=1).max() < 0.004
     flexing = Scene(RecordingSpec(seed=6, motion="flexion"))
-    values = truth_of(flexing)
+    values = compute_truth(flexing)
     joint = flexing.patient.wrist_joint_m
     pose = flexing.pose(values.time_s)
-    fixed = values.rotation_w2_w0 @ joint + values.position_m - pose.carry_m
+    fixed = values.rotation_w2_w0 @ joint + values.position_m - pose.arm_displacement_m
     np.testing.assert_allclose(fixed, np.broadcast_to(joint, fixed.shape), atol=1e-12)
     assert 0.008 < -joint[2] < 0.018
 
@@ -128,7 +130,7 @@ def test_wrist_disc_hardly_moves_in_deviation_and_turns_about_the_joint_under_it
 def test_true_velocities_are_derivatives() -> None:
     spec = RecordingSpec(seed=8, motion="reach_grasp", protocol="hand21", seconds=3.0)
     scene = Scene(spec)
-    truth = truth_of(scene)
+    truth = compute_truth(scene)
     h = 1e-3
     before, after = scene.pose(truth.time_s - h), scene.pose(truth.time_s + h)
     np.testing.assert_allclose(truth.velocity_m_s, (after.position_m - before.position_m) / (2 * h), atol=2e-3)
@@ -155,7 +157,9 @@ def test_left_hand_is_the_mirror_image_of_the_right() -> None:
     np.testing.assert_allclose(one.angles_rad, two.angles_rad, atol=1e-12)
     np.testing.assert_allclose(one.joint_angles_rad, two.joint_angles_rad, atol=1e-12)
     np.testing.assert_allclose(
-        a.discs_w0_m(one) - one.carry_m[:, None], (b.discs_w0_m(two) - two.carry_m[:, None]) * mirror, atol=1e-9
+        a.markers_w0_m(one) - one.arm_displacement_m[:, None],
+        (b.markers_w0_m(two) - two.arm_displacement_m[:, None]) * mirror,
+        atol=1e-9,
     )
     cones_a, cones_b = a.skin.cones_w(one.joint_angles_rad[9]), b.skin.cones_w(two.joint_angles_rad[9])
     np.testing.assert_allclose(cones_a.b_m, cones_b.b_m * mirror, atol=1e-9)

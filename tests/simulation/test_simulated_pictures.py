@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.protocols import HAND21
-from carpus.core.simulation.recording import SimulatedPictures
-from carpus.core.simulation.render import corner_light
+from carpus.core.simulation.recording import SimulatedRecording
+from carpus.core.simulation.render import ambient_occlusion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trace import Box, TracedSurface, trace
+from carpus.core.simulation.trace import Box, TracedSurface, trace_cones
 from carpus.core.types import ByteImage, FloatArray
 from tests.simulation.skin_shown import discs_found_on_the_surface, gaps_m
 from tests.suites import few
@@ -35,11 +35,11 @@ def blue_centroid(rgb: ByteImage, near_px: FloatArray, radius_px: float) -> Floa
     return np.array([u + (columns * weight).sum() / weight.sum(), v + (rows * weight).sum() / weight.sum()])
 
 
-def radius_px(pictures: SimulatedPictures, i: int, m: int) -> float:
+def radius_px(pictures: SimulatedRecording, i: int, m: int) -> float:
     truth = pictures.truth
     row = HAND21.markers.index(truth.spec.marker_protocol.markers[m])
-    z = truth.disc_position_cam_m[i, m, 2]
-    return float(pictures.scene.patient.disc_radius_m[row] * truth.camera.fx_px / z)
+    z = truth.marker_position_cam_m[i, m, 2]
+    return float(pictures.scene.patient.marker_radius_m[row] * truth.camera.fx_px / z)
 
 
 @pytest.mark.parametrize(("hand", "seed", "frame"), few([("left", 6, 40), ("right", 4, 0), ("right", 8, 70)]))
@@ -48,26 +48,26 @@ def test_discs_appear_where_the_truth_projects_them(hand: str, seed: int, frame:
         seed=seed, hand=hand, light="bright", skin_tone=1, hand_length_mm=185, exposure_s=0.0, motion="mixed",
         sensor_noise=False,
     )  # fmt: skip
-    pictures = SimulatedPictures(spec)
-    clean = pictures.clean(frame)
-    color, _ = pictures.sensed(frame, clean)
+    pictures = SimulatedRecording(spec)
+    clean = pictures.render_clean(frame)
+    color, _ = pictures.apply_sensor(frame, clean)
     truth = pictures.truth
     assert clean.visible_share.min() > 0.85
     for m in range(6):
-        found = blue_centroid(color, truth.disc_pixel[frame, m], radius_px(pictures, frame, m))
-        error = np.linalg.norm(found - truth.disc_pixel[frame, m])
+        found = blue_centroid(color, truth.marker_px[frame, m], radius_px(pictures, frame, m))
+        error = np.linalg.norm(found - truth.marker_px[frame, m])
         assert error < (0.45 if m == 1 else 0.3), (m, error)  # CMC1 lies on a slope
 
 
 def test_sensor_adds_little_to_the_discs_places() -> None:
     spec = RecordingSpec(seed=4, light="bright", skin_tone=1, hand_length_mm=185, motion="rest", seconds=1.0)
-    pictures = SimulatedPictures(spec)
+    pictures = SimulatedRecording(spec)
     errors = []
     for i in range(6):
-        color, _ = pictures.sensed(i, pictures.clean(i))
+        color, _ = pictures.apply_sensor(i, pictures.render_clean(i))
         errors += [
-            blue_centroid(color, pictures.truth.disc_pixel[i, m], radius_px(pictures, i, m))
-            - pictures.truth.disc_pixel[i, m]
+            blue_centroid(color, pictures.truth.marker_px[i, m], radius_px(pictures, i, m))
+            - pictures.truth.marker_px[i, m]
             for m in range(6)
         ]
     assert 0.01 < np.sqrt(np.mean(np.square(errors))) < 0.3
@@ -76,7 +76,7 @@ def test_sensor_adds_little_to_the_discs_places() -> None:
 @pytest.mark.parametrize("motion", few(["fist", "mixed", "abduction"]))
 def test_discs_lie_on_the_rendered_surface(motion: str) -> None:
     spec = RecordingSpec(seed=11, protocol="hand21", motion=motion, depth_delay_s=0.0, sensor_noise=False)
-    assert discs_found_on_the_surface(SimulatedPictures(spec), (0, 35, 60), least_facing=0.4) > 25
+    assert discs_found_on_the_surface(SimulatedRecording(spec), (0, 35, 60), least_facing=0.4) > 25
 
 
 @pytest.mark.parametrize("skin_offsets", [True, False])
@@ -92,12 +92,12 @@ def test_hidden_discs_are_not_in_the_picture() -> None:
         seed=3, hidden_share=0.5, hidden_mean_s=0.5, light="bright", skin_tone=0, hand_length_mm=190, seconds=4.0,
         motion="rest", sensor_noise=False,
     )  # fmt: skip
-    pictures = SimulatedPictures(spec)
+    pictures = SimulatedRecording(spec)
     seen = {True: 0, False: 0}
     for i in range(30, 120, 12):
-        clean = pictures.clean(i)
-        color, _ = pictures.sensed(i, clean)
-        for m, (u, v) in enumerate(np.round(pictures.truth.disc_pixel[i]).astype(int)):
+        clean = pictures.render_clean(i)
+        color, _ = pictures.apply_sensor(i, clean)
+        for m, (u, v) in enumerate(np.round(pictures.truth.marker_px[i]).astype(int)):
             red, _, blue = color[v, u].astype(int)
             is_hidden = clean.visible_share[m] == 0.0
             assert (red > blue) == is_hidden
@@ -107,33 +107,33 @@ def test_hidden_discs_are_not_in_the_picture() -> None:
 
 def test_passing_thing_hides_discs_and_stands_nearer() -> None:
     spec = RecordingSpec(seed=5, object_passes=True, motion="rest", seconds=5.0, sensor_noise=False)
-    pictures = SimulatedPictures(spec)
+    pictures = SimulatedRecording(spec)
     frames = range(0, len(pictures), 8)
     shares = [pictures.visible_share(i).sum() for i in frames]
     assert shares[0] > 5.5
     worst = frames[int(np.argmin(shares))]
     assert min(shares) < 4.5
-    clean, before = pictures.clean(worst), pictures.clean(0)
+    clean, before = pictures.render_clean(worst), pictures.render_clean(0)
     m = int(np.argmin(clean.visible_share))
-    u, v = np.round(pictures.truth.disc_pixel[worst, m]).astype(int)
+    u, v = np.round(pictures.truth.marker_px[worst, m]).astype(int)
     assert clean.depth_m[v, u] < before.depth_m[v, u] - 0.02
 
 
 def test_hand_leaves_the_picture_and_returns() -> None:
     spec = RecordingSpec(seed=5, leaves_picture=True, motion="rest", seconds=6.0, exposure_s=0.0)
-    pictures = SimulatedPictures(spec)
-    pixel = pictures.truth.disc_pixel
+    pictures = SimulatedRecording(spec)
+    pixel = pictures.truth.marker_px
     outside = ((pixel < 0) | (pixel > [639, 479])).any(axis=-1).all(axis=-1)
     assert not outside[:60].any()
     assert not outside[-20:].any()
     away = int(np.flatnonzero(outside)[3])
-    np.testing.assert_array_equal(pictures.clean(away).visible_share, 0.0)
+    np.testing.assert_array_equal(pictures.render_clean(away).visible_share, 0.0)
 
 
 def test_false_blobs_are_blue_and_have_depth() -> None:
-    without = SimulatedPictures(RecordingSpec(seed=6, motion="rest", sensor_noise=False))
-    with_blobs = SimulatedPictures(RecordingSpec(seed=6, motion="rest", sensor_noise=False, false_blobs=4))
-    plain, spotted = without.clean(5), with_blobs.clean(5)
+    without = SimulatedRecording(RecordingSpec(seed=6, motion="rest", sensor_noise=False))
+    with_blobs = SimulatedRecording(RecordingSpec(seed=6, motion="rest", sensor_noise=False, false_blobs=4))
+    plain, spotted = without.render_clean(5), with_blobs.render_clean(5)
     changed = (np.abs(plain.color - spotted.color).max(axis=-1) > 0.02).astype(np.uint8)
     count, _, stats, middle = cv2.connectedComponentsWithStats(changed)
     places = middle[1:count][stats[1:count, cv2.CC_STAT_AREA] > 12]
@@ -145,8 +145,8 @@ def test_false_blobs_are_blue_and_have_depth() -> None:
 
 def test_blue_sleeve_and_tone_and_light_show() -> None:
     def arm_color(**options: object) -> FloatArray:
-        pictures = SimulatedPictures(RecordingSpec(seed=1, motion="rest", **options))  # type: ignore[arg-type]
-        color, _ = pictures.sensed(0, pictures.clean(0))
+        pictures = SimulatedRecording(RecordingSpec(seed=1, motion="rest", **options))  # type: ignore[arg-type]
+        color, _ = pictures.apply_sensor(0, pictures.render_clean(0))
         place = pictures.scene.to_camera(np.array([-0.12, 0.0, -0.02]))
         u, v = np.round(pictures.scene.camera.project(place)).astype(int)
         return color[v - 3 : v + 4, u - 3 : u + 4].reshape(-1, 3).mean(axis=0)
@@ -161,10 +161,10 @@ def test_blue_sleeve_and_tone_and_light_show() -> None:
 def test_moving_hand_is_blurred_when_the_exposure_is_long() -> None:
     def sharpness(exposure_s: float) -> float:
         spec = RecordingSpec(seed=4, motion="fast_deviation", exposure_s=exposure_s, sensor_noise=False, seconds=2.0)
-        pictures = SimulatedPictures(spec)
+        pictures = SimulatedRecording(spec)
         fastest = int(np.argmax(np.abs(pictures.truth.angular_velocity_rad_s[:, 2])))
-        clean = pictures.clean(fastest)
-        u, v = np.round(pictures.truth.disc_pixel[fastest, 3]).astype(int)
+        clean = pictures.render_clean(fastest)
+        u, v = np.round(pictures.truth.marker_px[fastest, 3]).astype(int)
         window = clean.color[v - 12 : v + 13, u - 12 : u + 13, 0]
         return float(np.abs(np.diff(window, axis=1)).max())
 
@@ -176,7 +176,7 @@ def test_the_last_column_of_a_hand_that_leaves_can_be_lit() -> None:
     sliver = TracedSurface(
         Box(100, 140, 639, 640), depth_m, np.ones_like(depth_m), np.zeros((40, 1, 3)), np.zeros((40, 1))
     )
-    light = corner_light(sliver, depth_m)
+    light = ambient_occlusion(sliver, depth_m)
     assert light.shape == (40, 1)
     assert np.all(light == 1.0)
 
@@ -184,5 +184,5 @@ def test_the_last_column_of_a_hand_that_leaves_can_be_lit() -> None:
 def test_skin_outside_the_picture_is_none() -> None:
     scene = Scene(RecordingSpec(seed=7))
     cones = scene.cones_cam(scene.pose(np.array([0.0])), 0)
-    assert trace(scene.camera, cones) is not None
-    assert trace(scene.camera, cones.moved(np.eye(3), np.array([3.0, 0.0, 0.0]))) is None
+    assert trace_cones(scene.camera, cones) is not None
+    assert trace_cones(scene.camera, cones.transform(np.eye(3), np.array([3.0, 0.0, 0.0]))) is None

@@ -17,15 +17,15 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import OutputExists
 from carpus.core.simulation.recording import (
     TRUTH_FILE,
-    _rendering_processes,
-    cached_recording,
-    clicks_of,
+    _create_worker_pool,
+    render_cached,
+    sample_clicks,
     simulate,
 )
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trouble import covered_discs, false_blobs, frame_times
-from carpus.core.simulation.truth import truth_of
+from carpus.core.simulation.trouble import sample_covered_markers, sample_false_blobs, sample_frame_times
+from carpus.core.simulation.truth import compute_truth
 from tests.rendered import truth_in
 from tests.simulation.measurements import measurement_sequence
 
@@ -88,7 +88,7 @@ def test_recording_reads_back_with_its_true_times(recording: Path) -> None:
 
 def test_dropped_frames_keep_time() -> None:
     whole, thinned = RecordingSpec(seed=1, seconds=20.0), RecordingSpec(seed=1, seconds=20.0, dropped_share=0.1)
-    all_times, times = frame_times(whole), frame_times(thinned)
+    all_times, times = sample_frame_times(whole), sample_frame_times(thinned)
     assert set(times.color_s.tolist()) < set(all_times.color_s.tolist())
     assert len(times.color_s) + times.dropped_before.sum() <= len(all_times.color_s)
     assert 30 < times.dropped_before.sum() < 90
@@ -108,14 +108,14 @@ def test_truth_file_is_a_session_of_true_values(recording: Path) -> None:
         np.testing.assert_allclose(file["/wrist/angles"][()], truth.angles_rad)
         np.testing.assert_allclose(file["/wrist/position"][()], truth.position_m)
         np.testing.assert_allclose(file["/wrist/angular_velocity"][()], truth.angular_velocity_rad_s)
-        np.testing.assert_allclose(file["/markers/position_camera"][()], truth.disc_position_cam_m)
+        np.testing.assert_allclose(file["/markers/position_camera"][()], truth.marker_position_cam_m)
         np.testing.assert_allclose(file["/calibration/rotation"][()], truth.rotation_w0_cam)
         measured = file["/markers/measured"][()]
     hidden = truth.visible_share == 0.0
     assert hidden.any()
     assert np.isnan(measured[hidden]).all()
     seen = truth.visible_share > 0.9
-    np.testing.assert_allclose(measured[seen], truth.disc_pixel[seen])
+    np.testing.assert_allclose(measured[seen], truth.marker_px[seen])
 
 
 def test_clicks_are_those_of_a_person(recording: Path) -> None:
@@ -124,10 +124,10 @@ def test_clicks_are_those_of_a_person(recording: Path) -> None:
     assert content["hand"] == "left"
     assert content["protocol"] == "wrist6"
     assert tuple(content["markers"]) == SPEC.marker_protocol.markers
-    off = np.linalg.norm(np.array(list(content["markers"].values())) - truth.disc_pixel[0], axis=1)
+    off = np.linalg.norm(np.array(list(content["markers"].values())) - truth.marker_px[0], axis=1)
     assert 0.2 < off.max() < 5.0
-    exact = truth_of(Scene(dataclasses.replace(SPEC, click_error_px=0.0)))
-    np.testing.assert_allclose(clicks_of(exact).pixel, exact.disc_pixel[0], atol=0.051)
+    exact = compute_truth(Scene(dataclasses.replace(SPEC, click_error_px=0.0)))
+    np.testing.assert_allclose(sample_clicks(exact).pixel, exact.marker_px[0], atol=0.051)
 
 
 def test_nothing_is_overwritten(recording: Path) -> None:
@@ -140,19 +140,19 @@ def test_nothing_is_overwritten(recording: Path) -> None:
 def test_cache_renders_once(tmp_path: Path) -> None:
     spec = RecordingSpec(seed=30, seconds=0.1, motion="rest")
     calls: list[int] = []
-    first = cached_recording(spec, lambda done, _: calls.append(done), cache=tmp_path)
+    first = render_cached(spec, lambda done, _: calls.append(done), cache=tmp_path)
     assert calls == [1, 2, 3]
-    second = cached_recording(spec, lambda done, _: calls.append(done), cache=tmp_path)
+    second = render_cached(spec, lambda done, _: calls.append(done), cache=tmp_path)
     assert calls == [1, 2, 3]
     assert first == second
-    assert cached_recording(dataclasses.replace(spec, seed=31), cache=tmp_path) != first
+    assert render_cached(dataclasses.replace(spec, seed=31), cache=tmp_path) != first
     assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_discs_are_covered_as_often_as_asked_but_not_at_the_start() -> None:
     spec = RecordingSpec(seed=3, seconds=200.0, hidden_share=0.1, hidden_mean_s=0.4)
     times = np.arange(0.0, 200.0, 1.0 / 30.0)
-    covered = covered_discs(spec, times)
+    covered = sample_covered_markers(spec, times)
     assert covered[times > 1.0].mean() == pytest.approx(0.1, abs=0.02)
     assert not covered[times < 0.75].any()
     changes = np.diff(covered.astype(int), axis=0)
@@ -162,7 +162,7 @@ def test_discs_are_covered_as_often_as_asked_but_not_at_the_start() -> None:
 
 def test_false_blobs_are_as_many_as_asked_and_clear_of_the_discs() -> None:
     scene = Scene(RecordingSpec(seed=3, seconds=20.0, false_blobs=2))
-    blobs = false_blobs(scene)
+    blobs = sample_false_blobs(scene)
     times = np.arange(0.0, 20.0, 0.05)
     count = sum((times >= b.start_s) & (times <= b.end_s) for b in blobs)
     assert np.mean(count) == pytest.approx(2.0, abs=0.01)
@@ -183,8 +183,8 @@ def test_measurements_are_the_truth_with_noise() -> None:
     for i, (blobs, marker) in enumerate(zip(sequence.detections, sequence.marker, strict=True)):
         real = marker >= 0
         assert len(set(marker[real].tolist())) == real.sum()
-        errors.append(blobs.pixel[real] - truth.disc_pixel[i, marker[real]])
-        depth_errors.append(blobs.depth_m[real] - truth.disc_position_cam_m[i, marker[real], 2])
+        errors.append(blobs.pixel[real] - truth.marker_px[i, marker[real]])
+        depth_errors.append(blobs.depth_m[real] - truth.marker_position_cam_m[i, marker[real], 2])
         false_count += int((~real).sum())
         missing = np.setdiff1d(np.arange(6), marker)
         np.testing.assert_array_equal(truth.visible_share[i, missing], 0.0)
@@ -195,7 +195,7 @@ def test_measurements_are_the_truth_with_noise() -> None:
     assert 1.3 < false_count / frames <= 2.1
     assert 0.06 < hidden / frames / 6 < 0.16
     assert len(sequence.detections[0]) >= 6
-    np.testing.assert_array_equal(truth.angles_rad, truth_of(Scene(spec)).angles_rad)
+    np.testing.assert_array_equal(truth.angles_rad, compute_truth(Scene(spec)).angles_rad)
 
 
 def test_measurements_repeat_and_can_be_free_of_noise() -> None:
@@ -208,12 +208,12 @@ def test_measurements_repeat_and_can_be_free_of_noise() -> None:
     closing = np.flatnonzero(clean.truth.time_s > 2.0)[0]
     assert len(clean.detections[0]) > 18
     assert len(clean.detections[closing]) < len(clean.detections[0]) - 4  # the fist hides the finger ends
-    for blobs, marker, pixel in zip(clean.detections, clean.marker, clean.truth.disc_pixel, strict=True):
+    for blobs, marker, pixel in zip(clean.detections, clean.marker, clean.truth.marker_px, strict=True):
         np.testing.assert_allclose(blobs.pixel, pixel[marker], atol=1e-9)
 
 
 def test_ctrl_c_is_left_to_whoever_asked_for_pictures(tmp_path: Path) -> None:
-    processes = _rendering_processes(SPEC, tmp_path, 1)
+    processes = _create_worker_pool(SPEC, tmp_path, 1)
     assert processes is not None
     with processes:
         assert processes.submit(signal.getsignal, signal.SIGINT).result() == signal.SIG_IGN

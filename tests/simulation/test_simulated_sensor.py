@@ -10,9 +10,9 @@ import pytest
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.depth_sensor import D455
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import SimulatedPictures, simulate
+from carpus.core.simulation.recording import SimulatedRecording, simulate
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import DepthPictures, SimulatedDepth, depth_pictures
+from carpus.core.simulation.sensor import SimulatedDepthSensor, StructuredLightSensor, create_depth_sensor
 from carpus.core.simulation.spec import RecordingSpec
 from tests.suites import few
 
@@ -27,7 +27,7 @@ def slope(z_m: float) -> np.ndarray:
     return (z_m * (1.0 + 3e-5 * (columns - 320) + 2e-5 * (rows - 240))).astype(np.float32)
 
 
-def errors_on(wall: np.ndarray, sensor: DepthPictures, count: int) -> np.ndarray:
+def errors_on(wall: np.ndarray, sensor: SimulatedDepthSensor, count: int) -> np.ndarray:
     """Of so many pictures of a wall, NaN where a picture has a hole."""
     stack = np.stack([sensor.measure(wall, i) * UNIT_M for i in range(count)])
     return np.where(stack > 0.0, stack - wall, np.nan)
@@ -47,7 +47,7 @@ def block() -> np.ndarray:
 
 @pytest.mark.parametrize("z_m", few([0.7, 0.6, 0.9]))
 def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
-    sensor, wall = SimulatedDepth(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
+    sensor, wall = StructuredLightSensor(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
     error = errors_on(wall, sensor, 12)
     sigma = 1.425e-3 * z_m**2
     assert np.nanstd(error) == pytest.approx(sigma, rel=0.15)
@@ -68,12 +68,12 @@ def test_other_sensors_scatter_by_their_own_law(name: str, z_m: float) -> None:
     """On a wall: what changes from picture to picture, what stays, and how far neighbours are one reading."""
     spec = RecordingSpec(seed=1, depth_scale_error=0.0, sensor=name)
     camera = Scene(spec).camera
-    sensor, wall, count = depth_pictures(spec, camera), slope(z_m), 8
+    sensor, wall, count = create_depth_sensor(spec, camera), slope(z_m), 8
     error = errors_on(wall, sensor, count)
     stays = np.nanmean(error, axis=0)
     passing = error - stays
     passing_m = float(np.nanstd(passing)) * np.sqrt(count / (count - 1))
-    said_m, said_stays_m = (float(of(np.array(z_m))) for of in (camera.sensor.reading_sd_m, camera.sensor.stays_sd_m))
+    said_m, said_stays_m = (float(of(np.array(z_m))) for of in (camera.sensor.reading_sd_m, camera.sensor.bias_sd_m))
     is_stereo = camera.sensor.kind == "active stereo"
     said_stays_m -= camera.sensor.stays.fixed_m if is_stereo else 0.0  # a wall has no knuckles
     in_one = said_stays_m**2 if is_stereo else 0.0
@@ -89,7 +89,7 @@ def test_edges_are_thick_for_two_eyes_and_fly_for_time_of_flight() -> None:
     found = {}
     for name in ("d435", "azure"):
         spec = RecordingSpec(seed=3, depth_scale_error=0.0, sensor=name)
-        raw = depth_pictures(spec, Scene(spec).camera).measure(block(), 0)[150:330] * UNIT_M
+        raw = create_depth_sensor(spec, Scene(spec).camera).measure(block(), 0)[150:330] * UNIT_M
         found[name] = raw
         holes = (raw == 0.0).mean(axis=0)
         assert holes[212:388].max() < 0.1
@@ -105,7 +105,7 @@ def test_edges_are_thick_for_two_eyes_and_fly_for_time_of_flight() -> None:
 
 def test_dark_things_are_noisier_to_time_of_flight() -> None:
     spec = RecordingSpec(seed=5, depth_scale_error=0.0, sensor="azure")
-    sensor, wall = depth_pictures(spec, Scene(spec).camera), slope(0.7)
+    sensor, wall = create_depth_sensor(spec, Scene(spec).camera), slope(0.7)
     light = np.full((*SHAPE, 3), 0.4, dtype=np.float32)
     light[:, :320] = 0.1
     for brightness in (1.0, 0.2):  # of the room, which does not count
@@ -121,7 +121,7 @@ def test_the_written_recording_says_its_sensor(tmp_path: Path) -> None:
 
 def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
     wall = slope(0.8)
-    raw = SimulatedDepth(RecordingSpec(seed=2, depth_scale_error=0.0), SHAPE).measure(wall, 0) * UNIT_M
+    raw = StructuredLightSensor(RecordingSpec(seed=2, depth_scale_error=0.0), SHAPE).measure(wall, 0) * UNIT_M
     values = np.unique(raw[raw > 0.0])
     step = 2.85e-3 * 0.8**2
     assert np.median(np.diff(values)) == pytest.approx(step, abs=6e-4)
@@ -131,7 +131,7 @@ def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
 
 
 def test_edges_have_holes_and_a_shadow_on_one_side() -> None:
-    raw = SimulatedDepth(RecordingSpec(seed=3), SHAPE).measure(block(), 0)[150:330] > 0
+    raw = StructuredLightSensor(RecordingSpec(seed=3), SHAPE).measure(block(), 0)[150:330] > 0
     holes = 1.0 - raw.mean(axis=0)
     assert holes[206:394].max() < 0.1
     assert holes[:180].max() < 0.1
@@ -146,7 +146,7 @@ def test_scale_error_is_one_number_of_the_unit_and_bounded() -> None:
     wall = slope(0.7)
     scales = []
     for seed in range(8):
-        sensor = SimulatedDepth(RecordingSpec(seed=seed, depth_scale_error=0.01), SHAPE)
+        sensor = StructuredLightSensor(RecordingSpec(seed=seed, depth_scale_error=0.01), SHAPE)
         means = [float((sensor.measure(wall, i) * UNIT_M / wall).mean()) for i in range(2)]
         assert means[0] == pytest.approx(means[1], abs=5e-4)
         scales.append(means[0] - 1.0)
@@ -157,15 +157,15 @@ def test_scale_error_is_one_number_of_the_unit_and_bounded() -> None:
 def test_noise_depends_on_seed_and_frame_alone() -> None:
     wall = slope(0.7)
     spec = RecordingSpec(seed=4)
-    first, again = SimulatedDepth(spec, SHAPE), SimulatedDepth(spec, SHAPE)
+    first, again = StructuredLightSensor(spec, SHAPE), StructuredLightSensor(spec, SHAPE)
     first.measure(wall, 0)
     np.testing.assert_array_equal(first.measure(wall, 5), again.measure(wall, 5))
     assert np.any(first.measure(wall, 5) != first.measure(wall, 6))
 
 
 def test_two_neighbours_share_their_chroma() -> None:
-    pictures = SimulatedPictures(RecordingSpec(seed=2, light="normal", motion="rest"))
-    color, _ = pictures.sensed(0, pictures.clean(0))
+    pictures = SimulatedRecording(RecordingSpec(seed=2, light="normal", motion="rest"))
+    color, _ = pictures.apply_sensor(0, pictures.render_clean(0))
     difference = color.astype(int)[..., 0] - color.astype(int)[..., 2]
     pairs = np.abs(difference[:, 0::2] - difference[:, 1::2])
     between = np.abs(difference[:, 1:-1:2] - difference[:, 2::2])
@@ -175,9 +175,9 @@ def test_two_neighbours_share_their_chroma() -> None:
 
 def test_dim_light_is_noisier() -> None:
     def noise(light: str) -> float:
-        pictures = SimulatedPictures(RecordingSpec(seed=2, light=light, motion="rest"))  # type: ignore[arg-type]
-        clean = pictures.clean(0)
-        stack = np.stack([pictures.sensed(i, clean)[0][200:260, 20:120].astype(float) for i in range(6)])
+        pictures = SimulatedRecording(RecordingSpec(seed=2, light=light, motion="rest"))  # type: ignore[arg-type]
+        clean = pictures.render_clean(0)
+        stack = np.stack([pictures.apply_sensor(i, clean)[0][200:260, 20:120].astype(float) for i in range(6)])
         return float(stack.std(axis=0).mean())
 
     assert 0.5 < noise("bright") < 3.0

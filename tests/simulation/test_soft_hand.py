@@ -10,12 +10,12 @@ import pytest
 
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.protocols import HAND21
-from carpus.core.simulation.hand_motion import FULL_CUP_RAD, TissueState, lagged, tissue_of, with_play
-from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.hand_motion import FULL_CUP_RAD, TissueState, apply_lag, apply_play, sample_tissue
+from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.skin import skin_distance
 from carpus.core.simulation.spec import HABITS, RecordingSpec
-from carpus.core.simulation.truth import truth_of
+from carpus.core.simulation.truth import compute_truth
 from tests.simulation.skin_shown import discs_found_on_the_surface
 from tests.suites import few
 
@@ -44,20 +44,20 @@ def tightest(scene: Scene) -> float:
 @pytest.mark.parametrize("options", few(CASES, 2))
 def test_discs_lie_on_the_rendered_surface_of_a_soft_hand(options: dict[str, Any]) -> None:
     spec = RecordingSpec(seed=5, depth_delay_s=0.0, sensor_noise=False, exposure_s=0.0, **options, **SOFT)
-    pictures = SimulatedPictures(spec)
+    pictures = SimulatedRecording(spec)
     frames = [0, round(30 * tightest(pictures.scene)), 95]
     checked = discs_found_on_the_surface(pictures, frames, least_facing=0.5)
     assert checked > 2 * len(spec.marker_protocol.markers) // 3
-    discs = pictures.truth.disc_position_cam_m
+    discs = pictures.truth.marker_position_cam_m
     assert np.linalg.norm(discs[frames] - discs[0], axis=-1).max() > 0.010
 
 
 @pytest.mark.parametrize("options", few(CASES, 2))
 def test_the_softness_leaves_the_true_angles_as_they_were(options: dict[str, Any]) -> None:
-    rigid, soft = (truth_of(scene) for scene in scenes(**options))
+    rigid, soft = (compute_truth(scene) for scene in scenes(**options))
     for name in ("angles_rad", "rotation_w2_w0", "joint_angles_rad", "angular_velocity_rad_s", "position_m"):
         np.testing.assert_array_equal(getattr(rigid, name), getattr(soft, name))
-    assert np.linalg.norm(rigid.disc_position_cam_m - soft.disc_position_cam_m, axis=-1).max() > 2e-3
+    assert np.linalg.norm(rigid.marker_position_cam_m - soft.marker_position_cam_m, axis=-1).max() > 2e-3
     np.testing.assert_allclose(rigid.marker_position_w0_m, soft.marker_position_w0_m, atol=1e-4)
 
 
@@ -70,10 +70,12 @@ def test_no_glide_and_no_cupping_is_the_rigid_hand() -> None:
     time_s = np.linspace(0.0, 8.0, 50)
     pose = rigid.pose(time_s)
     palm = list(HAND21.palm)
-    local = (rigid.discs_w0_m(pose) - pose.position_m[:, None]) @ pose.rotation_w2_w0
+    local = (rigid.markers_w0_m(pose) - pose.position_m[:, None]) @ pose.rotation_w2_w0
     np.testing.assert_allclose(np.ptp(local[:, palm], axis=0), 0.0, atol=1e-12)
-    away = np.linalg.norm(soft.discs_w0_m(soft.pose(time_s)) - rigid.discs_w0_m(pose), axis=-1)
-    still = np.linalg.norm(soft.discs_w0_m(soft.pose(np.zeros(1))) - rigid.discs_w0_m(rigid.pose(np.zeros(1))), axis=-1)
+    away = np.linalg.norm(soft.markers_w0_m(soft.pose(time_s)) - rigid.markers_w0_m(pose), axis=-1)
+    still = np.linalg.norm(
+        soft.markers_w0_m(soft.pose(np.zeros(1))) - rigid.markers_w0_m(rigid.pose(np.zeros(1))), axis=-1
+    )
     assert still.max() < 1e-4
     assert away[:, palm].max() < 2e-3  # what is left is the knuckles' rising
     assert np.delete(away, palm, axis=1).max() < 2e-4
@@ -85,7 +87,7 @@ def test_the_fixed_unit_does_not_move_while_the_hand_grips(hand: str) -> None:
     pose = soft.pose(np.array([0.0, tightest(soft)]))
     discs = soft.patient.anatomy.palm_disc_m * [1.0, -1.0 if hand == "left" else 1.0, 1.0]
     wrist, mcp2, mcp3 = discs[0], discs[2], discs[3]
-    open_hand, grip = (soft.skin.cones_w(pose.joint_angles_rad[i], pose.tissue.only(i)) for i in (0, 1))
+    open_hand, grip = (soft.skin.cones_w(pose.joint_angles_rad[i], pose.tissue.select(i)) for i in (0, 1))
     for share in np.linspace(0.0, 0.75, 6):
         for end in (mcp2, mcp3):
             place = np.array([*(wrist + share * (end - wrist))[:2], 0.05])
@@ -108,7 +110,7 @@ def height_m(place_m: np.ndarray, cones: Any) -> float:
 def test_knuckles_glide_distally_by_the_gain_and_rise() -> None:
     _, soft = scenes(motion="bend45", protocol="hand21", seconds=12.0, speed_hz=0.1)
     pose = soft.pose(np.arange(0.0, 12.0, 0.1))
-    local = (soft.discs_w0_m(pose) - pose.position_m[:, None]) @ pose.rotation_w2_w0
+    local = (soft.markers_w0_m(pose) - pose.position_m[:, None]) @ pose.rotation_w2_w0
     flexion = pose.joint_angles_rad[:, soft.motion.joint_names.index("MCP2_flexion")]
     gone_mm = 1e3 * (local[:, KNUCKLES[0], 0] - local[0, KNUCKLES[0], 0])
     bent = flexion > np.radians(40.0)
@@ -120,7 +122,7 @@ def test_knuckles_glide_distally_by_the_gain_and_rise() -> None:
 def test_knuckles_stand_out_when_the_fingers_bend() -> None:
     _, soft = scenes(motion="bend45", protocol="hand21")
     joints = soft.motion.joint_angles_rad(np.zeros(1))[0]
-    still = TissueState.rigid(1).only(0)
+    still = TissueState.rigid(1).select(0)
     risen = dataclasses.replace(still, rise=np.ones(4))
     disc = soft.patient.anatomy.palm_disc_m[3]
     place = np.array([disc[0] + 0.003, disc[1], 0.05])
@@ -142,19 +144,19 @@ def test_metacarpals_flex_together_with_the_grip() -> None:
 def test_play_closes_its_loop_and_the_lag_comes_to_rest() -> None:
     time_s = np.arange(0.0, 8.0, 0.01)
     driver = np.sin(2.0 * np.pi * 0.5 * time_s)[:, None]
-    followed = with_play(driver, 0.2)
+    followed = apply_play(driver, 0.2)
     later, sooner = followed[400:600, 0], followed[600:800, 0]
     np.testing.assert_allclose(later, sooner, atol=1e-9)  # round after round the same
     assert followed[500, 0] == pytest.approx(0.1)  # but another way back: the driver falls through 0 here
     assert followed[600, 0] == pytest.approx(-0.1)  # and rises through 0 here
     assert np.abs(followed - driver).max() <= 0.1 + 1e-12
-    step = lagged(np.vstack((np.zeros((1, 1)), np.ones((400, 1)))), 10.0)[:, 0]
+    step = apply_lag(np.vstack((np.zeros((1, 1)), np.ones((400, 1)))), 10.0)[:, 0]
     assert step[10] == pytest.approx(1.0 - np.exp(-1.0), abs=0.05)
     assert step[-1] == pytest.approx(1.0, abs=1e-6)
 
 
 def test_tissue_is_drawn_per_person_within_its_range() -> None:
-    drawn = [tissue_of(RecordingSpec(seed=seed, skin_glide_mm=None, cupping=None)) for seed in range(60)]
+    drawn = [sample_tissue(RecordingSpec(seed=seed, skin_glide_mm=None, cupping=None)) for seed in range(60)]
     knuckle_mm = np.array([t.glide_m_rad[KNUCKLES].mean() for t in drawn]) * 1e3 * np.pi / 2.0
     assert knuckle_mm.min() < 1.5
     assert 6.0 < knuckle_mm.max() < 9.0

@@ -9,11 +9,11 @@ from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.clinical_angles import angles_from_rotation, wrist_axes
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.protocols import HAND21
-from carpus.core.simulation.patient import MOST_OFF_M
-from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.patient import MAX_PLACEMENT_ERROR_M
+from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import truth_of
+from carpus.core.simulation.truth import compute_truth
 from tests.simulation.measurements import measurement_sequence
 from tests.simulation.skin_shown import gaps_m
 
@@ -32,7 +32,7 @@ def test_hands_are_drawn_wider_than_the_prior() -> None:
 
     assert spread(usual)[PALM].max() < 0.13
     assert spread(wide)[PALM].min() > 0.14
-    radius = np.array([s.patient.disc_radius_m[0] for s in wide])
+    radius = np.array([s.patient.marker_radius_m[0] for s in wide])
     large = radius[radius > 0.0045]
     assert large.min() < 0.0055
     assert large.max() > 0.0063
@@ -40,10 +40,10 @@ def test_hands_are_drawn_wider_than_the_prior() -> None:
     assert 0.012 <= depth.min() < 0.014 < 0.018 < depth.max() <= 0.020
     for scene in wide:
         pose = scene.pose(np.zeros(1))
-        off = scene.discs_w0_m(pose)[0] - disc_centres(scene.patient.anatomy, pose.joint_angles_rad)[0]
+        off = scene.markers_w0_m(pose)[0] - disc_centres(scene.patient.anatomy, pose.joint_angles_rad)[0]
         level = np.linalg.norm(off[:, :2], axis=1)
-        assert level[PALM].max() < MOST_OFF_M + 3e-4
-        assert 0.001 < np.linalg.norm(scene.patient.stuck_off_m, axis=1).mean() < 0.004
+        assert level[PALM].max() < MAX_PLACEMENT_ERROR_M + 3e-4
+        assert 0.001 < np.linalg.norm(scene.patient.placement_error_m, axis=1).mean() < 0.004
 
 
 @pytest.mark.parametrize("anatomy", ["usual", "wide"])
@@ -51,19 +51,19 @@ def test_hands_are_drawn_wider_than_the_prior() -> None:
 def test_truth_counts_from_the_frame_that_the_discs_span(hand: str, anatomy: str) -> None:
     spec = RecordingSpec(seed=22, hand=hand, motion="mixed", anatomy=anatomy)
     scene = Scene(spec)
-    truth = truth_of(scene)
-    axes, _ = scene.disc_frame()
+    truth = compute_truth(scene)
+    axes, _ = scene.marker_frame()
     apart_deg = np.degrees(np.arccos(min(1.0, 0.5 * (np.trace(axes) - 1.0))))
     assert apart_deg > 1.0 or anatomy == "usual", "the frames are worth telling apart"
     assert truth.rotation_w0_cam[2, 2] < -0.9, "Z out of the back of the hand, towards the camera"
     still = truth.marker_position_w0_m
     assert still[2, 1] - still[5, 1] > 0.0 if hand == "right" else still[2, 1] - still[5, 1] < 0.0
     np.testing.assert_allclose(still[0], 0.0, atol=1e-12)
-    np.testing.assert_allclose(wrist_axes(still, towards=np.array([0.0, 0.0, 1.0])), np.eye(3), atol=1e-9)
+    np.testing.assert_allclose(wrist_axes(still, dorsal_direction=np.array([0.0, 0.0, 1.0])), np.eye(3), atol=1e-9)
     # A rigid hand, so every disc follows from the first frame by the told rotation and place alone.
     moved = still @ truth.rotation_w2_w0.transpose(0, 2, 1) + truth.position_m[:, None]
     seen = moved @ truth.rotation_w0_cam.T + truth.translation_w0_cam_m
-    np.testing.assert_allclose(seen, truth.disc_position_cam_m, atol=1e-8)
+    np.testing.assert_allclose(seen, truth.marker_position_cam_m, atol=1e-8)
     np.testing.assert_allclose(angles_from_rotation(truth.rotation_w2_w0, hand), truth.angles_rad, atol=1e-12)
     step = truth.time_s[101] - truth.time_s[99]
     speed = (truth.position_m[101] - truth.position_m[99]) / step
@@ -90,7 +90,7 @@ def test_what_is_worn_shows_and_pen_marks_are_too_small_to_be_found() -> None:
     }
 
     def picture(**options: object) -> np.ndarray:
-        return SimulatedPictures(RecordingSpec(**{**plain, **options})).clean(0).color  # type: ignore[arg-type]
+        return SimulatedRecording(RecordingSpec(**{**plain, **options})).render_clean(0).color  # type: ignore[arg-type]
 
     bare = picture()
     changed = {

@@ -9,7 +9,7 @@ import numpy as np
 from carpus.core.hand.kinematics import SEGMENTS
 from carpus.core.hand.protocols import SITES
 from carpus.core.simulation.scene import HandPose, Scene
-from carpus.core.simulation.trouble import PassingThing
+from carpus.core.simulation.trouble import PassingRod
 from carpus.core.types import FloatArray
 
 LARGEST_TILT_RAD = math.radians(75.0)
@@ -36,15 +36,15 @@ assert len(SEGMENTS) == 16
 
 
 def coarse_visibility(
-    scene: Scene, pose: HandPose, time_s: FloatArray, thing: PassingThing | None
+    scene: Scene, pose: HandPose, time_s: FloatArray, thing: PassingRod | None
 ) -> tuple[FloatArray, FloatArray]:
     """Visible share, 0 or 1, and cosine of the tilt to the ray, both (N, 21)."""
-    normals = scene.disc_normals_w0(pose) @ scene.rotation_w0_cam.T
-    discs = scene.to_camera(scene.discs_w0_m(pose))
+    normals = scene.marker_normals_w0(pose) @ scene.rotation_w0_cam.T
+    discs = scene.to_camera(scene.markers_w0_m(pose))
     towards = -discs / np.linalg.norm(discs, axis=-1, keepdims=True)
     facing = np.sum(normals * towards, axis=-1)
     pixel = scene.camera.project(discs)
-    reach_px = scene.patient.disc_radius_m * scene.camera.fx_px / discs[..., 2]
+    reach_px = scene.patient.marker_radius_m * scene.camera.fx_px / discs[..., 2]
     size = np.array([scene.camera.width_px, scene.camera.height_px])
     inside = ((pixel > 0.5 * reach_px[..., None]) & (pixel < size - 1 - 0.5 * reach_px[..., None])).all(axis=-1)
     seen = (facing > math.cos(LARGEST_TILT_RAD)) & inside
@@ -73,11 +73,11 @@ def _behind_bones(
 
 
 def _behind_thing(
-    scene: Scene, thing: PassingThing, time_s: FloatArray, discs: FloatArray, towards: FloatArray
+    scene: Scene, thing: PassingRod, time_s: FloatArray, discs: FloatArray, towards: FloatArray
 ) -> np.ndarray:
     hidden = np.zeros(discs.shape[:2], dtype=bool)
     for i, t in enumerate(time_s):
-        ends = thing.ends_w0_m(float(t))
+        ends = thing.end_points_w0_m(float(t))
         if ends is not None:
             a, b = scene.to_camera(ends)
             hidden[i] = line_gap(discs[i], towards[i], a, b) < thing.radius_m

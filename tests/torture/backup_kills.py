@@ -11,8 +11,8 @@ from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from carpus.core.records.backup import OBJECTS, back_up, backups, compare, thin_out
-from carpus.core.records.restoring import Past, drop_unfinished, is_restored, put_in_place, restore
+from carpus.core.records.backup import OBJECTS, create_backup, list_backups, prune_backups, verify_backup
+from carpus.core.records.restoring import LogHistory, activate_restored, delete_unfinished, has_restored_folder, restore
 from tests.records.samples import LINDEN, T0, measure, opened
 
 NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
@@ -62,10 +62,10 @@ class Kills:
         folder.mkdir(parents=True)
         self._data, self._place = data_folder(folder / "data"), folder / "disk"
         begin_s = time.monotonic()
-        self._made = back_up(self._data, self._place, now=NOW)
+        self._made = create_backup(self._data, self._place, now=NOW)
         if kind != "back-up":
             begin_s = time.monotonic()
-            restore(self._made, self._place, folder / "first", Past())
+            restore(self._made, self._place, folder / "first", LogHistory())
         self._took_s = time.monotonic() - begin_s
         self._whole = contents(self._data)
         self.ended = 0
@@ -78,16 +78,16 @@ class Kills:
     def _back_up(self, number: int, after_s: float) -> bool:
         for one in range(PICTURES):
             (self._data / f"kept{one}.carpusraw").write_bytes(random.Random(f"{number} {one}").randbytes(PICTURE_BYTES))
-        before = backups(self._place)
+        before = list_backups(self._place)
         when = NOW + timedelta(minutes=number + 1)
-        ended = killed_after(lambda: back_up(self._data, self._place, now=when), after_s)
-        after = backups(self._place)
+        ended = killed_after(lambda: create_backup(self._data, self._place, now=when), after_s)
+        after = list_backups(self._place)
         assert len(after) - len(before) in ((1,) if ended else (0, 1))
         for one in after[:2]:
-            compare(self._place, one)
-        made = back_up(self._data, self._place, now=when + timedelta(seconds=30))
-        thin_out(self._place, 1, 0, made.made)
-        assert [one.name for one in backups(self._place)] == [made.name]
+            verify_backup(self._place, one)
+        made = create_backup(self._data, self._place, now=when + timedelta(seconds=30))
+        prune_backups(self._place, 1, 0, made.made)
+        assert [one.name for one in list_backups(self._place)] == [made.name]
         needed = {one.sha256 for one in made.files}
         left = {path.name for path in (self._place / OBJECTS).rglob("*") if path.is_file()}
         assert left == needed, "what a killed one wrote is still there"
@@ -101,13 +101,13 @@ class Kills:
             (target / "old").write_text("old")
 
         def work() -> None:
-            restore(self._made, self._place, target, Past(), replaces=replaces)
-            put_in_place(target, NOW)
+            restore(self._made, self._place, target, LogHistory(), overwrite=replaces)
+            activate_restored(target, NOW)
 
         ended = killed_after(work, after_s)
-        if is_restored(target):
-            put_in_place(target, NOW)
-        drop_unfinished(target)
+        if has_restored_folder(target):
+            activate_restored(target, NOW)
+        delete_unfinished(target)
         asides = list(self._folder.glob(f"{target.name}.before-restore-*"))
         if target.exists() and contents(target) != {"old": b"old"}:
             assert contents(target) == self._whole, "half of it"

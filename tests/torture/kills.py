@@ -72,13 +72,13 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
             assert name.suffix != ".h5"
         recovery = recover_recordings(folder)
         assert recovery.faults == (), recovery.faults
-        assert recovery.busy == ()
+        assert recovery.in_progress == ()
         if recovery.empty:
             stored_s = last_s - 10.0
             return Killed(kind, stored_s)
     session = read_session(folder / "s.h5")
     assert bool(session.recovered) != whole
-    assert verify(folder / "s.h5").sealed
+    assert verify(folder / "s.h5").has_checksum
     if kind == "looking back":
         assert session.smoothed is None or len(session.smoothed.angles_rad) == len(session)
     lost_s = last_s - float(session.timestamp_s[-1])

@@ -21,7 +21,7 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.values import Patient
-from carpus.core.session.values import RawPictures
+from carpus.core.session.values import EncodedImages
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import Frame
 from tests.capture.oni_samples import CAMERA as SMALL
@@ -57,7 +57,7 @@ def sound(kind: str, folder: Path) -> Path:
         header = make_header(session_id=uuid.UUID(int=77))
         writer = SessionWriter.create(folder / "s.h5", header, CAMERA, make_calibration(), raw_depth_unit_m=1e-3)
         for row in range(30):
-            writer.append(make_frame(row), RawPictures(b"c" * 90, b"d" * 30))
+            writer.append(make_frame(row), EncodedImages(b"c" * 90, b"d" * 30))
         writer.add_event(time_of(3), "note", "a note")
         writer.close()
         return writer.path
@@ -85,7 +85,7 @@ def sound(kind: str, folder: Path) -> Path:
             with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
                 writer.append(make_frame(0))
                 writer.append(make_frame(1))
-            house.index.enter(path, key)
+            house.index.add(path, key)
         return folder / "data" / STORE_FILE
     return write_sample(folder / "r.oni")
 

@@ -69,15 +69,15 @@ class Reader:
 
 def _serve(link: Connection, kind: str) -> None:
     from carpus.core.errors import CarpusFault
-    from carpus.core.session.reader import READING
+    from carpus.core.session.reader import READING_PROCESS
 
-    READING.start()
+    READING_PROCESS.start()
     link.send("ready")
     while True:
         try:
             path = Path(link.recv())
         except EOFError:
-            READING.end()
+            READING_PROCESS.end()
             return
         begin, detail = time.monotonic(), ""
         try:
@@ -122,7 +122,7 @@ def _read(kind: str, path: Path) -> None:
         from carpus.core.session.reader import verify
 
         written = write_session(path)
-        assert written is None or verify(written).sealed
+        assert written is None or verify(written).has_checksum
     elif kind in ("raw", "tum", "oni"):
         from carpus.app.sources import open_recording
 
@@ -137,28 +137,28 @@ def _read(kind: str, path: Path) -> None:
 
         read_clicks(path, 640, 480)
     elif kind == "settings":
-        from carpus.app.settings import load_sound_settings
+        from carpus.app.settings import load_valid_settings
 
         alone = path.parent / f"{path.stem} alone"
         alone.mkdir(exist_ok=True)
         (alone / "settings.toml").write_bytes(path.read_bytes())
-        settings, faults = load_sound_settings(alone)
+        settings, faults = load_valid_settings(alone)
         assert settings.data_folder is not None
         if faults:
             raise faults[0]
     else:
         from carpus.core.records.library import Library
-        from carpus.core.records.new_sessions import recover
+        from carpus.core.records.new_sessions import recover_sessions
 
         data = path.parent / f"{path.stem} data"
         data.mkdir(exist_ok=True)
         (data / "records.sqlite3").write_bytes(path.read_bytes())
         library = Library(data)
         try:
-            if library.store.told:
-                raise library.store.told[0]
-            recover(library)
-            for record in library.patients.listed():
-                library.index.of_patient(record.patient_id)
+            if library.store.startup_faults:
+                raise library.store.startup_faults[0]
+            recover_sessions(library)
+            for record in library.patients.search():
+                library.session_list.patient_sessions(record.patient_id)
         finally:
             library.close()

@@ -24,7 +24,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
+from carpus.core.pipeline.looking_back import SmoothingProcess, TrackedHand
 from carpus.core.pipeline.measuring import LivePipeline, RecordedSession
 from carpus.core.pipeline.track import FramePipeline
 from carpus.core.session.journal import RecordingJournal
@@ -51,7 +51,7 @@ class Blobs:
     def detect(self, frame: Frame, _region: object = None) -> Detections:
         return self._blobs[frame.index % BLOBS]
 
-    def region_about(self, *_: object) -> Region:
+    def compute_search_region(self, *_: object) -> Region:
         return Region(0, 0, CAMERA.width_px, CAMERA.height_px)
 
 
@@ -92,12 +92,12 @@ def main() -> None:
     source: FrameSource = PlayedSource(400) if told.played else Camera()
     live = LiveSession(PacedSource(source))
     taken = os.open(told.folder / "taken", os.O_RDWR | os.O_CREAT)
-    looker = None if told.played else LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()))
+    looker = None if told.played else SmoothingProcess(TrackedHand(calibration(), CAMERA, TrackerSettings()))
     pipeline: Callable[[Frame], TrackedFrame] = tracked
     if looker is not None:
         pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
         live_pipeline = LivePipeline(pipeline, 10.0)
-        live_pipeline.keep = looker.take
+        live_pipeline.on_steps = looker.add_steps
         pipeline = live_pipeline
 
     ending = Event()
@@ -113,7 +113,7 @@ def main() -> None:
         return RecordedSession(RecordingJournal(told.folder / "s.journal", header, CAMERA, calibration()), looker)
 
     pictures = (lambda: RawWriter(told.folder / "s.carpusraw", source.info)) if told.raw else None
-    live.begin_tracking(noted)
+    live.start_tracking(noted)
     live.start_recording(open_session, pictures)
     live.start()
     while looker is not None and looker.pid is None:

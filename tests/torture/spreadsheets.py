@@ -16,26 +16,26 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.core.formats.csv_tables import write
-from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
-from carpus.core.formats.take import Take
+from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
+from carpus.core.formats.take import ExportItem
 from carpus.core.hand.protocols import HAND21
 from carpus.core.session.reader import read_session
-from carpus.ui.saved_table import form_of
+from carpus.ui.saved_table import regional_table_form
 from tests.formats.takes import stored, take_of
 
 LANGUAGES = {"de_DE": 1031, "it_IT": 1040, "en_GB": 2057}
 """As LibreOffice's filter of texts counts them."""
-POINTS = replace(FOR_PROGRAMS, has_mark=True)
+POINTS = replace(MACHINE_DIALECT, has_bom=True)
 """For a spreadsheet too, so that the forearm is counted as in the regions' tables, and read here without one."""
 
 
-def tables(take: Take, form: TableForm, folder: Path) -> dict[str, Path]:
+def tables(take: ExportItem, form: TableDialect, folder: Path) -> dict[str, Path]:
     """The tables of a form by what they hold."""
     files = (path for path in write(replace(take, form=form), folder) if path.suffix == ".csv")
     return {path.name.split(".")[1]: path for path in files}
 
 
-def opened(path: Path, region: str, form: TableForm, folder: Path) -> list[list[str]]:
+def opened(path: Path, region: str, form: TableDialect, folder: Path) -> list[list[str]]:
     """The cells as LibreOffice has them when it opens a table in a region, numbers with all of their digits."""
     rule = f"Text - txt - csv (StarCalc):{ord(form.separator)},34,76,1,,{LANGUAGES[region]},false,true"
     back = "csv:Text - txt - csv (StarCalc):9,34,76,1,,1033,false,false"
@@ -51,7 +51,7 @@ def differences(folder: Path) -> Iterator[str]:
     take = take_of(read_session(stored(folder, HAND21, 120)), "one")
     plain = tables(take, POINTS, folder / "plain")
     for region in LANGUAGES:
-        form = form_of(region)
+        form = regional_table_form(region)
         for name, path in tables(take, form, folder / f"written-{region}").items():
             with plain[name].open(encoding="utf-8-sig", newline="") as file:
                 wanted = list(csv.reader(file))

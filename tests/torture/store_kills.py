@@ -72,19 +72,19 @@ def _kill(kind: str, number: int, folder: Path, cluster: Cluster | None) -> bool
     else:
         with opened(folder, url) as house:
             _check_written(house, kind, session_id, [int(one) for one in said])
-            assert house.store.told == [], "the store was not damaged"
+            assert house.store.startup_faults == [], "the store was not damaged"
     with opened(folder, url) as house:
-        assert house.index.one(other).path.exists()
+        assert house.index.get(other).path.exists()
     shutil.rmtree(folder)
     return bool(said)
 
 
 def _check_written(house: House, kind: str, session_id: str, said: list[int]) -> None:
     if kind == "correction":
-        choices, _ = of_sessions.choices(house.store, session_id)
-        assert not said or int(choices.left_out[0]) in (said[-1], said[-1] + 1)
+        choices, _ = of_sessions.read_choices(house.store, session_id)
+        assert not said or int(choices.excluded[0]) in (said[-1], said[-1] + 1)
     else:
-        there = [int(one.text) for one in of_sessions.comments(house.store, session_id)]
+        there = [int(one.text) for one in of_sessions.read_comments(house.store, session_id)]
         assert there == list(range(len(there)))
         assert len(there) - len(said) in (0, 1)
 
@@ -95,7 +95,7 @@ def _check_erased(folder: Path, patient_id: str, session_id: str, done: bool) ->
         begun = "Linden 42" not in house.names()
         assert begun or not done
         if not begun:
-            assert house.index.one(session_id).path.exists()
+            assert house.index.get(session_id).path.exists()
             assert erasure.plan_patient(house.store, patient_id).files
     if begun:
         assert traces(folder, *NAMES, patient_id, session_id) == []

@@ -21,10 +21,10 @@ from pathlib import Path
 from sqlalchemy import create_engine, select
 from sqlalchemy.pool import NullPool
 
-from carpus.core.errors import ChangedMeanwhile, PseudonymTaken, RegisterBusy, ServerGone
-from carpus.core.measures.by_hand import HandValue
+from carpus.core.errors import ConcurrentChange, PatientListBusy, PseudonymTaken, ServerUnavailable
+from carpus.core.measures.by_hand import ManualValue
 from carpus.core.records import of_sessions, patients
-from carpus.core.records.schema import COMMENT, CORRECTION, MEASURED, PATIENT, SESSION
+from carpus.core.records.schema import COMMENT, CORRECTION, MANUAL_MEASUREMENT, PATIENT, SESSION
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import verify
@@ -62,12 +62,12 @@ def program(folder: Path, share: Path, url: str, name: str, count: int, seconds:
             mark, since = f"{name}{number}", time.monotonic()
             try:
                 ledger.made[kind].append(_do(house, kind, mark, number, chance))
-            except (ChangedMeanwhile, PseudonymTaken):
+            except (ConcurrentChange, PseudonymTaken):
                 ledger.refused.append(mark)
-            except (ServerGone, RegisterBusy):
+            except (ServerUnavailable, PatientListBusy):
                 ledger.unsure.append(mark)
-                with suppress(ServerGone, RegisterBusy):
-                    house.store.server.look()  # type: ignore[union-attr]
+                with suppress(ServerUnavailable, PatientListBusy):
+                    house.store.server.ping()  # type: ignore[union-attr]
             ledger.longest_s = max(ledger.longest_s, time.monotonic() - since)
             time.sleep(max(begin + seconds * (number + 1) / count - time.monotonic(), 0.0))
     print(json.dumps(asdict(ledger)), flush=True)
@@ -76,22 +76,22 @@ def program(folder: Path, share: Path, url: str, name: str, count: int, seconds:
 def _do(house: House, kind: str, mark: str, number: int, chance: random.Random) -> str:
     """One change; the mark by which it is found again."""
     store, shared = house.store, f"{chance.randrange(SHARED_PATIENTS)}"
-    patient_id = house.patients.called(f"Shared {shared}")
-    session_id = house.index.of_patient(patient_id)[-1].session_id
+    patient_id = house.patients.id_of_pseudonym(f"Shared {shared}")
+    session_id = house.index.patient_sessions(patient_id)[-1].session_id
     if kind == "comment":
         of_sessions.add_comment(store, session_id, mark, "AB")
     elif kind == "by hand":
-        value = HandValue("WRIST_ROUND", "", "right", T0.date(), (16.0,), mark)
-        patients.enter_by_hand(store, patient_id, [value])
+        value = ManualValue("WRIST_ROUND", "", "right", T0.date(), (16.0,), mark)
+        patients.add_manual_measurements(store, patient_id, [value])
     elif kind == "entry":
-        read = house.patients.one(patient_id)
+        read = house.patients.get(patient_id)
         time.sleep(chance.uniform(0.0, 0.05))  # somebody types
         house.patients.change(replace(read, note=f"{read.note} {mark}"))
     elif kind == "correction":
-        before, version = of_sessions.choices(store, session_id)
+        before, version = of_sessions.read_choices(store, session_id)
         time.sleep(chance.uniform(0.0, 0.05))
-        kept = RepetitionChoices({0: mark}, {}, True, f"{before.not_counted_reason} {mark}")
-        of_sessions.keep_choices(store, session_id, kept, version)
+        kept = RepetitionChoices({0: mark}, {}, True, f"{before.session_exclusion_reason} {mark}")
+        of_sessions.save_choices(store, session_id, kept, version)
     elif kind == "patient":
         return house.patients.add(Patient(mark if number % 2 else f"Both {number // 20}", "left"))
     else:
@@ -215,15 +215,15 @@ def _check(url: str, share: Path, ledgers: list[Ledger], sessions_before: set[st
 
     unsure = {mark for one in ledgers for mark in one.unsure}
     assert {*made("comment")} <= {*stored(select(COMMENT.c.text))} <= {*made("comment")} | unsure
-    assert {*made("by hand")} <= {*stored(select(MEASURED.c.place))} <= {*made("by hand")} | unsure
+    assert {*made("by hand")} <= {*stored(select(MANUAL_MEASUREMENT.c.place))} <= {*made("by hand")} | unsure
     sessions = set(stored(select(SESSION.c.id))) - sessions_before
     assert set(made("session")) <= sessions
     for path in stored(select(SESSION.c.path)):
-        assert verify(share / path).sealed
+        assert verify(share / path).has_checksum
     there = set(stored(select(PATIENT.c.id).where(PATIENT.c.pseudonym.not_like("Shared%"))))
     assert set(made("patient")) <= there
     edits = [stored(query) for query in (select(PATIENT.c.note), select(CORRECTION.c.reason))]
-    for marks in (*edits, stored(select(COMMENT.c.text)), stored(select(MEASURED.c.place))):
+    for marks in (*edits, stored(select(COMMENT.c.text)), stored(select(MANUAL_MEASUREMENT.c.place))):
         assert len(marks) == len(set(marks)), "a change made twice"
     found = {mark for marks in edits for mark in marks}
     assert set(made("entry") + made("correction")) <= found, "said to be kept, and not there"

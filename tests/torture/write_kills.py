@@ -30,8 +30,8 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.pipeline.measuring import RecordedSession
 from carpus.core.records.recordings import publish_session, recover_recordings
 from carpus.core.session.opened import read_session, verify
-from carpus.core.session.reader import READING
-from carpus.core.session.values import motion_of
+from carpus.core.session.reader import READING_PROCESS
+from carpus.core.session.values import stack_states
 from carpus.core.types import Frame
 from tests.session.samples import CAMERA, journal_of, make_frame, time_of
 
@@ -60,11 +60,11 @@ class Looked:
         if len(timestamp_s) < SMOOTHED:
             return None
         self.has_more = False
-        return motion_of([make_frame(row) for row in range(SMOOTHED)])
+        return stack_states([make_frame(row) for row in range(SMOOTHED)])
 
     def finish(self, timestamp_s: list[float]) -> object:
         rows = len(timestamp_s)
-        return motion_of([make_frame(row) for row in range(ROWS - rows, ROWS)])
+        return stack_states([make_frame(row) for row in range(ROWS - rows, ROWS)])
 
     def cancel(self) -> None:
         """Nothing runs."""
@@ -95,7 +95,7 @@ def recover(place: Path, home: Path, _synced: mmap.mmap) -> None:
     """What the start of the program does with what lies in a folder."""
     found = recover_recordings(place)
     assert found.faults == (), found.faults
-    assert found.busy == ()
+    assert found.in_progress == ()
     for path in sorted(place.glob("*.h5")):
         publish_session(path, home)
 
@@ -111,18 +111,18 @@ def check(place: Path, home: Path, rows: int) -> int:
         assert rows == 0, f"{rows} rows are lost"
         return 0
     assert [path.name for path in found] == ["s.h5"], found
-    assert verify(found[0]).sealed
+    assert verify(found[0]).has_checksum
     session = read_session(found[0])
     count = len(session)
     assert rows <= count <= ROWS, f"{count} of {rows} rows"
     frames = [make_frame(row) for row in range(count)]
     np.testing.assert_array_equal(session.timestamp_s, [frame.timestamp_s for frame in frames])
-    np.testing.assert_array_equal(session.motion.angles_rad, [frame.moment.angles_rad for frame in frames])
+    np.testing.assert_array_equal(session.motion.angles_rad, [frame.kinematics.angles_rad for frame in frames])
     np.testing.assert_array_equal(session.markers.measured_px, [frame.marker_measured_px for frame in frames])
     if count > BATCH:
         assert "it hurts" in [event.text for event in session.events]
     if session.smoothed is not None:
-        np.testing.assert_array_equal(session.smoothed.angles_rad, [frame.moment.angles_rad for frame in frames])
+        np.testing.assert_array_equal(session.smoothed.angles_rad, [frame.kinematics.angles_rad for frame in frames])
     assert session.repetitions is not None
     if (home / "s.carpusraw").exists():
         assert sum(1 for _ in RawRecording(home / "s.carpusraw").frames()) >= min(rows, ROWS)
@@ -262,7 +262,7 @@ def main() -> None:
             print(kill_at_each_step(kind, Path(name) / kind, told.every), flush=True)
         if told.random:
             print(kill_at_random(told.random, Path(name) / "random"), flush=True)
-    READING.end()
+    READING_PROCESS.end()
 
 
 def _warm(folder: Path) -> None:

@@ -160,12 +160,12 @@ def track(
 
 
 def angles_deg(frames: Iterable[TrackedFrame]) -> FloatArray:
-    return np.degrees(np.array([frame.moment.angles_rad for frame in frames]))
+    return np.degrees(np.array([frame.kinematics.angles_rad for frame in frames]))
 
 
 def is_unknown(frame: TrackedFrame) -> bool:
     """Whether nothing is told of the hand."""
-    moment = [getattr(frame.moment, field.name) for field in fields(frame.moment)]
+    moment = [getattr(frame.kinematics, field.name) for field in fields(frame.kinematics)]
     return all(np.isnan(value).all() for value in (*moment, frame.marker_position_cam_m, frame.marker_measured_px))
 
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.tracking.digit_naming import learnt_sizes
-from carpus.core.tracking.palm_association import measurements_of
-from carpus.core.tracking.predicted_measurement import adapted_factor
+from carpus.core.tracking.digit_naming import update_disc_areas
+from carpus.core.tracking.palm_association import measurements_from_blobs
+from carpus.core.tracking.predicted_measurement import adapt_noise_factor
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.types import Detections, FloatArray
 
@@ -24,7 +24,7 @@ def after(seconds: float, residual: tuple[float, float, float], dt_s: float = DT
     """The factors (3,) of a disc whose residuals stay so."""
     factor = np.ones((1, 3))
     for _ in range(round(seconds / dt_s)):
-        factor = adapted_factor(factor, np.array([residual]), ALL, dt_s, NOISE)
+        factor = adapt_noise_factor(factor, np.array([residual]), ALL, dt_s, NOISE)
     return np.asarray(factor[0])
 
 
@@ -51,9 +51,9 @@ def test_factors_stay_within_their_bounds_and_unmeasured_ones_where_they_were() 
     assert after(5.0, (0.0, 0.0, 0.0)) == pytest.approx(np.full(3, NOISE.least_adapted))
     factor = np.array([[2.0, 2.0, 3.0]])
     nothing = np.zeros((1, 3), dtype=bool)
-    assert np.array_equal(adapted_factor(factor, np.full((1, 3), 9.0), nothing, DT_S, NOISE), factor)
+    assert np.array_equal(adapt_noise_factor(factor, np.full((1, 3), 9.0), nothing, DT_S, NOISE), factor)
     without_depth = np.array([[True, True, False]])
-    assert adapted_factor(factor, np.full((1, 3), 9.0), without_depth, DT_S, NOISE)[0, 2] == 3.0
+    assert adapt_noise_factor(factor, np.full((1, 3), 9.0), without_depth, DT_S, NOISE)[0, 2] == 3.0
 
 
 @pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.kind)
@@ -61,10 +61,10 @@ def test_a_depth_is_worth_what_the_still_hand_showed_and_what_stays_besides(sens
     """Twice the book's scatter is four times its variance; the sensor's pattern and a steep slope come on top."""
     settings = TrackerSettings(noise=replace(NOISE, depth_ratio=2.0))
     area, steep_m = np.full(2, math.pi * 25.0), 0.002
-    book_m, pattern_m = float(sensor.disc_sd_m(np.array(0.7), area[0])), float(sensor.stays_sd_m(np.array(0.7)))
+    book_m, pattern_m = float(sensor.disc_sd_m(np.array(0.7), area[0])), float(sensor.bias_sd_m(np.array(0.7)))
     said_m = np.array([book_m, math.hypot(book_m, steep_m)])
     seen = Detections(np.zeros((2, 2)), np.full(2, 0.7), said_m, area, np.ones(2))
-    flat, steep = measurements_of(seen, 5.0, settings, sensor).variance[:, 2]
+    flat, steep = measurements_from_blobs(seen, 5.0, settings, sensor).variance[:, 2]
     assert flat == pytest.approx(4.0 * book_m**2 + pattern_m**2)
     assert steep == pytest.approx(flat + steep_m**2)
 
@@ -72,7 +72,7 @@ def test_a_depth_is_worth_what_the_still_hand_showed_and_what_stays_besides(sens
 def sizes(pictures: int, known: float, seen: float) -> float:
     size = np.array([[known]])
     for _ in range(pictures):
-        size = learnt_sizes(size, np.array([[seen]]))
+        size = update_disc_areas(size, np.array([[seen]]))
     return float(size[0, 0])
 
 

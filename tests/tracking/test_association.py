@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from scipy.stats import chi2, multivariate_normal
 
 from carpus.core.tracking.association import (
-    IMPOSSIBLE,
+    LOG_IMPOSSIBLE,
     AssociationSettings,
+    assign_blobs,
     associate_jointly,
+    association_posterior,
+    chi2_quantiles,
     is_jointly_compatible,
     log_odds,
-    most_chi2,
-    posterior,
-    resolve,
 )
 from carpus.core.types import FloatArray
 
@@ -36,7 +36,7 @@ def assignments(markers: int, blobs: int) -> list[tuple[int, ...]]:
 odds_tables = st.integers(1, 4).flatmap(
     lambda m: st.integers(0, 4).flatmap(
         lambda d: st.lists(
-            st.lists(st.one_of(st.floats(-20.0, 20.0), st.just(IMPOSSIBLE)), min_size=d, max_size=d),
+            st.lists(st.one_of(st.floats(-20.0, 20.0), st.just(LOG_IMPOSSIBLE)), min_size=d, max_size=d),
             min_size=m,
             max_size=m,
         ).map(lambda rows: np.array(rows, dtype=float).reshape(m, d))
@@ -47,7 +47,7 @@ odds_tables = st.integers(1, 4).flatmap(
 @settings(deadline=None, max_examples=200)
 @given(odds_tables)
 def test_resolved_names_are_the_best_of_all(odds: FloatArray) -> None:
-    assigned = resolve(odds)
+    assigned = assign_blobs(odds)
     used = assigned[assigned >= 0]
     assert len(set(used)) == len(used), "no blob twice"
     reached = sum(odds[j, i] for j, i in enumerate(assigned) if i >= 0)
@@ -88,7 +88,7 @@ def test_posterior_is_equation_12(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed)
     own = own_of(covariance)
     odds = log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
-    found = posterior(odds.value)
+    found = association_posterior(odds.value)
     assert np.allclose(found.sum(axis=1), 1.0, atol=1e-12)
     for i, blob in enumerate(blobs):
         deep = np.isfinite(blob[2])
@@ -112,8 +112,8 @@ def test_no_blobs_get_no_names() -> None:
     mean, covariance, _, _ = scene(0)
     own = own_of(covariance)
     odds = log_odds(mean.reshape(3, 3), own, np.empty((0, 3)), np.empty((0, 3)), RES_PX2, OUTLIER, SETTINGS)
-    assert list(resolve(odds.value)) == [-1, -1, -1]
-    assert posterior(odds.value).shape == (0, 4)
+    assert list(assign_blobs(odds.value)) == [-1, -1, -1]
+    assert association_posterior(odds.value).shape == (0, 4)
 
 
 def test_clutter_density_decides_between_a_far_marker_and_nothing() -> None:
@@ -123,7 +123,7 @@ def test_clutter_density_decides_between_a_far_marker_and_nothing() -> None:
 
     def taken_in(resolution_px2: float) -> int:
         odds = log_odds(np.array([[300.0, 200.0, 0.7]]), own, blob, noise, resolution_px2, OUTLIER, SETTINGS)
-        return int(resolve(odds.value)[0])
+        return int(assign_blobs(odds.value)[0])
 
     assert taken_in(RES_PX2) == 0
     assert taken_in(2000.0) == -1
@@ -135,7 +135,7 @@ def test_beyond_the_gate_a_blob_has_no_name_however_little_clutter_there_is(off_
     mean, covariance = np.array([300.0, 200.0, 0.7]), np.diag([0.01, 0.01, 1e-8])
     blob, noise = np.array([[300.0 + 0.1 * off_sd, 200.0, np.nan]]), np.array([[1e-9, 1e-9, 1e-12]])
     odds = log_odds(mean[None], covariance[None], blob, noise, RES_PX2, OUTLIER, SETTINGS)
-    assert resolve(odds.value).tolist() == [taken]
+    assert assign_blobs(odds.value).tolist() == [taken]
     jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, OUTLIER, SETTINGS)
     assert jointly.assigned.tolist() == [taken]
 
@@ -244,7 +244,7 @@ def test_joint_names_see_what_single_ones_cannot() -> None:
     blobs = np.concatenate((mean.reshape(3, 3) + [8.0, 0.0, 0.0], [[300.3, 200.0, 0.7]]))
     noise = np.tile([0.01, 0.01, 1e-7], (4, 1))
     own = own_of(covariance)
-    single = resolve(log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS).value)
+    single = assign_blobs(log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS).value)
     jointly = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
     assert list(jointly.assigned) == [0, 1, 2]
     assert list(single) != [0, 1, 2]
@@ -255,7 +255,7 @@ def test_blobs_of_strange_depth_are_named_by_their_pixels() -> None:
     mean, covariance = np.array([300.0, 200.0, 0.70]), np.diag([1.0, 1.0, 1e-6])
     blob, noise = np.array([[300.5, 200.0, 0.75]]), np.array([[0.01, 0.01, 1e-6]])
     odds = log_odds(mean[None], covariance[None], blob, noise, RES_PX2, OUTLIER, SETTINGS)
-    assert resolve(odds.value)[0] == 0
+    assert assign_blobs(odds.value)[0] == 0
     assert not odds.with_depth[0, 0]
     jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, OUTLIER, SETTINGS)
     assert as_key(jointly.assigned, jointly.with_depth) == ((0,), (False,))
@@ -271,6 +271,6 @@ def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:
 
 @pytest.mark.parametrize("chance", [0.05, 0.5, 0.99, 0.9995, 1.0 - 1e-9, 1.0])
 def test_quantiles_of_chi_squared_are_those_of_scipy(chance: float) -> None:
-    quantiles = most_chi2(chance)
+    quantiles = chi2_quantiles(chance)
     assert quantiles[0] == np.inf
     np.testing.assert_allclose(quantiles[1:], chi2.ppf(chance, np.arange(1, len(quantiles))), rtol=1e-12)

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.tracking.consistency import ConsistencyTest, passed_over
+from carpus.core.tracking.consistency import ConsistencyTest, find_unused_markers
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, SpotAnswer, TrackedFrame
+from carpus.core.types import Detections, MarkerLabel, TrackedFrame
 from tests.tracking.hands import CAMERA, MCP3, angles_deg, blobs, calibration, discs_cam_m, swing, truth_deg
 
 DT_S = 1.0 / 30.0
@@ -20,39 +20,39 @@ NONE = np.zeros(3, dtype=bool)
 def test_a_disc_passed_over_for_long_is_doubted_by_name() -> None:
     watch = ConsistencyTest(3)
     over = np.array([False, True, False])
-    said = [watch.watch(DT_S, over, 10.0, 10, 0) for _ in range(12)]
+    said = [watch.update(DT_S, over, 10.0, 10, 0) for _ in range(12)]
     assert not any(doubt.is_any for doubt in said[:9])
     assert said[-1].doubted.tolist() == [False, True, False]
-    assert said[-1].widens > 1.0
-    assert not watch.watch(DT_S, NONE, 10.0, 10, 0).is_any, "and no longer, once it is used"
+    assert said[-1].sd_factor > 1.0
+    assert not watch.update(DT_S, NONE, 10.0, 10, 0).is_any, "and no longer, once it is used"
 
 
 def test_innovations_outside_their_bounds_widen_what_is_stated() -> None:
     watch = ConsistencyTest(3)
-    one = watch.watch(DT_S, NONE, 200.0, 10, 2)
-    assert not one.is_any or one.widens < 3.0, "one surprise is not enough"
+    one = watch.update(DT_S, NONE, 200.0, 10, 2)
+    assert not one.is_any or one.sd_factor < 3.0, "one surprise is not enough"
     for _ in range(30):
-        last = watch.watch(DT_S, NONE, 90.0, 10, 2)
+        last = watch.update(DT_S, NONE, 90.0, 10, 2)
     assert last.doubted.tolist() == [False, False, True]
-    assert 2.5 < last.widens < 3.1, "to what the innovations say, 9 times the variance"
-    watch.forget()
-    assert not watch.watch(DT_S, NONE, 10.0, 10, 0).is_any
+    assert 2.5 < last.sd_factor < 3.1, "to what the innovations say, 9 times the variance"
+    watch.reset()
+    assert not watch.update(DT_S, NONE, 10.0, 10, 0).is_any
 
 
 def test_nothing_measured_is_no_contradiction() -> None:
     watch = ConsistencyTest(3)
     for _ in range(60):
-        doubt = watch.watch(DT_S, NONE, float("nan"), 0, 0)
+        doubt = watch.update(DT_S, NONE, float("nan"), 0, 0)
     assert not doubt.is_any
 
 
 def test_only_a_free_blob_at_the_place_and_depth_is_passed_over() -> None:
-    disc_m = CAMERA.back_project(np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7]))
+    disc_m = CAMERA.backproject(np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7]))
 
     def over(assigned: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
         seen, some = Detections.none(), np.array(blob_px).reshape(-1, 2)
         seen = replace(seen, pixel=some, depth_m=np.array(blob_m))
-        return passed_over(disc_m, np.array(assigned), seen, CAMERA).tolist()
+        return find_unused_markers(disc_m, np.array(assigned), seen, CAMERA).tolist()
 
     assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.7]) == [True, False]
     assert over([-1, 0], [[200.0, 100.0]], [0.7]) == [False, False]
@@ -82,15 +82,15 @@ def test_what_a_person_says_of_a_spot_holds_from_then_on() -> None:
         true_px = CAMERA.project(discs_cam_m(motion(k * DT_S)))[MCP3]
         if k == said_at:  # of a picture shown some frames ago, where the spot lay elsewhere
             shown = CAMERA.project(discs_cam_m(motion((k - 3) * DT_S)))[MCP3]
-            tracker.hear(SpotAnswer(k - 3, "MCP3", (float(shown[0]), float(shown[1]))))
+            tracker.add_operator_label(MarkerLabel(k - 3, "MCP3", (float(shown[0]), float(shown[1]))))
         if k == no_disc_at:
-            tracker.hear(SpotAnswer(k - 1, "MCP3", None, ((float(still_px[0]), float(still_px[1])),)))
+            tracker.add_operator_label(MarkerLabel(k - 1, "MCP3", None, ((float(still_px[0]), float(still_px[1])),)))
         seen = blobs(motion(k * DT_S), rng, false_px=[] if 150 <= k < 170 else [still_px.tolist()])
         frames.append(tracker.step(k, k * DT_S, seen))
-        heard = tracker.taken_up()
+        heard = tracker.pop_applied_labels()
         assert bool(heard) == (k in (said_at, no_disc_at))
-        if k == said_at and heard[0].place_px is not None:
-            np.testing.assert_allclose(heard[0].place_px, true_px, atol=1.0)
+        if k == said_at and heard[0].pixel is not None:
+            np.testing.assert_allclose(heard[0].pixel, true_px, atol=1.0)
     used = np.array([np.isfinite(frame.marker_measured_px[MCP3, 0]) for frame in frames])
     assert not used[10:said_at].any(), "what lies elsewhere than was clicked is not taken by itself"
     assert used[said_at:].all()
@@ -100,11 +100,11 @@ def test_what_a_person_says_of_a_spot_holds_from_then_on() -> None:
     error = angles_deg(frames) - truth_deg(motion, np.arange(240) * DT_S)
     assert np.abs(error[10:said_at, 2]).max() > 4.0, "the axes were laid through the wrong place"
     assert np.all(np.sqrt((error[said_at:] ** 2).mean(axis=0)) < [0.3, 0.9, 1.5])
-    left_out = np.array([int(frame.no_disc.sum()) for frame in frames])
+    left_out = np.array([int(frame.is_rejected.sum()) for frame in frames])
     assert not left_out[:no_disc_at].any()
     shown = np.r_[no_disc_at:150, 170:240]
     assert (left_out[shown] == 1).all(), "known again after it was out of sight"
     assert all(len(frames[k].detections) == 7 for k in shown), "and stored all the same"
-    looked_back = np.degrees([moment.angles_rad for moment in tracker.smoothed()])[said_at:]
+    looked_back = np.degrees([moment.angles_rad for moment in tracker.smooth()])[said_at:]
     true_deg = truth_deg(motion, np.arange(said_at, 240) * DT_S)
     assert np.all(np.sqrt(((looked_back - true_deg) ** 2).mean(axis=0)) < [0.3, 0.7, 1.5])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitMotion
-from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS
+from carpus.core.tracking.hand_geometry import N_CONSTANTS, N_DIGITS, N_SLOTS
 from carpus.core.tracking.kernel import ModeMixture
 
 STRAYS_RAD, SETTLES_S = 0.1, 1.0
@@ -15,23 +15,23 @@ SCALES = np.array([0.5, 4.0])
 
 
 def motion() -> DigitMotion:
-    density = np.full((CHAINS, SLOTS), 2.0)
+    density = np.full((N_DIGITS, N_SLOTS), 2.0)
     density[1:, END_JOINT] = 0.0
-    stationary2 = np.zeros((CHAINS, SLOTS))
+    stationary2 = np.zeros((N_DIGITS, N_SLOTS))
     stationary2[1:, END_JOINT] = STRAYS_RAD**2
-    return DigitMotion(density, SCALES, np.zeros((CHAINS, CONSTANTS)), stationary2, SETTLES_S)
+    return DigitMotion(density, SCALES, np.zeros((N_DIGITS, N_CONSTANTS)), stationary2, SETTLES_S)
 
 
 def after(seconds: float, dt_s: float) -> ModeMixture:
     """What is believed of an end joint 0.3 rad from where it belongs, surely, after that time without a picture."""
-    mean = np.zeros((CHAINS, DIGIT_SIZE))
+    mean = np.zeros((N_DIGITS, DIGIT_SIZE))
     mean[:, END_JOINT] = 0.3
-    mixture = ModeMixture.alike(
-        mean, np.broadcast_to(1e-12 * np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE)), SCALES.size
+    mixture = ModeMixture.from_gaussian(
+        mean, np.broadcast_to(1e-12 * np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE)), SCALES.size
     )
     moves = motion()
     for _ in range(round(seconds / dt_s)):
-        mixture = moves.predicted(mixture, dt_s, None)
+        mixture = moves.predict(mixture, dt_s, None)
     return mixture
 
 
@@ -51,9 +51,9 @@ def test_other_joints_go_where_they_like() -> None:
 
 
 def test_a_step_for_looking_back_is_the_step_that_was_taken() -> None:
-    forward, noise = motion().step(0.1, np.ones(CHAINS), None)
+    forward, noise = motion().compute_transition(0.1, np.ones(N_DIGITS), None)
     mixture = after(0.1, 0.1)
-    start = np.zeros((CHAINS, DIGIT_SIZE))
+    start = np.zeros((N_DIGITS, DIGIT_SIZE))
     start[:, END_JOINT] = 0.3
     assert (forward @ start[..., None])[..., 0] == pytest.approx(mixture.mean[:, 0])
     assert noise[1:, END_JOINT, END_JOINT] == pytest.approx(mixture.covariance[1:, 0, END_JOINT, END_JOINT], rel=1e-6)

@@ -21,7 +21,7 @@ from tests.suites import few
 from tests.tracking.hands import CAMERA, DT_S, RIGID, Motion, Pose, blobs, calibration, rotation_of, swing
 
 PIXEL_SD_PX = 0.15
-DEPTH_SD_M = float(np.hypot(PRIMESENSE.reading_sd_m(np.array(0.7)), PRIMESENSE.stays_sd_m(np.array(0.7))))
+DEPTH_SD_M = float(np.hypot(PRIMESENSE.reading_sd_m(np.array(0.7)), PRIMESENSE.bias_sd_m(np.array(0.7))))
 SECONDS, RUNS, SETTLED = 4.0, 2, 15
 HIDDEN_SHARE = 0.1
 MOTIONS: dict[str, Motion] = {

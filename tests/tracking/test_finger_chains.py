@@ -8,19 +8,26 @@ import pytest
 from carpus.core.camera import Camera
 from carpus.core.compiled.digits import BENT, OTHER, place_digits
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
-from carpus.core.hand.anatomy_prior import constants_of
+from carpus.core.hand.anatomy_prior import constants_from_anatomy
 from carpus.core.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
-from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN, DigitView, digits_linearised, spread_points
-from carpus.core.tracking.digit_search import in_reach
-from carpus.core.tracking.hand_geometry import (
-    CHAINS,
-    CONSTANTS,
-    SLOTS,
-    JointReading,
-    direct_markers,
+from carpus.core.tracking.digit_filter import (
+    DIGIT_SIZE,
+    OBSERVED,
+    RATES,
+    DigitView,
+    draw_sigma_points,
+    linearise_digits,
 )
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.digit_search import is_in_reach
+from carpus.core.tracking.hand_geometry import (
+    N_CONSTANTS,
+    N_DIGITS,
+    N_SLOTS,
+    JointAngleMap,
+    direct_marker_rows,
+)
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.types import FloatArray
 
 DIGIT_MARKERS = np.array(SITE_CHAINS)[:, 2:]
@@ -29,7 +36,7 @@ DIGIT_MARKERS = np.array(SITE_CHAINS)[:, 2:]
 def slots_of(angles_rad: FloatArray) -> FloatArray:
     """Slots (..., 5, 5) of 17 or 21 joint angles (..., J)."""
     lead, per_finger = angles_rad.shape[:-1], (angles_rad.shape[-1] - 5) // 4
-    slots = np.zeros((*lead, CHAINS, SLOTS))
+    slots = np.zeros((*lead, N_DIGITS, N_SLOTS))
     slots[..., 0, :] = angles_rad[..., :5]
     slots[..., 1:, :per_finger] = angles_rad[..., 5:].reshape(*lead, 4, per_finger)
     if per_finger == 4:
@@ -54,7 +61,7 @@ def angles(seed: int, dip_free: bool) -> FloatArray:
 
 
 def state_of(anatomy: HandAnatomy, joints: FloatArray) -> FloatArray:
-    return np.concatenate((slots_of(joints), constants_of(anatomy)), axis=1)
+    return np.concatenate((slots_of(joints), constants_from_anatomy(anatomy)), axis=1)
 
 
 @pytest.mark.parametrize("dip_free", [False, True])
@@ -68,21 +75,21 @@ def test_discs_and_joints_are_those_of_the_plain_chains(seed: int, dip_free: boo
     assert np.allclose(chain[:, 1:], plain[DIGIT_MARKERS], atol=1e-12)
     assert np.allclose(chain[:, 0], plain[DIGIT_MARKERS[:, 0] - 1], atol=1e-12)
     bones = segment_frames(anatomy, joints)
-    direction = (bones.end_m - bones.start_m)[1:].reshape(CHAINS, 3, 3)
+    direction = (bones.end_m - bones.start_m)[1:].reshape(N_DIGITS, 3, 3)
     direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
     assert np.allclose(bone, direction, atol=1e-12)
     assert np.allclose(np.linalg.norm(normal, axis=-1), 1.0, atol=1e-12)
-    assert np.allclose(normal[:, 2], bones.dorsal_normal[1:].reshape(CHAINS, 3, 3)[:, 2], atol=1e-12)
+    assert np.allclose(normal[:, 2], bones.dorsal_normal[1:].reshape(N_DIGITS, 3, 3)[:, 2], atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_slope_by_the_constants_is_that_of_small_differences(seed: int) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free=True)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
-    mean = np.zeros((CHAINS, DIGIT_SIZE))
-    mean[:, SEEN] = state
-    covariance = np.broadcast_to(np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE))
-    slope = spread_points(mean, covariance, roots, Spread()).by_constants
+    mean = np.zeros((N_DIGITS, DIGIT_SIZE))
+    mean[:, OBSERVED] = state
+    covariance = np.broadcast_to(np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
+    slope = draw_sigma_points(mean, covariance, roots, UnscentedParameters()).by_constants
     step = 1e-6
     for column, constant in enumerate(OTHER):
         ahead, back = state.copy(), state.copy()
@@ -96,22 +103,24 @@ def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
     """As the covariance goes to nothing, the statistical line becomes the tangent."""
     anatomy, joints = hand(1), angles(1, dip_free=True)
     roots = anatomy.palm_disc_m[1:]
-    mean = np.zeros((CHAINS, DIGIT_SIZE))
-    mean[:, SEEN] = state_of(anatomy, joints)
-    covariance = np.broadcast_to(1e-8 * np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE))
+    mean = np.zeros((N_DIGITS, DIGIT_SIZE))
+    mean[:, OBSERVED] = state_of(anatomy, joints)
+    covariance = np.broadcast_to(1e-8 * np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
     down = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
     view = DigitView(down, np.array([0.01, 0.02, 0.7]), Camera(525.0, 530.0, 319.5, 239.5))
-    linearised = digits_linearised(spread_points(mean, covariance, roots, Spread()), view, Spread())
+    linearised = linearise_digits(
+        draw_sigma_points(mean, covariance, roots, UnscentedParameters()), view, UnscentedParameters()
+    )
 
     def images(about: FloatArray) -> FloatArray:
-        point = place_digits(about[:, SEEN], roots)[3] @ down.T + view.translation_m
+        point = place_digits(about[:, OBSERVED], roots)[3] @ down.T + view.translation_m
         z = point[..., 2]
         return np.stack(
             (525.0 * point[..., 0] / z + 319.5, 530.0 * point[..., 1] / z + 239.5, z), axis=-1
-        ).reshape(CHAINS, 9)  # fmt: skip
+        ).reshape(N_DIGITS, 9)  # fmt: skip
 
     assert np.allclose(linearised.value, images(mean), atol=1e-3)
-    for slot in SEEN[BENT]:  # the roll among them
+    for slot in OBSERVED[BENT]:  # the roll among them
         ahead, back = mean.copy(), mean.copy()
         ahead[:, slot] += 1e-5
         back[:, slot] -= 1e-5
@@ -126,9 +135,11 @@ def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
 @pytest.mark.parametrize("dip_free", [False, True])
 def test_slots_hold_the_angles_and_give_them_back(dip_free: bool) -> None:
     joints = angles(7, dip_free)
-    reading = JointReading.of(dip_free)
-    assert np.allclose(reading.angles(slots_of(joints)), joints, atol=1e-14)
-    variance = reading.variances(np.broadcast_to(np.diag([1.0, 2.0, 3.0, 4.0, 5.0]), (CHAINS, SLOTS, SLOTS)))
+    reading = JointAngleMap.from_digits(dip_free)
+    assert np.allclose(reading.compute_angles(slots_of(joints)), joints, atol=1e-14)
+    variance = reading.compute_variances(
+        np.broadcast_to(np.diag([1.0, 2.0, 3.0, 4.0, 5.0]), (N_DIGITS, N_SLOTS, N_SLOTS))
+    )
     by_name = dict(zip(joint_angle_names(dip_free), variance, strict=True))
     assert by_name["IP1_flexion"] == pytest.approx(5.0)
     assert by_name["PIP4_flexion"] == pytest.approx(3.0)
@@ -137,7 +148,7 @@ def test_slots_hold_the_angles_and_give_them_back(dip_free: bool) -> None:
 
 
 def test_every_joint_is_measured_by_the_disc_on_it_and_the_next() -> None:
-    for name, (at, past) in zip(joint_angle_names(True), direct_markers(HAND21, True), strict=True):
+    for name, (at, past) in zip(joint_angle_names(True), direct_marker_rows(HAND21, True), strict=True):
         assert HAND21.markers[at] == name.split("_")[0]
         assert HAND21.markers[past][-1] == name.split("_")[0][-1]
         assert past == at + 1
@@ -156,7 +167,7 @@ def test_a_disc_is_a_digit_s_within_its_length_and_a_little(
     digit: int, off_m: tuple[float, ...], is_reached: bool
 ) -> None:
     """15 mm beyond it, 20 mm behind its root and 50 mm above the palm; of the thumb 30 mm across it."""
-    roots = np.array([[0.0, float(k), 0.0] for k in range(CHAINS)])  # so far apart that one reaches no other's
-    state = np.zeros((CHAINS, SLOTS + CONSTANTS))
-    state[:, SLOTS : SLOTS + 3] = 0.040, 0.025, 0.020
-    assert in_reach(roots[digit] + off_m, roots, state) == is_reached
+    roots = np.array([[0.0, float(k), 0.0] for k in range(N_DIGITS)])  # so far apart that one reaches no other's
+    state = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS))
+    state[:, N_SLOTS : N_SLOTS + 3] = 0.040, 0.025, 0.020
+    assert is_in_reach(roots[digit] + off_m, roots, state) == is_reached

@@ -9,10 +9,15 @@ import pytest
 
 from carpus.core.tracking import finger_depth
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitView
-from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
-from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.finger_depth import (
+    FLEXION_SLOT,
+    KnuckleFlexion,
+    estimate_knuckle_flexion,
+    update_by_knuckle_flexion,
+)
+from carpus.core.tracking.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.types import FINGER_STEP_PX, FloatArray, SurfaceSamples
+from carpus.core.types import FINGER_SAMPLE_STEP_PX, FloatArray, SurfaceSamples
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
 INDEX = 1
@@ -22,17 +27,17 @@ VIEW = DigitView(FROM_ABOVE, MIDDLE_M, CAMERA)
 
 
 def states() -> FloatArray:
-    mean = np.zeros((CHAINS, DIGIT_SIZE))
-    anatomy = 2 * SLOTS
+    mean = np.zeros((N_DIGITS, DIGIT_SIZE))
+    anatomy = 2 * N_SLOTS
     mean[:, anatomy], mean[:, anatomy + 7], mean[:, anatomy + 8] = LENGTH_M, DEPTH_M, HEIGHT_M
     return mean
 
 
 def readings(flexion_deg: float, breadth_m: float = 0.008) -> SurfaceSamples:
     """A hand as flat as its knuckles before a table, and one finger as a plate bent at its knuckle."""
-    u, v = np.meshgrid(np.arange(240, 420, FINGER_STEP_PX), np.arange(160, 300, FINGER_STEP_PX))
+    u, v = np.meshgrid(np.arange(240, 420, FINGER_SAMPLE_STEP_PX), np.arange(160, 300, FINGER_SAMPLE_STEP_PX))
     pixel = np.column_stack((u.ravel(), v.ravel())).astype(float)
-    in_w = (CAMERA.back_project(pixel, np.full(len(pixel), MIDDLE_M[2])) - MIDDLE_M) @ FROM_ABOVE
+    in_w = (CAMERA.backproject(pixel, np.full(len(pixel), MIDDLE_M[2])) - MIDDLE_M) @ FROM_ABOVE
     height = np.where(in_w[:, 0] < RIGHT_PALM_M[2, 0], 0.0, -TABLE_M)
     angle = math.radians(flexion_deg)
     knuckle = RIGHT_PALM_M[2] + np.array([0.0, 0.0, -DEPTH_M])
@@ -45,9 +50,9 @@ def readings(flexion_deg: float, breadth_m: float = 0.008) -> SurfaceSamples:
     return SurfaceSamples(pixel, MIDDLE_M[2] - height)
 
 
-def bends(samples: SurfaceSamples) -> KnuckleBends:
+def bends(samples: SurfaceSamples) -> KnuckleFlexion:
     """What the readings say of the index finger."""
-    return knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, samples)
+    return estimate_knuckle_flexion([INDEX], states(), RIGHT_PALM_M[1:], VIEW, samples)
 
 
 @pytest.mark.parametrize("flexion_deg", [10.0, 30.0, 50.0, 70.0])
@@ -64,23 +69,23 @@ def test_where_nothing_is_read_nothing_is_said() -> None:
 
 
 def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
-    covariance = np.broadcast_to(0.3**2 * np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE))
-    mixture = ModeMixture.alike(states(), covariance, 2)
+    covariance = np.broadcast_to(0.3**2 * np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
+    mixture = ModeMixture.from_gaussian(states(), covariance, 2)
     found = bends(readings(60.0))
-    once = with_bends(mixture, found)
+    once = update_by_knuckle_flexion(mixture, found)
     many = once
     for _ in range(30):
-        many = with_bends(many, found)
-    first, last = (math.degrees(one.merged()[0][INDEX, FLEXION]) for one in (once, many))
+        many = update_by_knuckle_flexion(many, found)
+    first, last = (math.degrees(one.merge()[0][INDEX, FLEXION_SLOT]) for one in (once, many))
     assert 5.0 < first < 45.0
     assert last == pytest.approx(math.degrees(found.value_rad[INDEX]), abs=4.0)
-    others = np.delete(np.arange(CHAINS), INDEX)
+    others = np.delete(np.arange(N_DIGITS), INDEX)
     assert np.allclose(once.mean[others], mixture.mean[others])
     assert np.allclose(once.covariance[others], mixture.covariance[others])
 
 
 def test_what_is_said_is_never_surer_than_frames_that_err_alike(monkeypatch: pytest.MonkeyPatch) -> None:
-    alike, least_sd_rad = finger_depth.ALIKE, finger_depth.MIN_SD_RAD
+    alike, least_sd_rad = finger_depth.CORRELATED_FRAMES, finger_depth.MIN_SD_RAD
     found = bends(readings(50.0))
     monkeypatch.setattr(finger_depth, "ALIKE", 1.0)
     monkeypatch.setattr(finger_depth, "MIN_SD_RAD", 0.0)
@@ -92,7 +97,7 @@ def test_what_is_said_is_never_surer_than_frames_that_err_alike(monkeypatch: pyt
 def covered(at: float, off_m: float) -> SurfaceSamples:
     """A finger bent by 50 degrees, its end beyond a share of its length read ``off_m`` too far."""
     bare = readings(50.0)
-    in_w = (CAMERA.back_project(bare.pixel, np.full(len(bare.pixel), MIDDLE_M[2])) - MIDDLE_M) @ FROM_ABOVE
+    in_w = (CAMERA.backproject(bare.pixel, np.full(len(bare.pixel), MIDDLE_M[2])) - MIDDLE_M) @ FROM_ABOVE
     reach = RIGHT_PALM_M[2, 0] + at * LENGTH_M * math.cos(math.radians(50.0))
     hit = (in_w[:, 0] > reach) & (np.abs(in_w[:, 1] - RIGHT_PALM_M[2, 1]) < 0.008)
     return SurfaceSamples(bare.pixel, bare.depth_m + off_m * hit)

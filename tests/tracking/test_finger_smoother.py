@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.protocols import joint_angle_names
-from carpus.core.pipeline.track import from_neutral
+from carpus.core.pipeline.track import restart_at_neutral
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_filter import ANATOMY, RATES
-from carpus.core.tracking.finger_smoother import FingerTrajectory, _Filtered
-from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.finger_smoother import FingerTrajectory, _FilteredFrame
+from carpus.core.tracking.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.palm_smoother import Smoother
 from carpus.core.types import FloatArray
 from tests.accuracy.carpus import learnt_tracker
@@ -39,17 +39,17 @@ def smoothed(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
 
     def take(until_s: float) -> None:
         steps = list(tracker.record.history)
-        for step, moment in zip(steps, tracker.smoothed(), strict=True):
+        for step, moment in zip(steps, tracker.smooth(), strict=True):
             if RECORDED_S <= step.timestamp_s - blobs.truth.timestamp_s[0] < until_s:
                 rows.setdefault(step.timestamp_s, (moment.joint_angles_rad, moment.joint_angles_sd_rad))
-        tracker.record.forget(blobs.truth.timestamp_s[0] + until_s)
+        tracker.record.discard_before(blobs.truth.timestamp_s[0] + until_s)
 
     due_s = RECORDED_S + PIECE_S + LAG_S
     every = range(len(times))
-    for i in from_neutral(every, tracker, neutral_ends_s, lambda row: float(blobs.truth.timestamp_s[row])):
+    for i in restart_at_neutral(every, tracker, neutral_ends_s, lambda row: float(blobs.truth.timestamp_s[row])):
         if times[i] < RECORDED_S and in_pieces:
-            tracker.hand_over()
-        tracker.expect(float(blobs.truth.timestamp_s[i]))
+            tracker.pop_steps()
+        tracker.predict_measurement(float(blobs.truth.timestamp_s[i]))
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
         if in_pieces and times[i] >= due_s:
             take(due_s - LAG_S)
@@ -76,7 +76,7 @@ def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
     blobs = sequence()
     tracker = tracker_of(blobs)
     for i in range(40):
-        tracker.hand_over()
+        tracker.pop_steps()
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
     assert len(tracker.record.history) == len(tracker.record.finger_history) == 1
 
@@ -86,16 +86,16 @@ def test_a_piece_goes_on_from_where_the_one_before_was_forgotten() -> None:
     tracker, times_s = tracker_of(blobs), blobs.truth.timestamp_s
     for i in range(6):
         tracker.step(i, float(times_s[i]), blobs.detections[i])
-    assert len(tracker.smoothed()) == 6
-    tracker.record.forget(float(times_s[4]))
-    kept = tracker.record.hand_over(None)
+    assert len(tracker.smooth()) == 6
+    tracker.record.discard_before(float(times_s[4]))
+    kept = tracker.record.pop_steps(None)
     assert [step.timestamp_s for step in kept.steps] == times_s[4:6].tolist()
     assert len(kept.fingers) == 2
     assert kept.finger_start is not None
     assert kept.finger_start.timestamp_s == times_s[3]
     assert not kept.finger_start.is_lost
-    tracker.record.take_over(kept)
-    assert len(tracker.smoothed()) == 2
+    tracker.record.append_steps(kept)
+    assert len(tracker.smooth()) == 2
 
 
 def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break_nothing() -> None:
@@ -103,7 +103,7 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
     tracker = tracker_of(blobs)
     for i in range(3):
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
-    tracker.smoothed()
+    tracker.smooth()
     found = tracker.record.smoothed_digits
     assert found is not None
     fingers = tracker._filter.fingers
@@ -114,26 +114,26 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
     assert last is not None
     chain, joints = 2, slice(0, RATES.stop)
 
-    def back(second: _Filtered, moved_rad: float = 0.0, longer_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
+    def back(second: _FilteredFrame, moved_rad: float = 0.0, longer_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """Mean and covariance of the digit in the first frame, with the last one's joints and bones moved."""
         mean = last.mean.copy()
-        mean[chain, :SLOTS] += moved_rad
+        mean[chain, :N_SLOTS] += moved_rad
         mean[chain, ANATOMY.start] += longer_m
         walk = FingerTrajectory(fingers.model, found.steps, [first, second, replace(last, mean=mean)])
-        estimate = dict(Smoother(walk).backwards())[0]
+        estimate = dict(Smoother(walk).iterate_backwards())[0]
         assert estimate is not None
         return estimate.mean[chain], estimate.covariance[chain]
 
-    anew = replace(middle, anew=np.arange(CHAINS) == chain)
-    assert np.abs(back(middle, moved_rad=0.1)[0] - back(middle)[0])[:SLOTS].max() > 1e-4
+    anew = replace(middle, is_restarted=np.arange(N_DIGITS) == chain)
+    assert np.abs(back(middle, moved_rad=0.1)[0] - back(middle)[0])[:N_SLOTS].max() > 1e-4
     through, alone = back(anew), back(replace(middle, is_linked=False))
     moved = back(anew, longer_m=0.01)
     assert np.abs(moved[0] - through[0])[ANATOMY].max() > 1e-5, "bones stay the same bones"
     assert np.array_equal(alone[0], first.mean[chain])
     assert (np.diagonal(through[1])[ANATOMY] <= np.diagonal(alone[1])[ANATOMY] * (1.0 + 1e-9)).all()
-    flexed = replace(middle, mean=middle.mean.copy(), anew=anew.anew)
+    flexed = replace(middle, mean=middle.mean.copy(), is_restarted=anew.is_restarted)
     flexed.mean[chain, joints] += 0.2
-    held = [dict(Smoother(FingerTrajectory(fingers.model, found.steps, [first, two, None])).backwards())[0]
+    held = [dict(Smoother(FingerTrajectory(fingers.model, found.steps, [first, two, None])).iterate_backwards())[0]
             for two in (anew, flexed)]  # fmt: skip
     assert held[0] is not None
     assert held[1] is not None
@@ -152,8 +152,8 @@ def test_gaps_between_pictures_leave_every_joint_within_reach(gap_s: float) -> N
     kept = [i for i in range(len(times)) if times[i] < times[0] + 2.0]
     while (after := int(np.searchsorted(times, times[kept[-1]] + gap_s))) < len(times) - 1:
         kept += [after, after + 1]
-    live = [tracker.step(i, float(times[i]), blobs.detections[i]).moment.joint_angles_rad for i in kept]
-    back = [moment.joint_angles_rad for moment in tracker.smoothed()]
+    live = [tracker.step(i, float(times[i]), blobs.detections[i]).kinematics.joint_angles_rad for i in kept]
+    back = [moment.joint_angles_rad for moment in tracker.smooth()]
     truth = blobs.truth.joint_angles_rad[kept]
     bending = [i for i, name in enumerate(joint_angle_names()) if "flexion" in name]
     for found in (np.array(live), np.array(back)):

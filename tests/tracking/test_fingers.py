@@ -12,13 +12,13 @@ from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import finger_model
 from carpus.core.tracking.digit_filter import ANATOMY, RATES
-from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
-from carpus.core.tracking.digit_readout import seat_of
-from carpus.core.tracking.fingers import Fingers
+from carpus.core.tracking.digit_naming import DigitFrame, DigitPosterior
+from carpus.core.tracking.digit_readout import base_from_estimate
+from carpus.core.tracking.fingers import FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.hand_geometry import palm_of
-from carpus.core.tracking.palm_association import measurements_of
-from carpus.core.tracking.palm_state import InitialSd, resting_estimate
+from carpus.core.tracking.hand_geometry import palm_calibration
+from carpus.core.tracking.palm_association import measurements_from_blobs
+from carpus.core.tracking.palm_state import InitialSd, initial_estimate
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
@@ -39,7 +39,7 @@ def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list
     tracker = tracker_of(seen)
     times = seen.truth.timestamp_s
     return [
-        tracker.step(i, float(times[i]), seen.detections[i].only(~np.isin(seen.marker[i], hidden.get(i, ()))))
+        tracker.step(i, float(times[i]), seen.detections[i].subset(~np.isin(seen.marker[i], hidden.get(i, ()))))
         for i in range(count)
     ], seen
 
@@ -52,47 +52,47 @@ def test_looked_for_anew_the_hand_is_found_and_its_fingers_are_as_long_as_was_le
     fingers = tracker._filter.fingers
     assert fingers is not None
     learnt = fingers._mean[:, ANATOMY].copy()
-    tracker.begin_anywhere(before.timestamp_s)
+    tracker.drop_track(before.timestamp_s)
     assert tracker.is_lost
     np.testing.assert_array_equal(fingers._mean[:, ANATOMY], learnt)
     after = tracker.step(60, float(times_s[60]), seen.detections[60])
     assert after.status is TrackStatus.TRACKED
-    np.testing.assert_allclose(after.moment.angles_rad, before.moment.angles_rad, atol=0.03)
+    np.testing.assert_allclose(after.kinematics.angles_rad, before.kinematics.angles_rad, atol=0.03)
 
 
 def test_fingers_that_rest_are_slow_and_fingers_out_of_sight_may_be_fast() -> None:
     settings = TrackerSettings()
-    fingers = Fingers(calibrated(sequence()), sequence().truth.camera, settings)
-    assert fingers.speeds == (0.0, 0.0)
-    fingers.begin_anywhere()
-    assert 0.5 < min(fingers.speeds) <= max(fingers.speeds) <= settings.tissue.fastest_rad_s
+    fingers = FingerFilter(calibrated(sequence()), sequence().truth.camera, settings)
+    assert fingers.joint_speeds == (0.0, 0.0)
+    fingers.reset_joints()
+    assert 0.5 < min(fingers.joint_speeds) <= max(fingers.joint_speeds) <= settings.tissue.fastest_rad_s
 
 
 def test_speeds_are_of_the_thumbs_base_and_the_fingers_knuckles_alone() -> None:
-    fingers = Fingers(calibrated(sequence()), sequence().truth.camera, TrackerSettings())
-    mean = fingers.known.mean.copy()
+    fingers = FingerFilter(calibrated(sequence()), sequence().truth.camera, TrackerSettings())
+    mean = fingers.estimates.mean.copy()
     mean[1:, :, RATES] = [3.0, 0.5, 3.0, 3.0, 3.0]
     mean[0, :, RATES] = [1.0, 0.8, 3.0, 3.0, 3.0]
-    turning = replace(fingers.known, mean=mean)
-    fingers._take(turning, turning.merged())
-    assert fingers.speeds == pytest.approx((np.sqrt((1.0 + 0.64) / 2.0), 0.5))
+    turning = replace(fingers.estimates, mean=mean)
+    fingers._set_estimates(turning, turning.merge())
+    assert fingers.joint_speeds == pytest.approx((np.sqrt((1.0 + 0.64) / 2.0), 0.5))
 
 
-def weighed(place_m: float, off_px: tuple[float, float]) -> tuple[FingerTrial, FloatArray]:
+def weighed(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior, FloatArray]:
     """The fingers of the first picture on a palm known to ``place_m``, their discs off to the sides in turn, and how
     far they go on from neutral (5, n)."""
     seen, settings = sequence(), TrackerSettings()
     known = calibrated(seen)
-    fingers = Fingers(known, seen.truth.camera, settings)
+    fingers = FingerFilter(known, seen.truth.camera, settings)
     view = HandFilter(known, seen.truth.camera, settings).view
-    estimate = resting_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
-    seat = seat_of(estimate, view, Readout(palm_of(known), view.camera, 6e-3))
+    estimate = initial_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
+    seat = base_from_estimate(estimate, view, Readout(palm_calibration(known), view.camera, 6e-3))
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
-    found = measurements_of(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
-    picture = DigitPicture(0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
-    trial = fingers.naming.weigh(fingers.ahead(0.0), picture)
-    return trial, trial.named.update.mixture.merged()[0] - fingers.model.at_neutral().merged()[0]
+    found = measurements_from_blobs(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
+    picture = DigitFrame(0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
+    trial = fingers.updater.update(fingers.predict(0.0), picture)
+    return trial, trial.update.update.mixture.merge()[0] - fingers.model.neutral_mixture().merge()[0]
 
 
 def test_discs_share_what_the_palm_may_be_off_by() -> None:
@@ -104,9 +104,9 @@ def test_discs_share_what_the_palm_may_be_off_by() -> None:
 
 
 def test_a_share_of_what_a_picture_says_of_the_anatomy_is_believed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(finger_model, "LEARNING", 0.2)
+    monkeypatch.setattr(finger_model, "LEARNING_SHARE", 0.2)
     fifth = weighed(1e-5, (0.3, -0.3))[1][:, ANATOMY]
-    monkeypatch.setattr(finger_model, "LEARNING", 1.0)
+    monkeypatch.setattr(finger_model, "LEARNING_SHARE", 1.0)
     whole = weighed(1e-5, (0.3, -0.3))[1][:, ANATOMY]
     assert np.abs(whole).max() > 1e-4
     assert fifth == pytest.approx(0.2 * whole, rel=0.1, abs=1e-6)
@@ -117,18 +117,18 @@ def test_a_finger_that_hides_is_unsure_at_once_and_knows_nothing_soon() -> None:
     hidden_from = 30
     frames, _ = frames_of(dict.fromkeys(range(hidden_from, 60), (pip, dip, tip)))
     flexion = 5 + 3 + 2  # PIP3_flexion among the 17
-    sd_deg = np.degrees([frame.moment.joint_angles_sd_rad[flexion] for frame in frames])
+    sd_deg = np.degrees([frame.kinematics.joint_angles_sd_rad[flexion] for frame in frames])
     before = sd_deg[hidden_from - 1]
     assert sd_deg[hidden_from + 2] > 1.2 * before
     assert sd_deg[hidden_from + 15] > 20.0
     assert all(np.diff(sd_deg[hidden_from - 1 : hidden_from + 10]) > 0.0)
-    index_deg = np.degrees(frames[hidden_from + 10].moment.joint_angles_sd_rad[5 + 2])  # its neighbour, still seen
+    index_deg = np.degrees(frames[hidden_from + 10].kinematics.joint_angles_sd_rad[5 + 2])  # its neighbour, still seen
     assert index_deg < 0.6 * sd_deg[hidden_from + 10]
 
 
 def test_joint_centres_and_tips_of_a_frame_are_where_they_are() -> None:
     frames, seen = frames_of({})
-    position = np.array([frame.moment.joint_position_m for frame in frames])
+    position = np.array([frame.kinematics.joint_position_m for frame in frames])
     off_mm = 1e3 * np.linalg.norm(position - seen.truth.joint_position_w0_m[: len(frames)], axis=-1)
     assert position.shape == (len(frames), len(HAND21.markers), 3)
     assert np.median(off_mm) < 3.0
@@ -144,9 +144,9 @@ def test_a_lost_hand_has_no_joints_and_is_found_again() -> None:
     frames, seen = frames_of(dict.fromkeys(range(20, 80), everything), count=100)
     lost = [frame for frame in frames if frame.status is TrackStatus.LOST]
     assert lost
-    assert np.isnan(lost[-1].moment.joint_angles_rad).all()
-    assert np.isnan(lost[-1].moment.joint_position_m).all()
-    error_deg = np.degrees(np.abs(frames[-1].moment.joint_angles_rad - seen.truth.joint_angles_rad[99]))
+    assert np.isnan(lost[-1].kinematics.joint_angles_rad).all()
+    assert np.isnan(lost[-1].kinematics.joint_position_m).all()
+    error_deg = np.degrees(np.abs(frames[-1].kinematics.joint_angles_rad - seen.truth.joint_angles_rad[99]))
     assert frames[-1].status is TrackStatus.TRACKED
     assert np.median(error_deg) < 3.0
 
@@ -161,8 +161,8 @@ def test_a_long_pause_without_pictures_bends_no_finger_further() -> None:
     assert rate[pause] > 1.0
     for i, found in enumerate(still.detections):
         frame = tracker.step(i, float(times[i]) + (12.0 if i > pause else 0.0), found)
-        if np.isfinite(frame.moment.joint_angles_rad).any():
-            assert np.abs(np.degrees(frame.moment.joint_angles_rad)).max() < 150.0
+        if np.isfinite(frame.kinematics.joint_angles_rad).any():
+            assert np.abs(np.degrees(frame.kinematics.joint_angles_rad)).max() < 150.0
     assert frame.status is TrackStatus.TRACKED
 
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.consistency import UNUSED_S
+from carpus.core.tracking.consistency import MAX_UNUSED_S
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import FrameResults
+from carpus.core.tracking.tracker import OutputRowBuilder
 from carpus.core.types import Detections, TrackedFrame, TrackStatus
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
@@ -21,25 +21,25 @@ from tests.tracking.sequences import tracker_of
 def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> None:
     settings = TrackerSettings()
     own = HandFilter(calibration(), CAMERA, settings)
-    results = FrameResults(WRIST6, own.order, None, own.readout, settings)
+    results = OutputRowBuilder(WRIST6, own.order, None, own.readout, settings)
     seen = blobs(Pose())
     beside = replace(seen, pixel=seen.pixel + np.where(np.arange(6) == MCP3, 6.5, 0.0)[:, None] * [0.8, 0.6])
 
     def row(index: int) -> TrackedFrame:
         """Of a hand at rest that was there the moment before; nothing is accepted."""
         predicted = own.predict(0.0)
-        scan = own.scan(predicted, beside, index * DT_S, DT_S)
+        scan = own.build_scan(predicted, beside, index * DT_S, DT_S)
         posterior = own.update(predicted, scan)
         assert posterior.palm.assigned[MCP3] < 0
-        return results.told(index, TrackStatus.TRACKED, posterior, scan, None, beside, 0)
+        return results.build_row(index, TrackStatus.TRACKED, posterior, scan, None, beside, 0)
 
-    patient = int(UNUSED_S / DT_S) + 1
+    patient = int(MAX_UNUSED_S / DT_S) + 1
     rows = [row(index) for index in range(patient + 3)]
     assert rows[0].status is TrackStatus.TRACKED
     assert rows[-1].status is TrackStatus.DOUBTFUL
     assert rows[-1].doubted.tolist() == [marker == MCP3 for marker in range(6)]
-    assert np.all(rows[-1].moment.angles_sd_rad > 1.4 * rows[0].moment.angles_sd_rad)
-    assert results.lost(99, 99 * DT_S, Detections.none(), 0).status is TrackStatus.LOST
+    assert np.all(rows[-1].kinematics.angles_sd_rad > 1.4 * rows[0].kinematics.angles_sd_rad)
+    assert results.build_lost_row(99, 99 * DT_S, Detections.none(), 0).status is TrackStatus.LOST
     assert row(100).status is TrackStatus.TRACKED, "another hand: nothing is contradicted yet"
     np.testing.assert_allclose(row(101).measured_share, 5.0 / 6.0 * 2.0 / 3.0)
 

@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.hand.back_surface import back_surface_from
+from carpus.core.hand.back_surface import fit_dorsal_surface
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
-from carpus.core.tracking.hand_geometry import palm_of
+from carpus.core.tracking.hand_geometry import palm_calibration
 from carpus.core.tracking.motion import RATE_MEMORY_S
 from carpus.core.tracking.palm_state import RATE, SHAPE, SKIN
-from carpus.core.tracking.reacquire import Facing, FoundPalm
+from carpus.core.tracking.reacquire import FoundPalm, TurnLimits
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import NO_DIGITS, stationary_covariance
+from carpus.core.tracking.soft_tissue import ZERO_SPEEDS, stationary_covariance
 from carpus.core.types import Detections
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
@@ -28,7 +28,7 @@ FOUND = FoundPalm(np.array([0.02, 0.01, -0.01]), np.eye(3), np.ones(6, dtype=boo
 
 def updated(own: HandFilter, at_s: float, pose: Pose, hidden: tuple[int, ...] = ()) -> tuple[Posterior, Scan]:
     predicted = own.predict(DT_S)
-    scan = own.scan(predicted, blobs(pose, hidden=hidden), at_s, DT_S)
+    scan = own.build_scan(predicted, blobs(pose, hidden=hidden), at_s, DT_S)
     return own.update(predicted, scan), scan
 
 
@@ -37,19 +37,19 @@ def run(own: HandFilter, frames: int = 40) -> None:
     motion, rng = swing(1, 40.0, 1.0), np.random.default_rng(4)
     for k in range(frames):
         predicted = own.predict(DT_S if k else 0.0)
-        scan = own.scan(predicted, blobs(motion(k * DT_S), rng), k * DT_S, DT_S)
+        scan = own.build_scan(predicted, blobs(motion(k * DT_S), rng), k * DT_S, DT_S)
         posterior = own.update(predicted, scan)
         own.learn(posterior, DT_S)
-        own.accept(posterior, scan, is_seen=True, linked=True)
+        own.accept(posterior, scan, is_seen=True, is_linked=True)
 
 
 def test_what_was_learnt_of_the_palm_outlives_a_lost_track() -> None:
     own = HandFilter(calibration(sd_m=2e-3), CAMERA, TrackerSettings())
-    calibrated = own.estimate_at(FOUND)
+    calibrated = own.estimate_from_found(FOUND)
     run(own)
     learnt = own.predict(0.0).nominal
-    own.lose()
-    begun = own.estimate_at(FOUND)
+    own.drop_track()
+    begun = own.estimate_from_found(FOUND)
     assert not np.any(calibrated.value[SHAPE])
     assert np.abs(learnt.value[SHAPE]).max() > 1e-5
     np.testing.assert_allclose(begun.value[SHAPE], learnt.value[SHAPE])
@@ -63,7 +63,7 @@ def test_a_palm_is_looked_for_with_its_discs_where_skin_may_have_carried_them(mo
     monkeypatch.setattr(hand_filter, "find_palm", lambda *arguments: asked.append(arguments))
     settings = TrackerSettings()
     own = HandFilter(calibration(), CAMERA, settings)
-    own.find(blobs(Pose()), Facing(np.eye(3), 1.0, 1.0))
+    own.find_palm(blobs(Pose()), TurnLimits(np.eye(3), 1.0, 1.0))
     by_skin = stationary_covariance(settings.tissue)[SKIN, SKIN]
     assert np.linalg.eigvalsh(asked[0][2] - by_skin).min() > 0.0
 
@@ -74,7 +74,7 @@ def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
     posterior, scan = updated(own, 10 * DT_S, swing(1, 40.0, 1.0)(10 * DT_S), (WRIST, CMC1, MCP2))
     assert np.count_nonzero(posterior.palm.assigned >= 0) == 3
     assert (posterior.palm.assigned[[MCP3, MCP4, MCP5]] >= 0).all()
-    own.accept(posterior, scan, is_seen=True, linked=True)
+    own.accept(posterior, scan, is_seen=True, is_linked=True)
     line = np.array([0.016, 0.033, 0.0]) / np.hypot(0.016, 0.033)
     before, after = posterior.estimate.value[RATE], own.predict(0.0).nominal.value[RATE]
     assert abs(line @ before) > 0.05
@@ -82,18 +82,18 @@ def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
     assert line @ after == pytest.approx(kept * (line @ before), rel=0.05)
     across = before - line * (line @ before)
     np.testing.assert_allclose(after - line * (line @ after), across, atol=0.02 * np.linalg.norm(before))
-    assert not own.showed_turn
-    own.begin(own.estimate_at(FOUND))
-    assert own.showed_turn, "what was not seen before is none of a hand found anew"
+    assert not own.is_rotation_observed
+    own.start(own.estimate_from_found(FOUND))
+    assert own.is_rotation_observed, "what was not seen before is none of a hand found anew"
 
 
 def test_a_scan_without_blobs_is_one_of_nothing() -> None:
     own = HandFilter(calibration(), CAMERA, TrackerSettings())
     predicted = own.predict(0.0)
-    scan = own.scan(predicted, blobs(Pose()), 0.0, 0.0).without_blobs()
+    scan = own.build_scan(predicted, blobs(Pose()), 0.0, 0.0).without_blobs()
     assert len(scan.blobs) == len(scan.ideal) == 0
     posterior = own.update(predicted, scan)
-    assert posterior.seen == posterior.palm.dof == 0
+    assert posterior.seen_count == posterior.palm.dof == 0
     assert (posterior.palm.assigned == -1).all()
 
 
@@ -106,7 +106,7 @@ def test_a_prediction_is_worked_out_once_and_of_another_time_anew() -> None:
     assert np.trace(own.predict(5.0 * DT_S).nominal.covariance) > np.trace(first.nominal.covariance)
     again = own.predict(DT_S)
     posterior, scan = updated(own, 1.0, swing(1, 40.0, 1.0)(10 * DT_S))
-    own.accept(posterior, scan, is_seen=True, linked=True)
+    own.accept(posterior, scan, is_seen=True, is_linked=True)
     assert own.predict(DT_S) is not again, "the state is another"
 
 
@@ -114,10 +114,10 @@ def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     """The filter of a hand with fingers, all known as calibrated, and the blobs of its first picture."""
     seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=1.0))
     known = calibrated(seen)
-    corner = palm_of(known).marker_position_w0_m[:4]
+    corner = palm_calibration(known).marker_position_w0_m[:4]
     x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-0.02, 0.11, 0.0015), np.arange(-0.05, 0.05, 0.0015)))
     level = np.full(x.size, np.median(corner[:, 2]))
-    surface = back_surface_from(np.stack((x, y, level), axis=1), corner)
+    surface = fit_dorsal_surface(np.stack((x, y, level), axis=1), corner)
     assert surface is not None
     settings = TrackerSettings(use_surface=use_surface)
     return HandFilter(replace(known, surface=surface), seen.truth.camera, settings), seen.detections[0]
@@ -126,17 +126,17 @@ def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
 def test_of_a_lost_hand_the_fingers_may_be_anywhere() -> None:
     own, _ = with_fingers(use_surface=False)
     assert own.fingers is not None
-    assert own.fingers.speeds == (0.0, 0.0)
-    own.lose()
-    assert min(own.fingers.speeds) > 0.5
+    assert own.fingers.joint_speeds == (0.0, 0.0)
+    own.drop_track()
+    assert min(own.fingers.joint_speeds) > 0.5
 
 
 def test_the_skin_moves_while_the_joints_beneath_it_do() -> None:
     own, _ = with_fingers(use_surface=True)
     assert own.fingers is not None
     rest = np.diagonal(own.predict(DT_S).nominal.covariance)[SKIN]
-    own.fingers.begin_anywhere()
-    assert min(own.fingers.speeds) > 0.5
+    own.fingers.reset_joints()
+    assert min(own.fingers.joint_speeds) > 0.5
     moving = np.diagonal(own.predict(DT_S).nominal.covariance)[SKIN]
     assert (moving[3:] > 1.5 * rest[3:]).all()
 
@@ -145,9 +145,9 @@ def test_the_skin_moves_while_the_joints_beneath_it_do() -> None:
 def test_an_accepted_step_tells_how_fast_the_digits_moved_where_the_skin_goes_by_it(use_surface: bool) -> None:
     own, found = with_fingers(use_surface)
     assert own.fingers is not None
-    own.fingers.begin_anywhere()
+    own.fingers.reset_joints()
     predicted = own.predict(DT_S)
-    scan = own.scan(predicted, found, DT_S, DT_S).without_blobs()
-    step, _ = own.accept(own.update(predicted, scan), scan, is_seen=False, linked=True)
-    assert min(own.fingers.speeds) > 0.5
-    assert step.digits == (own.fingers.speeds if use_surface else NO_DIGITS)
+    scan = own.build_scan(predicted, found, DT_S, DT_S).without_blobs()
+    step, _ = own.accept(own.update(predicted, scan), scan, is_seen=False, is_linked=True)
+    assert min(own.fingers.joint_speeds) > 0.5
+    assert step.digit_speeds == (own.fingers.joint_speeds if use_surface else ZERO_SPEEDS)

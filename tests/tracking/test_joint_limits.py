@@ -10,14 +10,14 @@ import pytest
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.tracking.digit_filter import ANATOMY
 from carpus.core.tracking.finger_model import MAX_BEYOND_RAD
-from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.joint_limits import (
+    LIMIT_SD_RAD,
     MID_RANGE_RAD,
     RANGE_SD_RAD,
-    SOFT_RAD,
-    constrained,
-    outside_limits,
-    settled,
+    apply_and_check_limits,
+    apply_soft_limits,
+    compute_limit_excess,
     slot_limits_rad,
 )
 from carpus.core.tracking.kernel import ModeMixture
@@ -28,25 +28,25 @@ INDEX, PIP = 1, 2
 
 def estimate(pip_deg: float, sd_deg: float) -> ModeMixture:
     """All joints surely at 20 degrees but one: PIP of the index finger."""
-    mean = np.zeros((CHAINS, 1, SIZE))
+    mean = np.zeros((N_DIGITS, 1, SIZE))
     mean[..., 1:3] = math.radians(20.0)
-    covariance = np.broadcast_to(1e-8 * np.eye(SIZE), (CHAINS, 1, SIZE, SIZE)).copy()
+    covariance = np.broadcast_to(1e-8 * np.eye(SIZE), (N_DIGITS, 1, SIZE, SIZE)).copy()
     mean[INDEX, 0, PIP] = math.radians(pip_deg)
     covariance[INDEX, 0, PIP, PIP] = math.radians(sd_deg) ** 2
-    return ModeMixture(mean, covariance, np.ones((CHAINS, 1)))
+    return ModeMixture(mean, covariance, np.ones((N_DIGITS, 1)))
 
 
 def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:
     """PIP and its standard deviation after the limits, degrees."""
     before = estimate(pip_deg, sd_deg)
-    after = constrained(before, before.mean[:, 0, :SLOTS])
+    after = apply_soft_limits(before, before.mean[:, 0, :N_SLOTS])
     sd = math.sqrt(after.covariance[INDEX, 0, PIP, PIP])
     return math.degrees(after.mean[INDEX, 0, PIP]), math.degrees(sd)
 
 
 def test_an_angle_well_inside_is_left_alone() -> None:
     before = estimate(60.0, 5.0)
-    after = constrained(before, before.mean[:, 0, :SLOTS])
+    after = apply_soft_limits(before, before.mean[:, 0, :N_SLOTS])
     assert after.mean[INDEX, 0, PIP] == before.mean[INDEX, 0, PIP]
     assert np.array_equal(after.covariance, before.covariance)
 
@@ -54,7 +54,7 @@ def test_an_angle_well_inside_is_left_alone() -> None:
 def test_far_outside_a_limit_acts_as_a_measurement_of_it() -> None:
     """PIP ends at 125 degrees; believed at 175 give or take 10, the step of 3 degrees has the last word."""
     limit, sd = 125.0, 10.0
-    soft = math.degrees(SOFT_RAD)
+    soft = math.degrees(LIMIT_SD_RAD)
     as_measurement = 175.0 + sd**2 / (sd**2 + soft**2) * (limit - 175.0)
     angle, after_sd = pulled(175.0, sd)
     assert angle == pytest.approx(as_measurement, abs=2.5)
@@ -78,7 +78,7 @@ def test_an_angle_of_which_little_is_known_stays_within_its_range() -> None:
 def test_the_truncated_normal_is_that_of_sampling() -> None:
     """Mean and variance of a Gaussian times a soft step, by a million samples."""
     rng = np.random.default_rng(3)
-    mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(SOFT_RAD)
+    mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(LIMIT_SD_RAD)
     sample = rng.normal(mean, sd, 1_000_000)
     kept = sample[sample < limit + rng.normal(0.0, soft, sample.size)]
     angle, after_sd = pulled(mean, sd)
@@ -87,7 +87,7 @@ def test_the_truncated_normal_is_that_of_sampling() -> None:
 
 
 def test_abduction_has_less_room_in_a_bent_finger() -> None:
-    slots = np.zeros((CHAINS, SLOTS))
+    slots = np.zeros((N_DIGITS, N_SLOTS))
     straight = slot_limits_rad(slots)[INDEX, 0]
     slots[INDEX, 1] = math.radians(60.0)
     bent = slot_limits_rad(slots)[INDEX, 0]
@@ -96,9 +96,9 @@ def test_abduction_has_less_room_in_a_bent_finger() -> None:
 
 
 def test_what_lies_outside_is_told_with_its_sign() -> None:
-    slots = np.zeros((CHAINS, SLOTS))
+    slots = np.zeros((N_DIGITS, N_SLOTS))
     slots[INDEX, 2], slots[2, 1] = math.radians(130.0), math.radians(-50.0)
-    off = np.degrees(outside_limits(slots))
+    off = np.degrees(compute_limit_excess(slots))
     assert off[INDEX, 2] == pytest.approx(5.0)
     assert off[2, 1] == pytest.approx(-5.0)
     assert np.count_nonzero(off) == 2
@@ -106,12 +106,12 @@ def test_what_lies_outside_is_told_with_its_sign() -> None:
 
 def test_the_end_joint_is_what_its_slot_adds_to_its_share_of_the_middle_one() -> None:
     low, high = HARD_LIMITS_RAD["DIP2_flexion"]
-    slots = np.zeros((CHAINS, SLOTS))
+    slots = np.zeros((N_DIGITS, N_SLOTS))
     slots[INDEX, 2] = math.radians(60.0)
     slots[INDEX, 3] = high - math.radians(40.0) + math.radians(7.0)
-    assert np.degrees(outside_limits(slots)[INDEX, 3]) == pytest.approx(7.0)
+    assert np.degrees(compute_limit_excess(slots)[INDEX, 3]) == pytest.approx(7.0)
     slots[INDEX, 3] = low - math.radians(40.0) - math.radians(7.0)
-    assert np.degrees(outside_limits(slots)[INDEX, 3]) == pytest.approx(-7.0)
+    assert np.degrees(compute_limit_excess(slots)[INDEX, 3]) == pytest.approx(-7.0)
 
 
 def test_what_is_known_of_an_angle_by_its_limits_alone() -> None:
@@ -132,5 +132,5 @@ def test_a_limit_is_felt_from_three_standard_deviations_off(pip_deg: float) -> N
 @pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])
 def test_a_digit_surely_30_degrees_beyond_a_limit_was_misread(beyond_deg: float, is_misread: bool) -> None:
     surely = estimate(math.degrees(HARD_LIMITS_RAD["PIP2_flexion"][1]) + beyond_deg, 0.01)
-    _, _, misread = settled(surely, MAX_BEYOND_RAD)
+    _, _, misread = apply_and_check_limits(surely, MAX_BEYOND_RAD)
     assert misread.tolist() == [False, is_misread, False, False, False]

@@ -9,14 +9,14 @@ from carpus.core.tracking.kernel import (
     Linearisation,
     ModeMixture,
     Transition,
-    corrected,
-    mixed,
-    partial_update,
-    predicted,
-    switching,
-    transitioned,
+    mix_modes,
+    mode_transition_matrix,
+    partial_update_shares,
+    predict_mixture,
+    propagate_mixture,
+    update_mixture,
 )
-from carpus.core.tracking.palm_smoother import Passage, Smoother
+from carpus.core.tracking.palm_smoother import Smoother, SmootherTransition
 from carpus.core.types import FloatArray
 
 CHAINS, MODES, STATES, SEEN = 3, 2, 5, 4
@@ -51,7 +51,7 @@ def any_line(seed: int) -> Linearisation:
 def test_prediction_is_f_p_f_plus_q(seed: int) -> None:
     rng, mixture = np.random.default_rng(seed), any_mixture(seed)
     forward, noise = rng.normal(size=(CHAINS, STATES, STATES)), positive(rng, CHAINS, MODES, size=STATES)
-    found = predicted(mixture, forward, noise)
+    found = predict_mixture(mixture, forward, noise)
     for c in range(CHAINS):
         for k in range(MODES):
             assert np.allclose(found.mean[c, k], forward[c] @ mixture.mean[c, k], atol=1e-12)
@@ -73,14 +73,14 @@ def test_a_step_by_what_mixes_of_it_is_the_whole_step() -> None:
     mixture = ModeMixture(
         rng.normal(size=(1, MODES, STATES)), positive(rng, 1, MODES, size=STATES), np.full((1, MODES), 1.0 / MODES)
     )
-    found = transitioned(mixture, step, nominal)
+    found = propagate_mixture(mixture, step, nominal)
     for mode in range(MODES):
         forward, noise = np.diag(kept[mode]), np.zeros((STATES, STATES))
         forward[:mixing, :mixing] = step.moving
         noise[:mixing, :mixing] = step.driven[mode]
         noise[STATES - relaxing :, STATES - relaxing :] = step.relaxing[mode]
         own = ModeMixture(mixture.mean[:, [mode]], mixture.covariance[:, [mode]], np.ones((1, 1)))
-        whole = predicted(own, forward[None], noise[None, None])
+        whole = predict_mixture(own, forward[None], noise[None, None])
         # What a mode does not keep of the nominal's last numbers, which stay, is its error.
         assert np.allclose(found.mean[0, mode], whole.mean[0, 0] + (kept[mode] - 1.0) * nominal, atol=1e-12)
         assert np.allclose(found.covariance[0, mode], whole.covariance[0, 0], atol=1e-12)
@@ -92,7 +92,7 @@ def test_correction_is_kalmans_with_what_was_not_measured_left_out(seed: int) ->
     measured, variance = rng.normal(size=(CHAINS, SEEN)), rng.uniform(0.01, 2.0, (CHAINS, SEEN))
     shared = 0.05 * positive(rng, CHAINS, size=SEEN)
     measured[0, 1] = measured[2, 0] = measured[2, 3] = np.nan
-    found = corrected(mixture, linearised, measured, variance, shared)
+    found = update_mixture(mixture, linearised, measured, variance, shared)
     for c in range(CHAINS):
         used = np.flatnonzero(np.isfinite(measured[c]))
         h = linearised.slope[c][used]
@@ -127,14 +127,14 @@ def test_residuals_are_standard_normal_where_the_model_is_right() -> None:
         noise = np.einsum("cij,cj->ci", np.linalg.cholesky(linearised.error), rng.normal(size=(CHAINS, SEEN)))
         value = linearised.value + np.einsum("cij,cj->ci", linearised.slope, state - linearised.about) + noise
         measured = value + np.sqrt(variance) * rng.normal(size=value.shape)
-        found.append(corrected(mixture, linearised, measured, variance).residual)
+        found.append(update_mixture(mixture, linearised, measured, variance).residual)
     assert np.std(found, axis=0) == pytest.approx(1.0, abs=0.05)
     assert np.mean(found, axis=0) == pytest.approx(0.0, abs=0.06)
 
 
 def test_modes_mix_from_row_to_column() -> None:
     mixture, switch = any_mixture(2), np.array([[0.9, 0.1], [0.4, 0.6]])
-    blend = mixed(mixture, switch)
+    blend = mix_modes(mixture, switch)
     for c in range(CHAINS):
         for to in range(MODES):
             share = switch[:, to] * mixture.probability[c]
@@ -150,15 +150,15 @@ def test_modes_mix_from_row_to_column() -> None:
 
 
 def test_switching_stays_for_its_dwell_time_whatever_the_step() -> None:
-    one, three = switching(3, 0.5, 0.1), switching(3, 0.5, 0.3)
+    one, three = mode_transition_matrix(3, 0.5, 0.1), mode_transition_matrix(3, 0.5, 0.3)
     assert np.allclose(one.sum(axis=1), 1.0)
     assert one[0, 0] ** 3 == pytest.approx(three[0, 0])
-    assert np.array_equal(switching(1, 0.5, 0.1), np.ones((1, 1)))
+    assert np.array_equal(mode_transition_matrix(1, 0.5, 0.1), np.ones((1, 1)))
 
 
 def test_merged_is_the_mixtures_mean_and_covariance() -> None:
     mixture, rng = any_mixture(7), np.random.default_rng(8)
-    mean, covariance = mixture.merged()
+    mean, covariance = mixture.merge()
     mode = rng.choice(MODES, 200_000, p=mixture.probability[1])
     drawn = mixture.mean[1][mode] + np.einsum(
         "nij,nj->ni", np.linalg.cholesky(mixture.covariance[1])[mode], rng.normal(size=(mode.size, STATES))
@@ -172,8 +172,10 @@ def test_slow_numbers_take_their_share_and_all_else_the_whole(learning: float) -
     mixture, linearised, rng = any_mixture(3), any_line(3), np.random.default_rng(4)
     measured, variance = rng.normal(size=(CHAINS, SEEN)), np.full((CHAINS, SEEN), 0.2)
     slow, fast = slice(3, STATES), slice(0, 3)
-    whole = corrected(mixture, linearised, measured, variance).mixture
-    part = corrected(mixture, linearised, measured, variance, partial=partial_update(STATES, slow, learning)).mixture
+    whole = update_mixture(mixture, linearised, measured, variance).mixture
+    part = update_mixture(
+        mixture, linearised, measured, variance, partial=partial_update_shares(STATES, slow, learning)
+    ).mixture
     assert np.allclose(part.mean[..., fast], whole.mean[..., fast])
     assert np.allclose(
         part.mean[..., slow] - mixture.mean[..., slow], learning * (whole.mean - mixture.mean)[..., slow]
@@ -204,8 +206,8 @@ class LinearTrajectory:
 
     def passage(
         self, frame: int, now: tuple[FloatArray, FloatArray], later: tuple[FloatArray, FloatArray], dt_s: float
-    ) -> Passage:
-        return Passage(now[1], self._forward, self._noise, later[0] - now[0] @ self._forward[0].T, later[1])
+    ) -> SmootherTransition:
+        return SmootherTransition(now[1], self._forward, self._noise, later[0] - now[0] @ self._forward[0].T, later[1])
 
     def moved(
         self, now: tuple[FloatArray, FloatArray], correction: FloatArray, covariance: FloatArray
@@ -214,7 +216,7 @@ class LinearTrajectory:
 
 
 def estimates_of(trajectory: LinearTrajectory) -> dict[int, tuple[FloatArray, FloatArray]]:
-    found = {frame: estimate for frame, estimate in Smoother(trajectory).backwards() if estimate is not None}
+    found = {frame: estimate for frame, estimate in Smoother(trajectory).iterate_backwards() if estimate is not None}
     assert len(found) == len(trajectory)
     return found
 
@@ -231,8 +233,8 @@ def test_looking_back_is_the_least_squares_of_all_measurements() -> None:
     mixture = ModeMixture(start[None, None], spread[None, None], np.ones((1, 1)))
     for k in range(steps):
         if k:
-            mixture = predicted(mixture, forward[None], noise[None, None])
-        mixture = corrected(mixture, linearised, seen[None, k], r[None]).mixture
+            mixture = predict_mixture(mixture, forward[None], noise[None, None])
+        mixture = update_mixture(mixture, linearised, seen[None, k], r[None]).mixture
         filtered.append(mixture)
     trajectory = LinearTrajectory(filtered, forward, noise, [0.1] * (steps - 1) + [None])
     found = estimates_of(trajectory)

@@ -58,15 +58,15 @@ def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
         statuses.append(frame.status)
         assert (estimate is None) == (frame.status is TrackStatus.LOST)
         if estimate is None:
-            assert np.isnan(frame.moment.angles_rad).all()
-            assert np.isnan(frame.moment.position_m).all()
-            assert np.isnan(frame.moment.rotation_w2_w0).all()
+            assert np.isnan(frame.kinematics.angles_rad).all()
+            assert np.isnan(frame.kinematics.position_m).all()
+            assert np.isnan(frame.kinematics.rotation_w2_w0).all()
             assert np.isnan(frame.marker_position_cam_m).all()
             continue
         assert is_covariance(estimate.covariance)
         assert np.allclose(estimate.rotation_w2_w0 @ estimate.rotation_w2_w0.T, np.eye(3), atol=1e-9)
-        assert np.isfinite(frame.moment.angles_rad).all()
-        assert (frame.moment.angles_sd_rad > 0.0).all()
+        assert np.isfinite(frame.kinematics.angles_rad).all()
+        assert (frame.kinematics.angles_sd_rad > 0.0).all()
         measured = np.isfinite(frame.marker_measured_px).all(axis=1)
         assert (frame.status is TrackStatus.TRACKED) == (np.count_nonzero(measured) >= 3)
         # Every measured place is a blob of this frame, and none is used twice.
@@ -74,7 +74,7 @@ def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
         assert len(set(used)) == len(used)
         assert set(used) <= {tuple(pixel) for pixel in found.pixel}
     assert set(statuses) >= {TrackStatus.TRACKED, TrackStatus.PREDICTED, TrackStatus.LOST}, "the run was hard enough"
-    smoothed = tracker.smoothed()
+    smoothed = tracker.smooth()
     assert [np.isnan(m.angles_rad).all() for m in smoothed] == [s is TrackStatus.LOST for s in statuses]
 
 
@@ -88,5 +88,5 @@ def test_the_very_same_picture_for_a_minute_is_no_trouble() -> None:
     assert estimate is not None
     assert is_covariance(estimate.covariance)
     assert frame.status is TrackStatus.TRACKED
-    assert np.linalg.norm(frame.moment.velocity_m_s) < 1e-3
-    assert np.linalg.norm(frame.moment.angular_velocity_rad_s) < 1e-2
+    assert np.linalg.norm(frame.kinematics.velocity_m_s) < 1e-3
+    assert np.linalg.norm(frame.kinematics.angular_velocity_rad_s) < 1e-2

@@ -9,48 +9,55 @@ import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
 from carpus.core import so3
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, transitioned
-from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_transition, slowing, slowing_unseen, unseen_turns
-from carpus.core.tracking.palm_smoother import FilterStep, PalmTrajectory, smoothed_palm
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, propagate_mixture
+from carpus.core.tracking.motion import (
+    MotionNoise,
+    PalmMotion,
+    fading_factors,
+    fading_matrix,
+    find_unobserved_turns,
+    palm_transition,
+)
+from carpus.core.tracking.palm_smoother import FilterStep, PalmTrajectory, smooth_palm
 from carpus.core.tracking.palm_state import (
-    MOVING,
     POSE,
     POSITION,
     RATE,
     RELIEF,
+    RIGID_MOTION,
     SHAPE,
     SIZE,
     SKIN,
-    SOFT,
+    SOFT_TISSUE,
     TURN,
     VELOCITY,
     InitialSd,
     PalmEstimate,
-    View,
-    error_reset,
-    resting_estimate,
+    PalmView,
+    initial_estimate,
+    reset_error,
 )
-from carpus.core.tracking.predicted_measurement import predicted_measurement
+from carpus.core.tracking.predicted_measurement import predict_measurement
 from carpus.core.tracking.soft_tissue import (
     CUP,
     HOME,
     STILL,
     DigitSpeeds,
     SoftTissue,
-    always_pushed,
-    moved_by_joints,
-    resting_or_moving,
+    joint_driven_modes,
+    resting_and_moving_modes,
+    single_moving_mode,
     stationary_covariance,
 )
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.types import FloatArray
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
-MOTION = PalmMotion(MotionNoise(), always_pushed(SoftTissue()), np.array([0.5, 4.0]))
-FOLLOWING = PalmMotion(MotionNoise(), moved_by_joints(SoftTissue()), np.array([0.5, 4.0]))
-RESTING = PalmMotion(MotionNoise(), resting_or_moving(SoftTissue()), np.array([0.5, 4.0]))
+MOTION = PalmMotion(MotionNoise(), single_moving_mode(SoftTissue()), np.array([0.5, 4.0]))
+FOLLOWING = PalmMotion(MotionNoise(), joint_driven_modes(SoftTissue()), np.array([0.5, 4.0]))
+RESTING = PalmMotion(MotionNoise(), resting_and_moving_modes(SoftTissue()), np.array([0.5, 4.0]))
 NO_HIDDEN = np.zeros((6, 18))
-VIEW = View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, NO_HIDDEN)
+VIEW = PalmView(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, NO_HIDDEN)
 
 
 def moving(seed: int = 0) -> PalmEstimate:
@@ -66,10 +73,10 @@ def moving(seed: int = 0) -> PalmEstimate:
     return PalmEstimate(so3.exp(0.3 * rng.normal(size=3)), value, covariance)
 
 
-def linearised_about(estimate: PalmEstimate, view: View, spread: Spread) -> Linearisation:
+def linearised_about(estimate: PalmEstimate, view: PalmView, spread: UnscentedParameters) -> Linearisation:
     """H about an estimate, of one mode without errors."""
-    mixture = ModeMixture.alike(np.zeros((1, SIZE)), estimate.covariance[None], 1)
-    return predicted_measurement(estimate, mixture, view, spread).linearised
+    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), estimate.covariance[None], 1)
+    return predict_measurement(estimate, mixture, view, spread).linearised
 
 
 def coasting(estimate: PalmEstimate, dt_s: float) -> PalmEstimate:
@@ -83,35 +90,36 @@ def coasting(estimate: PalmEstimate, dt_s: float) -> PalmEstimate:
 def test_moved_and_error_to_are_inverse() -> None:
     estimate = moving()
     error = 0.1 * np.random.default_rng(1).normal(size=SIZE)
-    assert np.allclose(estimate.error_to(estimate.moved(error, estimate.covariance)), error, atol=1e-12)
+    assert np.allclose(estimate.compute_error(estimate.add_error(error, estimate.covariance)), error, atol=1e-12)
 
 
 @pytest.mark.parametrize("dt_s", [0.005, 1.0 / 30.0, 0.5])
 def test_a_steps_transition_is_the_derivative_of_the_motion(dt_s: float) -> None:
     estimate, step = moving(), 1e-5
     found = palm_transition(estimate.rate_rad_s, MOTION, dt_s)
-    after = found.carries(estimate, dt_s)
-    assert np.allclose(after.error_to(coasting(estimate, dt_s)), 0.0, atol=1e-12)
+    after = found.propagate(estimate, dt_s)
+    assert np.allclose(after.compute_error(coasting(estimate, dt_s)), 0.0, atol=1e-12)
     forward = np.eye(SIZE)
-    forward[MOVING, MOVING] = found.moving
+    forward[RIGID_MOTION, RIGID_MOTION] = found.moving
     for i in range(SIZE):
         error = np.zeros(SIZE)
         error[i] = step
         ahead, back = (
-            after.error_to(coasting(estimate.moved(sign * error, estimate.covariance), dt_s)) for sign in (1.0, -1.0)
+            after.compute_error(coasting(estimate.add_error(sign * error, estimate.covariance), dt_s))
+            for sign in (1.0, -1.0)
         )
         assert np.allclose(forward[:, i], (ahead - back) / (2.0 * step), atol=1e-6), i
 
 
 def test_a_second_brings_the_same_uncertainty_at_any_frame_rate() -> None:
     """White acceleration has a density: it matters not into how many steps the time is cut."""
-    start = resting_estimate(InitialSd(), 1e-6 * np.eye(21)).covariance
+    start = initial_estimate(InitialSd(), 1e-6 * np.eye(21)).covariance
     ends = []
     for steps in (1, 10, 200):
         found = palm_transition(np.zeros(3), RESTING, 1.0 / steps)
-        mixture = ModeMixture.alike(np.zeros((1, SIZE)), start[None], RESTING.modes)
+        mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), start[None], RESTING.modes)
         for _ in range(steps):
-            mixture = transitioned(mixture, found, np.zeros(SIZE))
+            mixture = propagate_mixture(mixture, found, np.zeros(SIZE))
         ends.append(mixture.covariance)
     assert np.allclose(ends[0], ends[2], rtol=1e-6, atol=1e-12)
     assert np.allclose(ends[1], ends[2], rtol=1e-6, atol=1e-12)
@@ -129,9 +137,9 @@ def test_soft_tissue_settles_at_its_scatter_and_forgets() -> None:
     tissue = np.r_[SKIN, RELIEF]
     assert np.linalg.eigvalsh(stationary[np.ix_(tissue, tissue)]).min() > 0.0
     found = palm_transition(np.zeros(3), MOTION, 0.1)
-    mixture = ModeMixture.alike(np.zeros((1, SIZE)), np.zeros((1, SIZE, SIZE)), 2)
+    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), np.zeros((1, SIZE, SIZE)), 2)
     for _ in range(600):
-        mixture = transitioned(mixture, found, np.zeros(SIZE))
+        mixture = propagate_mixture(mixture, found, np.zeros(SIZE))
     now = mixture.covariance[0, 0]
     assert np.allclose(now[np.ix_(tissue, tissue)], stationary[np.ix_(tissue, tissue)], rtol=1e-3, atol=1e-12)
     sd_mm = 1e3 * np.sqrt(np.diag(stationary[SKIN, SKIN])).reshape(6, 3)
@@ -143,9 +151,9 @@ def modes_after(seconds: float, mode: int) -> ModeMixture:
     """All modes after so long in one, the hand at rest, its skin displaced by a millimetre."""
     nominal = np.zeros(SIZE)
     nominal[SKIN] = 0.001
-    mixture = ModeMixture.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], RESTING.modes)
+    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], RESTING.modes)
     for _ in range(round(30 * seconds)):
-        mixture = transitioned(mixture, palm_transition(np.zeros(3), RESTING, 1.0 / 30.0), nominal)
+        mixture = propagate_mixture(mixture, palm_transition(np.zeros(3), RESTING, 1.0 / 30.0), nominal)
     own = [int(np.flatnonzero(RESTING.tissue_of == mode)[0])]
     return ModeMixture(mixture.mean[:, own] + nominal, mixture.covariance[:, own], np.ones((1, 1)))
 
@@ -162,24 +170,24 @@ def test_tissue_at_rest_keeps_what_is_displaced_at_home_it_has_none_and_moving_i
 
 
 def test_rest_is_seldom_left_and_motions_are_short() -> None:
-    switch = RESTING.switch(np.zeros(3), 1.0 / 30.0)
+    switch = RESTING.mode_transition_matrix(np.zeros(3), 1.0 / 30.0)
     assert switch.sum(axis=1) == pytest.approx(1.0)
     assert switch.min() >= 0.0
     moves = RESTING.tissue_of > STILL
     assert switch[~moves][:, moves].sum(axis=1).max() < 0.005
     assert switch[moves][:, ~moves].sum(axis=1).min() > 0.05
-    assert RESTING.at_rest.sum() == pytest.approx(1.0)
-    assert RESTING.at_rest[RESTING.tissue_of == HOME].sum() > 0.8
+    assert RESTING.initial_probability.sum() == pytest.approx(1.0)
+    assert RESTING.initial_probability[RESTING.tissue_of == HOME].sum() > 0.8
 
 
 def pushed_by(digits: DigitSpeeds, turning_rad_s: float, seconds: float) -> FloatArray:
     """Standard deviation (21,) of tissue away from home that nothing was wrong with, after joints turned so long."""
     rate, mixture = (
         np.array([0.0, turning_rad_s, 0.0]),
-        ModeMixture.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], 4),
+        ModeMixture.from_gaussian(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], 4),
     )
     for _ in range(round(60 * seconds)):
-        mixture = transitioned(mixture, palm_transition(rate, FOLLOWING, 1.0 / 60.0, None, digits), np.zeros(SIZE))
+        mixture = propagate_mixture(mixture, palm_transition(rate, FOLLOWING, 1.0 / 60.0, None, digits), np.zeros(SIZE))
     away = np.flatnonzero(FOLLOWING.tissue_of != HOME)[0]
     assert np.linalg.eigvalsh(mixture.covariance[0, away][SKIN, SKIN]).min() > 0.0
     return np.asarray(np.sqrt(np.diagonal(mixture.covariance[0, away])[np.r_[SKIN, RELIEF]]))
@@ -199,15 +207,18 @@ def test_where_fingers_are_seen_tissue_moves_as_far_as_the_joints_beneath_it() -
 
 
 def test_skin_leaves_home_while_joints_turn() -> None:
-    rest, grasp = (FOLLOWING.switch(np.zeros(3), 1.0 / 30.0, digits) for digits in (DigitSpeeds(), DigitSpeeds(0, 2)))
+    rest, grasp = (
+        FOLLOWING.mode_transition_matrix(np.zeros(3), 1.0 / 30.0, digits)
+        for digits in (DigitSpeeds(), DigitSpeeds(0, 2))
+    )
     for switch in (rest, grasp):
         assert switch.sum(axis=1) == pytest.approx(1.0)
         assert switch.min() >= 0.0
     home = FOLLOWING.tissue_of == HOME
     assert grasp[home][:, ~home].sum() > 20.0 * rest[home][:, ~home].sum()
     assert grasp[~home][:, home].sum() == pytest.approx(rest[~home][:, home].sum())
-    assert FOLLOWING.at_rest.sum() == pytest.approx(1.0)
-    assert FOLLOWING.at_rest[home].sum() > 0.9
+    assert FOLLOWING.initial_probability.sum() == pytest.approx(1.0)
+    assert FOLLOWING.initial_probability[home].sum() > 0.9
 
 
 def test_tissue_that_came_home_was_pushed_there_from_anywhere() -> None:
@@ -216,7 +227,7 @@ def test_tissue_that_came_home_was_pushed_there_from_anywhere() -> None:
     stayed[home, home] = came[away, home] = 1.0
     step = palm_transition(np.zeros(3), FOLLOWING, 1.0 / 30.0)
     rest, push = (FOLLOWING.tissue_noise(went, step) for went in (stayed, came))
-    np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT, SOFT], atol=1e-15)
+    np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT_TISSUE, SOFT_TISSUE], atol=1e-15)
 
 
 def test_looking_back_tissue_moves_from_a_frame_on_as_the_digits_did_in_it() -> None:
@@ -224,14 +235,14 @@ def test_looking_back_tissue_moves_from_a_frame_on_as_the_digits_did_in_it() -> 
     speeds = DigitSpeeds(fingers=2.0), DigitSpeeds(), DigitSpeeds()
     steps = [FilterStep(k / 30.0, moving(0), vague, k > 0, None, digits) for k, digits in enumerate(speeds)]
     walk = PalmTrajectory(steps, FOLLOWING)
-    fast, rest = (walk.passage(frame, moving(0), moving(0), 1.0 / 30.0) for frame in (0, 1))
+    fast, rest = (walk.compute_transition(frame, moving(0), moving(0), 1.0 / 30.0) for frame in (0, 1))
     knuckles = slice(SKIN.start + 6, SKIN.stop)
     fast_m2, rest_m2 = (np.diagonal(step.noise[0])[knuckles] for step in (fast, rest))
-    for went, digits, noise in zip(walk.went_over, speeds, (fast, rest), strict=False):
+    for went, digits, noise in zip(walk.mode_transitions, speeds, (fast, rest), strict=False):
         assert went is not None
         step = palm_transition(moving(0).rate_rad_s, FOLLOWING, 1.0 / 30.0, None, digits)
         pushed = FOLLOWING.tissue_noise(went, step)
-        np.testing.assert_allclose(noise.noise[0, SOFT, SOFT], pushed)
+        np.testing.assert_allclose(noise.noise[0, SOFT_TISSUE, SOFT_TISSUE], pushed)
     assert (fast_m2 > 1.5 * rest_m2).all()
 
 
@@ -242,7 +253,7 @@ def test_what_came_after_tells_when_tissue_moved() -> None:
     sure[cup] = 1.0 - 1e-6 * (RESTING.modes - 1)
     vague = np.full(RESTING.modes, 1.0 / RESTING.modes)
     steps = [FilterStep(k / 30.0, moving(0), sure if k == 9 else vague, k > 0) for k in range(10)]
-    went = PalmTrajectory(steps, RESTING).went_over
+    went = PalmTrajectory(steps, RESTING).mode_transitions
     assert went[9] is None
     now = [float(joint.sum(axis=0)[cup]) for joint in went if joint is not None]
     assert now[8] == pytest.approx(1.0, abs=1e-4)
@@ -252,7 +263,7 @@ def test_what_came_after_tells_when_tissue_moved() -> None:
 
 def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
     estimate = replace(moving(3), covariance=1e-12 * np.eye(SIZE))
-    linearised = linearised_about(estimate, VIEW, Spread())
+    linearised = linearised_about(estimate, VIEW, UnscentedParameters())
     discs = VIEW.discs_cam_m(estimate)
     expected = np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
     assert np.allclose(linearised.value[0], expected, atol=1e-6)
@@ -260,7 +271,7 @@ def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
     for i in np.r_[POSE, SHAPE, SKIN, RELIEF, RATE]:
         error = np.zeros(SIZE)
         error[i] = step
-        there = VIEW.discs_cam_m(estimate.moved(error, estimate.covariance))
+        there = VIEW.discs_cam_m(estimate.add_error(error, estimate.covariance))
         moved = np.column_stack((CAMERA.project(there), there[:, 2])).ravel()
         assert np.allclose(linearised.slope[0][:, i], (moved - expected) / step, rtol=2e-4, atol=2e-2), i
 
@@ -272,13 +283,13 @@ def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter()
     wide[SHAPE] = wide[SKIN] = wide[:, SHAPE] = wide[:, SKIN] = 0.0
     estimate = replace(estimate, covariance=wide)
     pose = wide[np.ix_(POSE, POSE)]
-    spread = Spread()
+    spread = UnscentedParameters()
     points = MerweScaledSigmaPoints(POSE.size, alpha=spread.alpha, beta=spread.beta, kappa=spread.kappa)
 
     def seen(offset: FloatArray) -> FloatArray:
         error = np.zeros(SIZE)
         error[POSE] = offset
-        discs = VIEW.discs_cam_m(estimate.moved(error, wide))
+        discs = VIEW.discs_cam_m(estimate.add_error(error, wide))
         return np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
 
     other = UnscentedKalmanFilter(POSE.size, 18, 1.0, seen, lambda x, dt: x, points)
@@ -299,16 +310,16 @@ def test_recentring_moves_the_nominal_and_keeps_the_modes_where_they_are() -> No
     apart = 0.01 * rng.normal(size=(1, 2, SIZE))
     both = np.stack((estimate.covariance, 2 * estimate.covariance))[None]
     mixture = ModeMixture(apart, both, np.array([[0.3, 0.7]]))
-    after, apart = error_reset(estimate, mixture)
-    assert np.allclose(apart.merged()[0], 0.0, atol=1e-4)
+    after, apart = reset_error(estimate, mixture)
+    assert np.allclose(apart.merge()[0], 0.0, atol=1e-4)
     for k in range(2):
-        there = estimate.moved(mixture.mean[0, k], estimate.covariance)
-        again = after.moved(apart.mean[0, k], estimate.covariance)
-        assert np.allclose(there.error_to(again), 0.0, atol=2e-6)
+        there = estimate.add_error(mixture.mean[0, k], estimate.covariance)
+        again = after.add_error(apart.mean[0, k], estimate.covariance)
+        assert np.allclose(there.compute_error(again), 0.0, atol=2e-6)
 
 
 def test_slowing_fades_the_velocities_alone() -> None:
-    kept = slowing(0.5)
+    kept = fading_factors(0.5)
     assert (kept[np.r_[VELOCITY, RATE]] == 0.5).all()
     assert (np.delete(kept, np.r_[VELOCITY, RATE]) == 1.0).all()
 
@@ -327,7 +338,7 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
                 0.1 * k, PalmEstimate(rotation, value, sharp if k in (0, 10) else wide), np.array([1.0, 0.0]), k > 0
             )
         )
-    found = smoothed_palm(steps, MOTION)
+    found = smooth_palm(steps, MOTION)
     middle = found[5]
     assert middle is not None
     assert so3.log(middle.rotation_w2_w0)[1] == pytest.approx(0.5, abs=0.02)
@@ -338,11 +349,11 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
 
 def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
     steps = [FilterStep(0.1 * k, moving(k), np.full(2, 0.5), k not in (0, 2)) for k in range(4)]
-    found = smoothed_palm(steps, MOTION)
+    found = smooth_palm(steps, MOTION)
     assert found[0] is not steps[0].estimate
     assert found[1] is steps[1].estimate
     steps[1] = replace(steps[1], estimate=None)
-    found = smoothed_palm(steps, MOTION)
+    found = smooth_palm(steps, MOTION)
     assert found[0] is steps[0].estimate
     assert found[1] is None
     assert found[2] is not steps[2].estimate
@@ -352,35 +363,35 @@ def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
 def test_resting_tissue_is_averaged_away_by_no_number_of_pictures() -> None:
     """What displaced tissue has wrong comes again in every picture: looking back states more than if all were new, in
     the same proportion everywhere, never more than live, and reads the same angles."""
-    steps = [FilterStep(k / 30.0, moving(1), RESTING.at_rest, k > 0) for k in range(30)]
+    steps = [FilterStep(k / 30.0, moving(1), RESTING.initial_probability, k > 0) for k in range(30)]
     as_new = replace(RESTING, tissue=replace(RESTING.tissue, widens=1.0))
     live = float(np.trace(moving(1).covariance[TURN, TURN]))
-    for found, bold in zip(smoothed_palm(steps, RESTING)[:-1], smoothed_palm(steps, as_new)[:-1], strict=True):
+    for found, bold in zip(smooth_palm(steps, RESTING)[:-1], smooth_palm(steps, as_new)[:-1], strict=True):
         assert found is not None
         assert bold is not None
         assert np.array_equal(found.value, bold.value)
         assert np.array_equal(found.rotation_w2_w0, bold.rotation_w2_w0)
         own, new = (float(np.trace(one.covariance[TURN, TURN])) for one in (found, bold))
-        assert own == pytest.approx(max(new, min(RESTING.tissue.widens * new, live)))
+        assert own == pytest.approx(max(new, min(RESTING.tissue.variance_factor * new, live)))
         assert own > 1.1 * new or own == pytest.approx(live)
         assert np.allclose(found.covariance / own, bold.covariance / new)
-    assert smoothed_palm(steps, RESTING)[-1] is steps[-1].estimate
+    assert smooth_palm(steps, RESTING)[-1] is steps[-1].estimate
 
 
 def test_looking_back_goes_by_the_step_that_was_made() -> None:
     """Its noise, the turns that nothing showed, the rate that it began with."""
     now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
     made = palm_transition(now.rate_rad_s, MOTION, 0.1, unseen)
-    later = made.carries(now, 0.1).moved(0.01 * np.ones(SIZE), moving(2).covariance)
+    later = made.propagate(now, 0.1).add_error(0.01 * np.ones(SIZE), moving(2).covariance)
     calm, lively = np.array([1.0, 0.0]), np.array([0.0, 1.0])
     steps = [FilterStep(0.0, now, calm, False), FilterStep(0.1, later, lively, True, unseen)]
     walk = PalmTrajectory(steps, MOTION)
-    assert walk.seconds_on(0) == pytest.approx(0.1)
-    passage = walk.passage(0, now, later, 0.1)
-    assert np.array_equal(passage.forward[0, MOVING, MOVING], made.moving)
-    assert np.allclose(passage.noise[0, MOVING, MOVING], made.driven[1])
-    assert np.allclose(passage.noise[0, SOFT, SOFT], made.relaxing[1])
-    assert np.allclose(passage.apart, 0.01, atol=1e-12)
+    assert walk.seconds_to_next(0) == pytest.approx(0.1)
+    passage = walk.compute_transition(0, now, later, 0.1)
+    assert np.array_equal(passage.forward[0, RIGID_MOTION, RIGID_MOTION], made.moving)
+    assert np.allclose(passage.noise[0, RIGID_MOTION, RIGID_MOTION], made.driven[1])
+    assert np.allclose(passage.noise[0, SOFT_TISSUE, SOFT_TISSUE], made.relaxing[1])
+    assert np.allclose(passage.difference, 0.01, atol=1e-12)
 
 
 # --- turns that nothing shows -----------------------------------------------------------------------------
@@ -391,9 +402,9 @@ PALM_M = np.array(
 
 
 def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside_them_does() -> None:
-    assert unseen_turns(PALM_M, 0.008) is None
-    assert unseen_turns(PALM_M[[0, 2, 3]], 0.008) is None
-    unseen = unseen_turns(PALM_M[2:], 0.008)
+    assert find_unobserved_turns(PALM_M, 0.008) is None
+    assert find_unobserved_turns(PALM_M[[0, 2, 3]], 0.008) is None
+    unseen = find_unobserved_turns(PALM_M[2:], 0.008)
     assert unseen is not None
     np.testing.assert_allclose(unseen @ unseen, unseen, atol=1e-12)
     linearised = PALM_M[5, :2] - PALM_M[2, :2]
@@ -406,11 +417,11 @@ def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside
 
 def test_two_discs_do_not_show_the_turn_about_their_line_and_fewer_show_none() -> None:
     line = (PALM_M[1] - PALM_M[0]) * [1.0, 1.0, 0.0]
-    unseen = unseen_turns(PALM_M[:2], 0.008)
+    unseen = find_unobserved_turns(PALM_M[:2], 0.008)
     assert unseen is not None
     np.testing.assert_allclose(unseen, np.outer(line, line) / (line @ line), atol=1e-12)
     for few in (PALM_M[:1], PALM_M[:0]):
-        found = unseen_turns(few, 0.008)
+        found = find_unobserved_turns(few, 0.008)
         assert found is not None
         np.testing.assert_array_equal(found, np.eye(3))
 
@@ -429,7 +440,7 @@ def test_an_unseen_turn_is_pushed_as_a_hand_may_move_in_every_mode_and_no_other_
 
 
 def test_only_the_unseen_turning_fades() -> None:
-    kept = slowing_unseen(0.8, np.diag([1.0, 0.0, 0.0]))
+    kept = fading_matrix(0.8, np.diag([1.0, 0.0, 0.0]))
     value = np.arange(float(SIZE))
     faded = kept @ value
     assert faded[RATE.start] == pytest.approx(0.8 * value[RATE.start])

@@ -10,8 +10,8 @@ import pytest
 
 from carpus.core import so3
 from carpus.core.tracking import reacquire
-from carpus.core.tracking.palm_state import SKIN, View
-from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm, is_other_hand
+from carpus.core.tracking.palm_state import SKIN, PalmView
+from carpus.core.tracking.reacquire import FoundPalm, TurnLimits, find_palm, is_other_hand
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
 from carpus.core.tracking.track_manager import MAX_TURN_RAD
 from carpus.core.types import Detections, Side
@@ -30,13 +30,13 @@ from tests.tracking.hands import (
     together,
 )
 
-ANYHOW = Facing(np.eye(3), np.pi, np.pi)
+ANYHOW = TurnLimits(np.eye(3), np.pi, np.pi)
 STRAYS = stationary_covariance(SoftTissue())[SKIN, SKIN] + 4e-4**2 * np.eye(18)
 SIDES: tuple[Side, Side] = ("right", "left")
 
 
-def view(side: Side) -> View:
-    return View(CAMERA, FROM_ABOVE, MIDDLE_M, palm(side), np.zeros((6, 18)))
+def view(side: Side) -> PalmView:
+    return PalmView(CAMERA, FROM_ABOVE, MIDDLE_M, palm(side), np.zeros((6, 18)))
 
 
 def some_pose(rng: np.random.Generator) -> Pose:
@@ -47,7 +47,7 @@ def clutter(rng: np.random.Generator, count: int) -> list[tuple[float, float]]:
     return [(float(rng.uniform(20, 620)), float(rng.uniform(20, 460))) for _ in range(count)]
 
 
-def looked_for(seen: Detections, side: Side = "right", about: Facing = ANYHOW) -> FoundPalm | None:
+def looked_for(seen: Detections, side: Side = "right", about: TurnLimits = ANYHOW) -> FoundPalm | None:
     """What is found among blobs of a palm of which nothing else is known."""
     return find_palm(seen, view(side), STRAYS, about)
 
@@ -101,7 +101,7 @@ def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it(monkeypatch: pyte
     pixel[2, 0] += 525.0 * 0.005 / four.depth_m[2]  # MCP3
     found = looked_for(replace(four, pixel=pixel))
     assert found is None
-    monkeypatch.setattr(reacquire, "CONSISTENT", 1.0 - 1e-12)
+    monkeypatch.setattr(reacquire, "MISFIT_PROBABILITY", 1.0 - 1e-12)
     assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW) is not None
 
 
@@ -168,7 +168,7 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
     for hidden in combinations(range(6), 2):
         for _ in range(16):
             worn = palm("right") + (glide @ rng.normal(size=18)).reshape(6, 3)
-            strange = View(CAMERA, FROM_ABOVE, MIDDLE_M, worn, np.zeros((6, 18)))
+            strange = PalmView(CAMERA, FROM_ABOVE, MIDDLE_M, worn, np.zeros((6, 18)))
             found = find_palm(blobs(some_pose(rng), rng, hidden=hidden), strange, STRAYS, ANYHOW)
             if found is not None:
                 is_right = np.array_equal(np.flatnonzero(found.matched), np.setdiff1d(np.arange(6), hidden))
@@ -181,12 +181,12 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
 def test_a_palm_turned_further_than_a_hand_can_be_is_none(turned_deg: float, is_one: bool) -> None:
     turned, most_rad = blobs(Pose(np.array([turned_deg, 0.0, 0.0]))), MAX_TURN_RAD
     assert looked_for(turned) is not None
-    assert (looked_for(turned, about=Facing(np.eye(3), most_rad, most_rad)) is not None) == is_one
+    assert (looked_for(turned, about=TurnLimits(np.eye(3), most_rad, most_rad)) is not None) == is_one
 
 
 def test_what_every_disc_shows_counts_for_more_than_the_turn_that_was_expected() -> None:
     turned = Pose(np.array([0.0, 60.0, 0.0]))
-    about = Facing(np.eye(3), 0.5, 1.9)
+    about = TurnLimits(np.eye(3), 0.5, 1.9)
     assert looked_for(blobs(turned), about=about) is not None
     assert looked_for(blobs(turned, hidden=[WRIST]), about=about) is None
     assert looked_for(blobs(turned, hidden=[WRIST])) is not None

@@ -10,7 +10,7 @@ import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.tracking.palm_state import InitialSd, resting_estimate
+from carpus.core.tracking.palm_state import InitialSd, initial_estimate
 from carpus.core.tracking.readout import Readout
 from carpus.core.types import FloatArray
 from tests.session.samples import make_calibration
@@ -29,15 +29,15 @@ def angles_sd_deg(sensor: DepthSensor) -> FloatArray:
         start_angles_rad=np.zeros(3),
     )
     camera = replace(DEFAULT_CAMERA, sensor=sensor)
-    sure = replace(resting_estimate(InitialSd(), 1e-12 * np.eye(21)))
+    sure = replace(initial_estimate(InitialSd(), 1e-12 * np.eye(21)))
     sure = replace(sure, covariance=1e-12 * np.eye(len(sure.covariance)))
-    moment = Readout(calibration, camera, RADIUS_M).moment(sure)
+    moment = Readout(calibration, camera, RADIUS_M).read_kinematics(sure)
     return np.degrees(moment.angles_sd_rad)
 
 
 def test_with_a_pair_of_eyes_the_tilt_is_as_unsure_as_six_discs_with_bumps() -> None:
     area_px = np.array(math.pi * (RADIUS_M * DEFAULT_CAMERA.fx_px / AWAY_M) ** 2)
-    sd_m = float(D435.disc_stays_sd_m(np.array(AWAY_M), area_px))
+    sd_m = float(D435.disc_bias_sd_m(np.array(AWAY_M), area_px))
     flat = PALM_M - PALM_M.mean(axis=0)
     drawn = np.random.default_rng(3).normal(0.0, sd_m, (20_000, 6))
     slopes = drawn @ np.linalg.pinv(flat[:, :2]).T

@@ -9,18 +9,18 @@ import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate
+from carpus.core.tracking.palm_state import CALIBRATION_ERROR, SHAPE, SIZE, PalmEstimate
 from carpus.core.tracking.predicted_measurement import (
-    DEPTH_LOCKS,
-    along_rays,
-    fresh_share,
-    hidden_by_calibration,
+    LOCKED_DEPTH_SHARE,
+    compute_fresh_share,
+    depth_bias_matrix,
+    ray_covariances,
     shape_covariance,
     shape_partial_update,
 )
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.unscented import UnscentedParameters
 from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration
 from tests.tracking.test_palm_filter import linearised_about
 
@@ -28,26 +28,28 @@ from tests.tracking.test_palm_filter import linearised_about
 @pytest.mark.parametrize("news", [0.1, 1.0])
 def test_shape_takes_its_share_of_the_information(news: float) -> None:
     mean = shape_partial_update(news)
-    moving = np.delete(np.arange(SIZE), np.arange(LEARNT.start, LEARNT.stop))
+    moving = np.delete(np.arange(SIZE), np.arange(CALIBRATION_ERROR.start, CALIBRATION_ERROR.stop))
     assert (mean[moving] == 1.0).all()
-    assert mean[LEARNT] == pytest.approx(1.0 - np.sqrt(1.0 - news))
-    assert 2.0 * mean[LEARNT] - mean[LEARNT] ** 2 == pytest.approx(news), "of the information"
+    assert mean[CALIBRATION_ERROR] == pytest.approx(1.0 - np.sqrt(1.0 - news))
+    assert 2.0 * mean[CALIBRATION_ERROR] - mean[CALIBRATION_ERROR] ** 2 == pytest.approx(news), "of the information"
 
 
 def test_a_still_hand_tells_nothing_new_of_its_shape_and_a_moving_one_does() -> None:
     disc_m = RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M
-    assert fresh_share(disc_m, disc_m, CAMERA) == 0.0
+    assert compute_fresh_share(disc_m, disc_m, CAMERA) == 0.0
     per_px_m = MIDDLE_M[2] / CAMERA.fx_px
-    partial = [fresh_share(disc_m, disc_m + [moved_px * per_px_m, 0.0, 0.0], CAMERA) for moved_px in (0.5, 4.5, 20.0)]
+    partial = [
+        compute_fresh_share(disc_m, disc_m + [moved_px * per_px_m, 0.0, 0.0], CAMERA) for moved_px in (0.5, 4.5, 20.0)
+    ]
     assert partial == sorted(partial)
     assert partial[0] < 0.15
     assert partial[2] > 0.95
     step_m = float(CAMERA.sensor.reading_sd_m(MIDDLE_M[2]))
-    assert fresh_share(disc_m, disc_m + [0.0, 0.0, 2.0 * step_m], CAMERA) > 0.8
+    assert compute_fresh_share(disc_m, disc_m + [0.0, 0.0, 2.0 * step_m], CAMERA) > 0.8
 
 
 def test_errors_along_the_rays_move_no_pixel() -> None:
-    found = along_rays(calibration(), np.full(6, 3e-4))
+    found = ray_covariances(calibration(), np.full(6, 3e-4))
     for disc, covariance in zip(RIGHT_PALM_M, found, strict=True):
         spread, axes = np.linalg.eigh(covariance)
         assert spread[:2] == pytest.approx(0.0, abs=1e-15)
@@ -68,10 +70,10 @@ def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -
         value = np.zeros(SIZE)
         value[SHAPE] = shape.ravel()
         estimate = PalmEstimate(np.eye(3), value, 1e-12 * np.eye(SIZE))
-        seen.append(linearised_about(estimate, view, Spread()).value.reshape(6, 3))
+        seen.append(linearised_about(estimate, view, UnscentedParameters()).value.reshape(6, 3))
     change = seen[0] - seen[1]
     assert change[:, 2] == pytest.approx([0.0, 0.0, 0.0, (1.0 - share) * 0.001, 0.0, 0.0], abs=1e-9)
-    assert np.array_equal(hidden_by_calibration(calibration(), share), view.hidden)
+    assert np.array_equal(depth_bias_matrix(calibration(), share), view.hidden)
 
 
 def test_a_calibrated_place_is_as_sure_as_it_was_measured_and_less_along_its_ray() -> None:
@@ -84,7 +86,7 @@ def test_a_calibrated_place_is_as_sure_as_it_was_measured_and_less_along_its_ray
         ray = FROM_ABOVE.T @ (place / np.linalg.norm(place))
         along = stays_m * np.linalg.norm(place) / place[2]
         assert ray @ found[own, own] @ ray == pytest.approx(4e-4**2 + along**2, rel=1e-2)
-        rounded = DEPTH_LOCKS * float(PRIMESENSE.reading_sd_m(place[2])) * np.linalg.norm(place) / place[2]
+        rounded = LOCKED_DEPTH_SHARE * float(PRIMESENSE.reading_sd_m(place[2])) * np.linalg.norm(place) / place[2]
         assert ray @ locked[own, own] @ ray == pytest.approx(rounded**2), "depths that are rounded stay so"
         across = np.cross(ray, [1.0, 0.0, 0.0])
         assert across @ found[own, own] @ across / (across @ across) == pytest.approx(4e-4**2, rel=1e-2)
@@ -100,6 +102,6 @@ def test_depths_that_stay_wrong_keep_the_angles_of_a_turned_hand_from_being_sure
         for k in range(16):
             pose = Pose(np.array([3.0, 2.0, 2.0]) * min(k, 10))
             frame = tracker.step(k, k * DT_S, blobs(pose))
-        stated.append(np.degrees(frame.moment.angles_sd_rad))
+        stated.append(np.degrees(frame.kinematics.angles_sd_rad))
     assert (stated[1] > 1.01 * stated[0]).any(), "the shipped size of it counts"
     assert (stated[2] > 1.2 * stated[1]).any()

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitMotion
-from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, DISCS, SLOTS
+from carpus.core.tracking.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS
 from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_transition
-from carpus.core.tracking.palm_state import MOVING, PALM_DISCS, SIZE
+from carpus.core.tracking.palm_state import N_PALM_DISCS, RIGID_MOTION, SIZE
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import SoftTissue, TissueModes, moved_by_joints, resting_or_moving
+from carpus.core.tracking.soft_tissue import SoftTissue, TissueModes, joint_driven_modes, resting_and_moving_modes
 from carpus.core.tracking.state_model import DIGIT_MEASUREMENTS, DIGIT_STATE, PALM_MEASUREMENTS, PALM_STATE, StatePart
 from carpus.core.types import FloatArray
 from tests.sources import SOURCES
@@ -30,8 +30,8 @@ def test_every_name_that_is_told_is_in_the_program() -> None:
     told = [name for part in (*PALM_STATE, *DIGIT_STATE) for name in part.source]
     told += [name for part in (*PALM_MEASUREMENTS, *DIGIT_MEASUREMENTS) for name in (*part.h, *part.r)]
     assert [name for name in told if not is_there(name)] == []
-    assert PALM_MEASUREMENTS[0].size == 3 * PALM_DISCS
-    assert DIGIT_MEASUREMENTS[0].size == 3 * DISCS
+    assert PALM_MEASUREMENTS[0].size == 3 * N_PALM_DISCS
+    assert DIGIT_MEASUREMENTS[0].size == 3 * N_DISCS
 
 
 def moved_by(forward: FloatArray, parts: tuple[StatePart, ...]) -> dict[str, tuple[str, ...]]:
@@ -42,20 +42,20 @@ def moved_by(forward: FloatArray, parts: tuple[StatePart, ...]) -> dict[str, tup
     }
 
 
-@pytest.mark.parametrize("tissue", [resting_or_moving, moved_by_joints])
+@pytest.mark.parametrize("tissue", [resting_and_moving_modes, joint_driven_modes])
 def test_the_palm_moves_as_told(tissue: Callable[[SoftTissue], TissueModes]) -> None:
     settings = TrackerSettings()
     motion = PalmMotion(MotionNoise(), tissue(settings.tissue), np.array(settings.mode_scales))
     step = palm_transition(np.array([0.3, -0.2, 0.5]), motion, 0.03)
-    moving = tuple(part for part in PALM_STATE if part.rows.stop <= MOVING.stop)
+    moving = tuple(part for part in PALM_STATE if part.rows.stop <= RIGID_MOTION.stop)
     assert moved_by(step.moving, moving) == {part.name: part.moved_by for part in moving}
     assert all(not part.moved_by for part in PALM_STATE if part not in moving)
     assert all(np.diagonal(step.driven[0])[part.rows].min() > 0.0 for part in moving)
 
 
 def test_a_digit_moves_as_told() -> None:
-    free = np.ones((CHAINS, SLOTS))
-    motion = DigitMotion(free, np.array([1.0]), np.ones((CHAINS, CONSTANTS)), np.zeros((CHAINS, SLOTS)), 1.0)
-    forward, noise = motion.step(0.03, np.ones(CHAINS), None)
+    free = np.ones((N_DIGITS, N_SLOTS))
+    motion = DigitMotion(free, np.array([1.0]), np.ones((N_DIGITS, N_CONSTANTS)), np.zeros((N_DIGITS, N_SLOTS)), 1.0)
+    forward, noise = motion.compute_transition(0.03, np.ones(N_DIGITS), None)
     assert moved_by(forward[2], DIGIT_STATE) == {part.name: part.moved_by for part in DIGIT_STATE}
     assert np.diagonal(noise[2]).min() > 0.0

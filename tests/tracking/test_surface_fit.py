@@ -10,22 +10,22 @@ import pytest
 
 from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.hand.back_surface import BackSurface, back_surface_from
+from carpus.core.hand.back_surface import DorsalSurface, fit_dorsal_surface
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate, View, error_reset
+from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, SURFACE, TURN, PalmEstimate, PalmView, reset_error
 from carpus.core.tracking.predicted_measurement import shape_partial_update
 from carpus.core.tracking.surface_fit import (
     SurfaceMeasurement,
     SurfaceSettings,
-    calibrated_covariance,
-    levelled_mixture,
-    surface_measurement,
+    fit_surface,
+    surface_calibration_covariance,
+    update_by_surface,
 )
 from carpus.core.types import FloatArray, SurfaceSamples
 from tests.suites import few
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
-VIEW = View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
+VIEW = PalmView(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
 
 
 def height_m(x: FloatArray, y: FloatArray) -> FloatArray:
@@ -38,7 +38,7 @@ def place_on(rotation: FloatArray, position: FloatArray) -> SurfaceSamples:
     """Readings of that surface at a pose, on a lattice of pixels: each ray meets it once."""
     u, v = np.meshgrid(np.arange(250.0, 400.0, 2.0), np.arange(150.0, 330.0, 2.0))
     pixel = np.stack((u.ravel(), v.ravel()), axis=1)
-    ray = CAMERA.back_project(pixel, np.ones(len(pixel)))
+    ray = CAMERA.backproject(pixel, np.ones(len(pixel)))
     depth = np.full(len(pixel), MIDDLE_M[2])
     for _ in range(30):
         in_w0 = (ray * depth[:, None] - MIDDLE_M) @ FROM_ABOVE
@@ -49,12 +49,12 @@ def place_on(rotation: FloatArray, position: FloatArray) -> SurfaceSamples:
 
 
 @pytest.fixture(scope="module")
-def surface() -> BackSurface:
+def surface() -> DorsalSurface:
     x, y = np.meshgrid(np.arange(-0.02, 0.11, 0.0013), np.arange(-0.03, 0.04, 0.0013))
     points = np.stack((x.ravel(), y.ravel(), height_m(x, y).ravel()), axis=1)
     corner = RIGHT_PALM_M[:4].copy()
     corner[:, 2] = height_m(corner[:, 0], corner[:, 1])
-    found = back_surface_from(points, corner)
+    found = fit_dorsal_surface(points, corner)
     assert found is not None
     return found
 
@@ -78,39 +78,39 @@ READINGS = thinned(ALL_READINGS)
 
 
 def measured(
-    surface: BackSurface,
+    surface: DorsalSurface,
     samples: SurfaceSamples = READINGS,
     settings: SurfaceSettings | None = None,
     believed: PalmEstimate = HERE,
-    view: View = VIEW,
+    view: PalmView = VIEW,
 ) -> SurfaceMeasurement:
-    found = surface_measurement(believed, samples, surface, view, settings or SurfaceSettings())
+    found = fit_surface(believed, samples, surface, view, settings or SurfaceSettings())
     assert found is not None
     return found
 
 
-def fitted(surface: BackSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
+def fitted(surface: DorsalSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
     """From a pose 3 degrees and a millimetre off."""
     off = estimate_at(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
     return measured(surface, samples, settings, off)
 
 
 @pytest.mark.parametrize("seed", few(range(5), 2))
-def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: BackSurface, seed: int) -> None:
+def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: DorsalSurface, seed: int) -> None:
     rng = np.random.default_rng(seed)
     rotation, position = so3.exp(rng.normal(0.0, 0.15, 3)), rng.normal(0.0, 0.01, 3)
     turn, shift = rng.normal(0.0, 0.03, 3) * [1.0, 1.0, 0.3], rng.normal(0.0, 0.001, 3)
     believed = estimate_at(rotation @ so3.exp(turn), position + shift)
     found = measured(surface, place_on(rotation, position), believed=believed)
-    for part in (BACK, RELIEF):
+    for part in (SURFACE, RELIEF):
         assert np.array_equal(found.slope[:, part], np.eye(3)), "what calibration was wrong by, or relief has changed"
-    error = believed.error_to(estimate_at(rotation, position))
+    error = believed.compute_error(estimate_at(rotation, position))
     assert found.value == pytest.approx(found.slope @ error, abs=6e-4)
     assert abs(found.value[0]) > 1e-3 or abs(turn[0]) < 2e-3
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: BackSurface, sign: float) -> None:
+def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: DorsalSurface, sign: float) -> None:
     """Ten seconds of a back of the hand 1.2 degrees off its calibrated shape: pose and relief share what was seen as
     their prior uncertainties say, once."""
     off_rad, turn_sd, relief_sd = sign * np.radians(1.2), 0.004, 0.012
@@ -118,30 +118,30 @@ def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: Bac
     estimate = estimate_at(np.eye(3), np.zeros(3))
     covariance = 1e-10 * np.eye(SIZE)
     covariance[TURN, TURN], covariance[RELIEF, RELIEF] = turn_sd**2 * np.eye(3), relief_sd**2 * np.eye(3)
-    mixture = ModeMixture.alike(np.zeros((1, SIZE)), covariance[None], 2)
+    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), covariance[None], 2)
     for _ in range(300):
         found = measured(surface, seen, believed=estimate)
-        levelled = levelled_mixture(mixture, found, shape_partial_update(0.1), SurfaceSettings())
+        levelled = update_by_surface(mixture, found, shape_partial_update(0.1), SurfaceSettings())
         assert levelled is not None
-        estimate, mixture = error_reset(estimate, levelled)
+        estimate, mixture = reset_error(estimate, levelled)
     turned, relief = so3.log(estimate.rotation_w2_w0)[1], estimate.value[RELIEF][1]
     assert turned + relief == pytest.approx(off_rad, rel=0.02)
     assert turned / (turned + relief) == pytest.approx(turn_sd**2 / (turn_sd**2 + relief_sd**2), abs=0.02)
 
 
-def test_a_calibrated_back_is_as_unsure_as_a_part_of_one_picture(surface: BackSurface) -> None:
+def test_a_calibrated_back_is_as_unsure_as_a_part_of_one_picture(surface: DorsalSurface) -> None:
     settings = SurfaceSettings()
-    found = calibrated_covariance(surface, VIEW, settings)
+    found = surface_calibration_covariance(surface, VIEW, settings)
     one = fitted(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
     ratio = np.diag(found) / (np.diag(one.covariance) / settings.goes_on)
     assert (ratio < 2.0 * settings.stays**2).all()
     assert (ratio > 0.5 * settings.stays**2).all()
     further = replace(VIEW, translation_w0_cam_m=1.3 * MIDDLE_M)
-    assert (np.diag(calibrated_covariance(surface, further, settings)) > 2.0 * np.diag(found)).all()
+    assert (np.diag(surface_calibration_covariance(surface, further, settings)) > 2.0 * np.diag(found)).all()
 
 
 @pytest.mark.parametrize("shared", [0.0, 1.0])
-def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> None:
+def test_depth_noise_scatters_as_stated(surface: DorsalSurface, shared: float) -> None:
     """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
     of the scatter."""
     settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0, reading_per_m=0.0014)
@@ -159,7 +159,7 @@ def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> 
     assert np.std(found, axis=0) == pytest.approx(np.mean(stated, axis=0), rel=0.25)
 
 
-def test_the_surface_is_as_sure_as_its_sensor(surface: BackSurface) -> None:
+def test_the_surface_is_as_sure_as_its_sensor(surface: DorsalSurface) -> None:
     """Errors alike over 80 pixels tilt all of it; those of a wide window average less than those of a narrow one."""
 
     def stated(sensor: DepthSensor) -> FloatArray:
@@ -168,7 +168,7 @@ def test_the_surface_is_as_sure_as_its_sensor(surface: BackSurface) -> None:
         return np.sqrt(np.diag(found.covariance))
 
     depth_m = float(np.median(READINGS.depth_m))
-    stays_m = float(AZURE_KINECT.stays_sd_m(np.array(depth_m)))
+    stays_m = float(AZURE_KINECT.bias_sd_m(np.array(depth_m)))
     even = replace(AZURE_KINECT, stays_px=0.0)
     tilt_rad = stays_m / (80.0 * depth_m / VIEW.camera.fx_px)
     assert stated(AZURE_KINECT) == pytest.approx(np.hypot(stated(even), [tilt_rad, tilt_rad, stays_m]))
@@ -176,21 +176,21 @@ def test_the_surface_is_as_sure_as_its_sensor(surface: BackSurface) -> None:
     assert (stated(D435) > 1.2 * stated(PRIMESENSE)).all()
 
 
-def test_a_finger_over_the_hand_does_not_tilt_it(surface: BackSurface) -> None:
+def test_a_finger_over_the_hand_does_not_tilt_it(surface: DorsalSurface) -> None:
     column = ALL_READINGS.pixel[:, 0]
     depth = np.where((column > 300) & (column < 315), ALL_READINGS.depth_m - 0.03, ALL_READINGS.depth_m)
     found = measured(surface, SurfaceSamples(ALL_READINGS.pixel, depth))
     assert np.abs(np.degrees(found.value[:2])).max() < 0.3
 
 
-def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
+def test_a_covered_hand_is_not_asked(surface: DorsalSurface) -> None:
     covered = SurfaceSamples(ALL_READINGS.pixel, ALL_READINGS.depth_m - 0.05)
     for samples in (covered, SurfaceSamples(np.empty((0, 2)), np.empty(0))):
-        assert surface_measurement(HERE, samples, surface, VIEW, SurfaceSettings()) is None
+        assert fit_surface(HERE, samples, surface, VIEW, SurfaceSettings()) is None
 
 
 def test_what_is_far_from_the_surface_counts_for_nothing_and_what_is_a_little_off_for_less(
-    surface: BackSurface,
+    surface: DorsalSurface,
 ) -> None:
     clean, settings = READINGS, SurfaceSettings()
     one_side = clean.pixel[:, 1] > np.quantile(clean.pixel[:, 1], 0.85)
@@ -204,7 +204,7 @@ def test_what_is_far_from_the_surface_counts_for_nothing_and_what_is_a_little_of
     assert np.abs(robust - whole).max() < 0.8 * np.abs(plain - whole).max()
 
 
-def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: BackSurface) -> None:
+def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: DorsalSurface) -> None:
     clean, settings = READINGS, SurfaceSettings()
     found, further = fitted(surface, clean, settings), fitted(surface, clean, replace(settings, steps=8))
     assert found.value == pytest.approx(further.value, abs=5e-5)
@@ -216,11 +216,11 @@ def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: BackSurface) -> 
     assert ratio == pytest.approx(4.0), "readings that agree are no surer than readings are"
 
 
-def test_too_few_readings_say_nothing(surface: BackSurface) -> None:
+def test_too_few_readings_say_nothing(surface: DorsalSurface) -> None:
     settings = SurfaceSettings()
     for first in range(1, 800):
         some = SurfaceSamples(READINGS.pixel[:first], READINGS.depth_m[:first])
-        found = surface_measurement(HERE, some, surface, VIEW, settings)
+        found = fit_surface(HERE, some, surface, VIEW, settings)
         if found is not None:
             break
     assert found is not None
@@ -228,24 +228,24 @@ def test_too_few_readings_say_nothing(surface: BackSurface) -> None:
 
 
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
-def test_a_surface_far_from_what_was_believed_is_another(surface: BackSurface, off_sd: float, heard: bool) -> None:
+def test_a_surface_far_from_what_was_believed_is_another(surface: DorsalSurface, off_sd: float, heard: bool) -> None:
     """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
     settings, found = SurfaceSettings(), measured(surface)
     covariance = 1e-12 * np.eye(SIZE)
     covariance[TURN, TURN] = 0.01**2 * np.eye(3)
     expected = np.linalg.inv(found.slope @ covariance @ found.slope.T + found.covariance)
     tilt = np.array([0.0, off_sd / np.sqrt(expected[1, 1]), 0.0])
-    mixture = ModeMixture.alike(np.zeros((1, SIZE)), covariance[None], 2)
-    levelled = levelled_mixture(mixture, replace(found, value=tilt), shape_partial_update(0.1), settings)
+    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), covariance[None], 2)
+    levelled = update_by_surface(mixture, replace(found, value=tilt), shape_partial_update(0.1), settings)
     assert (levelled is not None) == heard
     if levelled is not None:
         gain = covariance @ found.slope.T @ expected
-        assert levelled.merged()[0][0, TURN] == pytest.approx((gain @ tilt)[TURN], rel=1e-4)
+        assert levelled.merge()[0][0, TURN] == pytest.approx((gain @ tilt)[TURN], rel=1e-4)
         left = covariance - gain @ found.slope @ covariance
         assert np.allclose(levelled.covariance[0, :, TURN, TURN], left[TURN, TURN], atol=1e-9)
 
 
 def test_too_little_of_the_back_is_no_surface() -> None:
-    assert back_surface_from(np.empty((0, 3)), RIGHT_PALM_M[:4]) is None
+    assert fit_dorsal_surface(np.empty((0, 3)), RIGHT_PALM_M[:4]) is None
     lonely = np.column_stack((np.linspace(0.0, 0.08, 40), np.zeros(40), np.zeros(40)))
-    assert back_surface_from(lonely, RIGHT_PALM_M[:4]) is None
+    assert fit_dorsal_surface(lonely, RIGHT_PALM_M[:4]) is None

@@ -8,15 +8,15 @@ import pytest
 from carpus.core import so3
 from carpus.core.tracking.reacquire import FoundPalm
 from carpus.core.tracking.track_manager import (
-    BLIND_AMONG_FINGERS_RAD,
-    BLIND_RAD,
+    AMBIGUOUS_SD_RAD,
+    AMBIGUOUS_WITH_FINGERS_SD_RAD,
+    CONFIRMATION_S,
     MAX_RATE_RAD_S,
     MAX_TURN_RAD,
-    MIN_PALM_DISCS,
+    MIN_PALM_MARKERS,
     PROBATION_S,
-    SUSPECTED_S,
     TURN_SLACK_RAD,
-    VAGUE_RAD,
+    VAGUE_SD_RAD,
     TrackManager,
     TrackStage,
 )
@@ -26,7 +26,7 @@ LOST_AFTER_S, LEAST_FOUND = 1.5, 4
 
 
 def manager(*, amid_digits: bool = False) -> TrackManager:
-    out = TrackManager(LEAST_FOUND, LOST_AFTER_S, amid_digits=amid_digits)
+    out = TrackManager(LEAST_FOUND, LOST_AFTER_S, has_digits=amid_digits)
     out.begin_at_neutral()
     return out
 
@@ -36,15 +36,15 @@ def found(count: int, turned_rad: float = 0.0) -> FoundPalm:
 
 
 def seen(track: TrackManager, at_s: float, count: int, *, fits: bool = True) -> TrackStatus:
-    track.next_frame(at_s)
-    return track.status_after(at_s, count, fits=fits)
+    track.start_frame(at_s)
+    return track.update_status(at_s, count, is_consistent=fits)
 
 
 def test_a_hand_out_of_sight_coasts_and_is_given_up_after_its_time() -> None:
     track = manager()
     assert seen(track, 0.0, 6) is TrackStatus.TRACKED
-    assert seen(track, 0.1, MIN_PALM_DISCS) is TrackStatus.TRACKED
-    assert seen(track, 0.1 + LOST_AFTER_S, MIN_PALM_DISCS - 1) is TrackStatus.PREDICTED
+    assert seen(track, 0.1, MIN_PALM_MARKERS) is TrackStatus.TRACKED
+    assert seen(track, 0.1 + LOST_AFTER_S, MIN_PALM_MARKERS - 1) is TrackStatus.PREDICTED
     assert track.stage is TrackStage.COASTED
     assert seen(track, 0.2 + LOST_AFTER_S, 0) is TrackStatus.LOST
     assert seen(manager(), 9.0, 0) is TrackStatus.PREDICTED, "the time runs from when it began"
@@ -52,28 +52,28 @@ def test_a_hand_out_of_sight_coasts_and_is_given_up_after_its_time() -> None:
 
 def test_no_picture_for_so_long_ends_a_track_and_nothing_shorter_does() -> None:
     track = manager()
-    assert not track.is_past(99.0), "before the first frame there is nothing to be late for"
+    assert not track.is_timed_out(99.0), "before the first frame there is nothing to be late for"
     seen(track, 2.0, 6)
-    assert not track.is_past(2.0 + LOST_AFTER_S)
-    assert track.is_past(2.01 + LOST_AFTER_S)
-    assert track.since_last_s(2.5) == 0.5
+    assert not track.is_timed_out(2.0 + LOST_AFTER_S)
+    assert track.is_timed_out(2.01 + LOST_AFTER_S)
+    assert track.time_step_s(2.5) == 0.5
     track.begin_at_neutral(5.0)
-    assert track.since_last_s(5.25) == 0.25
-    assert not track.next_frame(5.25)
-    assert track.next_frame(5.5)
-    track.lose(6.0)
-    assert track.since_last_s(6.25) == 0.25, "a loss is of its own moment"
+    assert track.time_step_s(5.25) == 0.25
+    assert not track.start_frame(5.25)
+    assert track.start_frame(5.5)
+    track.drop_track(6.0)
+    assert track.time_step_s(6.25) == 0.25, "a loss is of its own moment"
 
 
 @pytest.mark.parametrize(("count", "stage"), [(4, TrackStage.TENTATIVE), (5, TrackStage.CONFIRMED)])
 def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count: int, stage: TrackStage) -> None:
     track = manager()
-    track.lose(1.0)
+    track.drop_track(1.0)
     assert track.is_lost
-    assert track.initiates(found(count), 1.1)
+    assert track.try_initiate(found(count), 1.1)
     assert track.stage is stage
-    assert track.looks_anew(5, 0, 0.0) == (stage is TrackStage.TENTATIVE)
-    assert track.facing(np.eye(3), 1.1).most_rad == (
+    assert track.is_reacquisition_due(5, 0, 0.0) == (stage is TrackStage.TENTATIVE)
+    assert track.turn_limits(np.eye(3), 1.1).max_rad == (
         MAX_TURN_RAD if stage is TrackStage.TENTATIVE else pytest.approx(TURN_SLACK_RAD)
     )
     seen(track, 1.2, 5, fits=False)
@@ -87,20 +87,20 @@ def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count:
 def test_what_was_not_seen_a_moment_ago_or_shows_little_may_be_another_hand() -> None:
     track = manager()
     seen(track, 0.0, 6)
-    assert not track.is_unsure(MIN_PALM_DISCS + 1, VAGUE_RAD)
-    assert track.is_unsure(MIN_PALM_DISCS, 0.0)
-    assert track.is_unsure(6, VAGUE_RAD + 0.01)
+    assert not track.is_uncertain(MIN_PALM_MARKERS + 1, VAGUE_SD_RAD)
+    assert track.is_uncertain(MIN_PALM_MARKERS, 0.0)
+    assert track.is_uncertain(6, VAGUE_SD_RAD + 0.01)
     seen(track, 0.1, 0)
-    assert track.is_unsure(6, 0.0)
+    assert track.is_uncertain(6, 0.0)
     seen(track, 0.2, 6)
-    assert not track.is_unsure(6, 0.0)
+    assert not track.is_uncertain(6, 0.0)
 
 
 def test_a_hand_found_again_is_refuted_by_the_next_pictures_and_by_no_later_ones() -> None:
     track = manager()
-    track.lose(1.0)
-    track.initiates(found(6), 1.1)
-    least = MIN_PALM_DISCS
+    track.drop_track(1.0)
+    track.try_initiate(found(6), 1.1)
+    least = MIN_PALM_MARKERS
     assert track.is_refuted(least, 1.1)
     assert not track.is_refuted(least + 1, 1.1)
     assert track.is_refuted(least - 1, 1.1 + 0.9 * PROBATION_S)
@@ -109,17 +109,17 @@ def test_a_hand_found_again_is_refuted_by_the_next_pictures_and_by_no_later_ones
 
 
 def test_four_discs_among_those_of_fingers_must_go_on_being_the_same_palm() -> None:
-    assert manager().initiates(found(4), 0.0)
-    assert manager(amid_digits=True).initiates(found(5), 0.0)
-    step_s = 0.4 * SUSPECTED_S
+    assert manager().try_initiate(found(4), 0.0)
+    assert manager(amid_digits=True).try_initiate(found(5), 0.0)
+    step_s = 0.4 * CONFIRMATION_S
 
     def begun(*turned_rad: float, counts: tuple[int, ...] = (4, 4, 4, 4)) -> list[bool]:
         track = manager(amid_digits=True)
-        track.lose(0.0)
+        track.drop_track(0.0)
         out = []
         for k, (turn, count) in enumerate(zip(turned_rad, counts, strict=True)):
-            track.next_frame(k * step_s)
-            out.append(track.initiates(found(count, turn), k * step_s) if count else False)
+            track.start_frame(k * step_s)
+            out.append(track.try_initiate(found(count, turn), k * step_s) if count else False)
         return out
 
     assert begun(0.0, 0.1, 0.2, 0.3) == [False, False, False, True]
@@ -131,19 +131,19 @@ def test_where_a_hand_can_be_turned_grows_with_the_time_it_was_gone_up_to_the_mo
     track, turned = manager(), so3.exp(np.array([0.0, 0.4, 0.0]))
     seen(track, 0.0, 6)
     capped_s = (MAX_TURN_RAD - TURN_SLACK_RAD) / MAX_RATE_RAD_S
-    at = [track.facing(turned, gone_s) for gone_s in (0.0, 0.05, 0.99 * capped_s, 1.01 * capped_s, 9.0)]
+    at = [track.turn_limits(turned, gone_s) for gone_s in (0.0, 0.05, 0.99 * capped_s, 1.01 * capped_s, 9.0)]
     most = [TURN_SLACK_RAD + gone_s * MAX_RATE_RAD_S for gone_s in (0.0, 0.05, 0.99 * capped_s)]
-    assert [one.most_rad for one in at] == pytest.approx([*most, MAX_TURN_RAD, MAX_TURN_RAD])
-    assert all(one.anyhow_rad == MAX_TURN_RAD for one in at)
+    assert [one.max_rad for one in at] == pytest.approx([*most, MAX_TURN_RAD, MAX_TURN_RAD])
+    assert all(one.max_tilt_rad == MAX_TURN_RAD for one in at)
     assert all(one.rotation_w2_w0 is turned for one in at[:3])
-    anyhow = track.anyhow()
+    anyhow = track.widest_turn_limits()
     assert all(np.array_equal(one.rotation_w2_w0, np.eye(3)) for one in (*at[3:], anyhow)), "no longer as foreseen"
 
 
 @pytest.mark.parametrize("amid_digits", [False, True])
 def test_so_few_discs_of_a_hand_foreseen_so_unsurely_could_be_anything(amid_digits: bool) -> None:
     track = manager(amid_digits=amid_digits)
-    most_rad = BLIND_AMONG_FINGERS_RAD if amid_digits else BLIND_RAD
+    most_rad = AMBIGUOUS_WITH_FINGERS_SD_RAD if amid_digits else AMBIGUOUS_SD_RAD
     for count, most in enumerate(most_rad):
         assert not track.is_ambiguous(count, most)
         assert track.is_ambiguous(count, 1.01 * most)
@@ -151,15 +151,15 @@ def test_so_few_discs_of_a_hand_foreseen_so_unsurely_could_be_anything(amid_digi
 
 
 def test_the_palm_is_looked_for_anew_where_little_of_it_or_little_is_sure_and_enough_blobs_are_there() -> None:
-    track, least = manager(), MIN_PALM_DISCS
-    assert track.looks_anew(least, 1, 0.0)
-    assert not track.looks_anew(least, 0, 0.0)
-    assert not track.looks_anew(least + 1, 9, VAGUE_RAD)
-    assert track.looks_anew(least + 1, 0, 1.01 * VAGUE_RAD)
+    track, least = manager(), MIN_PALM_MARKERS
+    assert track.is_reacquisition_due(least, 1, 0.0)
+    assert not track.is_reacquisition_due(least, 0, 0.0)
+    assert not track.is_reacquisition_due(least + 1, 9, VAGUE_SD_RAD)
+    assert track.is_reacquisition_due(least + 1, 0, 1.01 * VAGUE_SD_RAD)
 
 
 @pytest.mark.parametrize(("found", "left", "may"), [(4, 2, True), (4, 1, False), (5, 1, True), (6, 9, False)])
 def test_a_hand_may_be_turned_over_where_blobs_are_left_for_all_its_other_discs(
     found: int, left: int, may: bool
 ) -> None:
-    assert manager().may_be_turned_over(found, left) is may
+    assert manager().can_be_flipped(found, left) is may

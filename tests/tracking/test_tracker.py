@@ -69,11 +69,11 @@ def test_a_step_needs_no_prediction_and_takes_none_of_another_moment() -> None:
             _asked_for(asked, time_s).step(k, time_s, found),
             _asked_for(misled, time_s + 0.2).step(k, time_s, found),
         )
-        assert all(np.array_equal(frames[0].moment.angles_rad, frame.moment.angles_rad) for frame in frames)
+        assert all(np.array_equal(frames[0].kinematics.angles_rad, frame.kinematics.angles_rad) for frame in frames)
 
 
 def _asked_for(tracker: Tracker, time_s: float) -> Tracker:
-    assert tracker.expect(time_s) is not None
+    assert tracker.predict_measurement(time_s) is not None
     return tracker
 
 
@@ -178,7 +178,7 @@ def test_a_hand_hidden_up_to_a_second_comes_back_under_its_names(which: int, gon
 def test_uncertainty_grows_while_nothing_is_seen_and_the_true_angle_stays_inside() -> None:
     motion = swing(0, 20.0, 0.4)
     frames = track(seen(motion, 80, hidden_from=40, hidden_to=70))
-    sd = np.degrees(np.array([frame.moment.angles_sd_rad for frame in frames]))
+    sd = np.degrees(np.array([frame.kinematics.angles_sd_rad for frame in frames]))
     assert (np.diff(sd[40:70, 0]) > 0.0).all()
     assert sd[45, 0] > 3.0 * sd[39, 0]
     error = np.abs(angles_deg(frames) - truth_deg(motion, times(80)))
@@ -242,7 +242,7 @@ def test_a_calm_hand_that_moves_while_its_discs_are_hidden_is_stated_so_unsurely
         flexed_deg = float(np.interp(i, [31, 46], [0.0, 30.0]))
         pose = Pose(np.array([0.0, flexed_deg, 0.0]))
         frame = tracker.step(i, at_s, blobs(pose, rng, hidden=hidden if 30 <= i < 50 else ()))
-        off = np.abs(frame.moment.angles_rad - np.radians(pose.angles_deg)) / frame.moment.angles_sd_rad
+        off = np.abs(frame.kinematics.angles_rad - np.radians(pose.angles_deg)) / frame.kinematics.angles_sd_rad
         assert off.max() < 3.0, i
     assert frame.status is TrackStatus.TRACKED
     assert named_rightly(frame, pose)
@@ -305,7 +305,7 @@ def test_without_depth_by_choice_depths_change_nothing() -> None:
 def test_depth_makes_flexion_surer() -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(k))) for k, t in enumerate(times(30))]
     rigid = {use: track(frames, TrackerSettings(use_depth=use)) for use in (True, False)}
-    sd = {use: np.degrees(run[-1].moment.angles_sd_rad) for use, run in rigid.items()}
+    sd = {use: np.degrees(run[-1].kinematics.angles_sd_rad) for use, run in rigid.items()}
     assert sd[True][1] < 0.7 * sd[False][1]
     assert sd[True][0] == pytest.approx(sd[False][0], rel=0.5)
 
@@ -329,7 +329,7 @@ def test_start_angles_are_added_as_rotations(
     frames = track(seen(turning, 75, side=side), tracker=tracker)
     assert angles_deg(frames)[3] == pytest.approx(start_deg, abs=1.0)
     expected = rotation_of(*start_deg, side) @ rotation_of(0.0, flexes_deg, 0.0, side)
-    assert np.allclose(frames[-1].moment.rotation_w2_w0, expected, atol=0.03)
+    assert np.allclose(frames[-1].kinematics.rotation_w2_w0, expected, atol=0.03)
     assert angles_deg(frames)[-1] == pytest.approx(reads_deg, abs=1.5)
 
 
@@ -350,7 +350,7 @@ def test_standard_deviations_are_honest() -> None:
             frames.append((t, Detections(pixel, depth, 7e-4 * count, 64.0 * count, 0.9 * count)))
         tracked = track(frames)
         error = np.radians(angles_deg(tracked) - truth_deg(motion, times(75)))
-        sd = np.array([frame.moment.angles_sd_rad for frame in tracked])
+        sd = np.array([frame.kinematics.angles_sd_rad for frame in tracked])
         squares.append(np.mean((error / sd)[15:] ** 2, axis=0))
     pooled = np.sqrt(np.mean(squares, axis=0))
     assert np.all(pooled < 1.5)
@@ -375,7 +375,7 @@ def test_prediction_says_where_to_look() -> None:
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
     outside = 0
     for k, t in enumerate(times(90)):
-        expected = tracker.expect(t)
+        expected = tracker.predict_measurement(t)
         assert expected is not None
         true = CAMERA.project(discs_cam_m(motion(t)))
         off = true - expected.pixel
@@ -418,7 +418,7 @@ def test_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
         tracker = Tracker(calibration(), CAMERA, RIGID)
         frames = track(seen(motion, 120, seed), tracker=tracker)
         truth = truth_deg(motion, times(120))
-        smoothed = np.degrees([moment.angles_rad for moment in tracker.smoothed()])
+        smoothed = np.degrees([moment.angles_rad for moment in tracker.smooth()])
         filtered_error.append(angles_deg(frames) - truth)
         smoothed_error.append(smoothed - truth)
     filtered, smooth = (np.sqrt(np.mean(np.square(e), axis=(0, 1))) for e in (filtered_error, smoothed_error))
@@ -432,7 +432,7 @@ def test_smoothing_bridges_a_covered_stretch() -> None:
         frames = track(seen(motion, 120, hidden_from=60, hidden_to=80), tracker=tracker)
         truth = truth_deg(motion, times(120))
         error = angles_deg(frames) - truth
-        smoothed = np.degrees([moment.angles_rad for moment in tracker.smoothed()]) - truth
+        smoothed = np.degrees([moment.angles_rad for moment in tracker.smooth()]) - truth
         assert np.abs(smoothed[60:80, which]).max() < 0.5 * np.abs(error[60:80, which]).max()
         # And what was measured before it is not pulled away.
         assert np.abs(smoothed[50:60, which]).max() < 1.0
@@ -496,9 +496,9 @@ def test_the_whole_picture_is_searched_for_the_palm_or_what_shows_how_it_is_turn
     at = times(3)
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
     track([(at[0], found(6)), (at[1], found(6))], tracker=tracker)
-    assert [tracker.would_miss(found(count)) for count in (3, 4, 5)] == [True, False, False]
+    assert [tracker.is_search_incomplete(found(count)) for count in (3, 4, 5)] == [True, False, False]
     tracker.step(2, at[2], blobs(Pose(), hidden=(WRIST, CMC1)))
-    assert [tracker.would_miss(found(count)) for count in (3, 4, 5, 6)] == [True, True, True, False]
+    assert [tracker.is_search_incomplete(found(count)) for count in (3, 4, 5, 6)] == [True, True, True, False]
 
 
 def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
@@ -561,11 +561,11 @@ def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
     after = [(before[-1][0] + 12.0 + t, blobs(elsewhere, rng)) for t in times(10)]
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
     track(before, tracker=tracker)
-    assert tracker.expect(after[0][0]) is None
+    assert tracker.predict_measurement(after[0][0]) is None
     frames = track(after, tracker=tracker)
     assert set(statuses(frames)) == {TrackStatus.TRACKED}
     assert np.abs(angles_deg(frames) - elsewhere.angles_deg).max() < 4.0
-    assert max(np.linalg.norm(frame.moment.velocity_m_s) for frame in frames) < 0.3
+    assert max(np.linalg.norm(frame.kinematics.velocity_m_s) for frame in frames) < 0.3
 
 
 def lost_and_found(shown_after: int) -> list[TrackStatus]:
@@ -579,13 +579,13 @@ def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(i), pixel_sd_px=0.6)) for i, t in enumerate(times(20))]
-    monkeypatch.setattr(consistency, "MAX_NIS", 1e9)
+    monkeypatch.setattr(consistency, "MAX_MEAN_NIS", 1e9)
     sure = track(frames)[-1]
-    monkeypatch.setattr(consistency, "MAX_NIS", 0.0)
+    monkeypatch.setattr(consistency, "MAX_MEAN_NIS", 0.0)
     doubted = track(frames)[-1]
     assert (sure.status, doubted.status) == (TrackStatus.TRACKED, TrackStatus.DOUBTFUL)
-    assert np.array_equal(sure.moment.angles_rad, doubted.moment.angles_rad)
-    widened = doubted.moment.angles_sd_rad / sure.moment.angles_sd_rad
+    assert np.array_equal(sure.kinematics.angles_rad, doubted.kinematics.angles_rad)
+    widened = doubted.kinematics.angles_sd_rad / sure.kinematics.angles_sd_rad
     assert widened[0] > 1.2
     assert widened == pytest.approx(np.full(3, widened[0]))
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
-from carpus.core.tracking.digit_naming import areas_m2
+from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
+from carpus.core.tracking.digit_naming import compute_disc_areas
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 from tests.tracking.test_fingers import weighed
@@ -27,7 +27,7 @@ def scene_of(gap_px: float, blob_of: int) -> tuple[DigitScene, DigitAssignment, 
     """A finger whose last two discs lie so near that one blob, named ``blob_of``, is both; and where they are (2, 2).
     They are expected a little further on."""
     trial, _ = weighed(1e-4, (0.0, 0.0))
-    scene, names = trial.scene, trial.named.names
+    scene, names = trial.scene, trial.update.assignment
     value = scene.linearised.value.reshape(5, 3, 3).copy()
     along = value[CHAIN, TIP, :2] - value[CHAIN, DIP, :2]
     value[CHAIN, TIP, :2] = value[CHAIN, DIP, :2] + gap_px * along / np.linalg.norm(along)
@@ -54,7 +54,7 @@ def scene_of(gap_px: float, blob_of: int) -> tuple[DigitScene, DigitAssignment, 
 
 def measured_of(scene: DigitScene, names: DigitAssignment) -> tuple[FloatArray, FloatArray]:
     """What is measured of the discs (5, 3, 3), and how surely."""
-    measured, variance = measured_as_named(scene, names, SETTINGS)
+    measured, variance = measurements_from_assignment(scene, names, SETTINGS)
     return measured.reshape(5, 3, 3), np.sqrt(variance.reshape(5, 3, 3))
 
 
@@ -86,7 +86,7 @@ def test_a_blob_of_one_disc_measures_that_disc_alone() -> None:
 def test_no_size_is_learnt_of_discs_that_may_be_two() -> None:
     trial, _ = weighed(1e-4, (0.0, 0.0))
     scene, names, _ = scene_of(6.0, DIP)
-    named = replace(trial.named, names=names)
-    learnt = areas_m2(named, scene.area_px, np.zeros((5, 3)), np.full((5, 3), 5e5))
+    named = replace(trial.update, names=names)
+    learnt = compute_disc_areas(named, scene.area_px, np.zeros((5, 3)), np.full((5, 3), 5e5))
     assert np.isnan(learnt[CHAIN]).all()
     assert np.isfinite(learnt[1]).all()

@@ -7,12 +7,12 @@ from functools import cache
 
 import numpy as np
 
-from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
+from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, DepthCheck, Intrinsics
-from carpus.core.calibration.camera.views import FIELDS, Gathering, Judgement
-from carpus.core.calibration.card.card import FIGURES, CardReading
+from carpus.core.calibration.camera.views import FIELDS, ViewCollector, ViewCoverage
+from carpus.core.calibration.card.card import DIMENSIONS, CardReading
 from carpus.core.calibration.card.checks import CardCheck, CheckStatus
-from carpus.core.calibration.card.measure import CardWatch
+from carpus.core.calibration.card.measure import CardMeasurement
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.types import Frame
 from carpus.ui.words.camera_calibration import BoardProgress, BoardResult
@@ -24,11 +24,13 @@ from tests.ui.fakes import NOW
 @cache
 def board_progress() -> tuple[Frame, BoardProgress]:
     """Two pictures of the board, the newest with what follows."""
-    studio, gathering = Studio(seed=2), Gathering(DEFAULT_CAMERA, [CHESSBOARD])
-    placed = poses(texture_of(board_sheet(CHESSBOARD, "a4")))[2:4]
+    studio, gathering = Studio(seed=2), ViewCollector(DEFAULT_CAMERA, [CHESSBOARD])
+    placed = poses(texture_of(create_board_sheet(CHESSBOARD, "a4")))[2:4]
     frames = [studio.frame([one], k, float(k)) for k, one in enumerate(placed)]
-    look = [gathering.look(frame) for frame in frames][-1]
-    return frames[-1], BoardProgress(look.lack, gathering.judgement, gathering.judgement.next_step(30) or "", 30)
+    look = [gathering.process_frame(frame) for frame in frames][-1]
+    return frames[-1], BoardProgress(
+        look.reject_reason, gathering.coverage, gathering.coverage.next_instruction(30) or "", 30
+    )
 
 
 def board_result(*, poor: bool = False) -> BoardResult:
@@ -37,14 +39,14 @@ def board_result(*, poor: bool = False) -> BoardResult:
     error = 0.84 if poor else 0.21
     found = Intrinsics(LENS, 0.5, 0.6, error, np.zeros((20, 3)), np.zeros((20, 3)), tuple(range(20)))
     depth = DepthCheck(0.996, 0.001, 0.0006, 0.0003, np.array([0.9, 0.6]), 0.1, 0.0011, 20)
-    judged = Judgement(20, corners, frozenset(("left", "right", "top", "bottom")), 0.47, 0.84)
+    judged = ViewCoverage(20, corners, frozenset(("left", "right", "top", "bottom")), 0.47, 0.84)
     return BoardResult(CameraCalibration(DEFAULT_CAMERA, found, depth, judged, CHESSBOARD.name()), "1210130114")
 
 
 def checked(*, out: bool = False) -> CheckStatus:
     """A camera that was checked today; with ``out`` its depth is 2.6 % off since."""
     scale = 1.026 if out else 1.0
-    measured = np.array([one.true * (scale if one.kind == "length" else 1.0) + 0.3 for one in FIGURES])
+    measured = np.array([one.true_value * (scale if one.kind == "length" else 1.0) + 0.3 for one in DIMENSIONS])
     reading = CardReading(measured, np.full(6, 0.2), scale, 0.6, 30, 30)
     return CheckStatus("1210130114", 31.0, 0.1, CardCheck(NOW.isoformat(), "1210130114", reading))
 
@@ -53,5 +55,5 @@ def checked(*, out: bool = False) -> CheckStatus:
 def card_progress() -> tuple[Frame, CardProgress]:
     """The card under the simulated camera, some seconds in."""
     frame = Studio(seed=2, depth_scale_error=0.0).frame(card_scene(), 0, 0.0)
-    look = CardWatch(LENS, steady=True).look(frame)
-    return replace(frame), CardProgress(look.pixel, look.blue, 8.4)
+    look = CardMeasurement(LENS, only_steady=True).process_frame(frame)
+    return replace(frame), CardProgress(look.pixel, look.blue_count, 8.4)

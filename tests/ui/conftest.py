@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.ui.background import Background
-from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.sheet import Dialog
 from carpus.ui.fonts import load_fonts
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.review.screen import ReviewScreen
@@ -61,7 +61,7 @@ def background(qtbot: QtBot) -> Iterator[Background]:
     """Idle before the screens go, as the program waits before it ends."""
     background = Background()
     yield background
-    qtbot.waitUntil(lambda: not background.busy)
+    qtbot.waitUntil(lambda: not background.is_busy)
 
 
 @pytest.fixture
@@ -85,8 +85,8 @@ def host(show: Show[QWidget]) -> Iterator[QWidget]:
     """What sheets lie over, which go with it."""
     widget = show(QWidget(), active=True)
     yield widget
-    for sheet in widget.findChildren(Sheet):
-        sheet.close_sheet()
+    for sheet in widget.findChildren(Dialog):
+        sheet.close_dialog()
 
 
 @pytest.fixture
@@ -110,8 +110,8 @@ def review(qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Bac
 
     def one(store: FakeSessions, session_id: str) -> ReviewScreen:
         screens.append(screen := show(ReviewScreen(theme, background, store), active=True))
-        screen.begin("linden", session_id)
-        qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+        screen.load_session("linden", session_id)
+        qtbot.waitUntil(lambda: screen.is_loaded and screen.frame_view.image is not None)
         return screen
 
     yield one

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.flow import ScreenContext
-from carpus.ui.now_open import NowOpen, SourceChoice
+from carpus.ui.now_open import CurrentSelection, SourceChoice
 from carpus.ui.theme import Theme
 from tests.ui.fakes import NOW
 
@@ -56,9 +56,16 @@ class Told:
 def a_context(theme: Theme, window: QWidget, told: Told, background: Background, **given: object) -> ScreenContext:
     """A context of ``told`` for way and messages; what else a flow needs is ``given`` by its name there."""
     usual = {
-        "shell": window, "theme": theme, "background": background, "messages": told, "way": told,
-        "now": NowOpen(choice=SourceChoice("camera")), "report": ReportSettings("MK"), "today": NOW.date,
+        "shell": window,
+        "theme": theme,
+        "background": background,
+        "messages": told,
+        "way": told,
+        "now": CurrentSelection(source_choice=SourceChoice("camera")),
+        "report": ReportSettings("MK"),
+        "today": NOW.date,
         "version": "1.2.3",
-        "is_demo": False, "opener": SimpleNamespace(close_source=lambda: None),
-    }  # fmt: skip
+        "is_demo": False,
+        "opener": SimpleNamespace(close_source=lambda: None),
+    }
     return cast("ScreenContext", SimpleNamespace(**(usual | given)))

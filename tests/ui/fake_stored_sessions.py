@@ -8,10 +8,10 @@ from pathlib import Path
 
 from carpus.core.records.values import SessionEntry
 from carpus.ui.sessions.listing import SessionLine
-from carpus.ui.sessions.stored import StoredSessions
+from carpus.ui.sessions.stored import SessionStore
 
 
-class FakeStoredSessions(StoredSessions):
+class FakeStoredSessions(SessionStore):
     """A list of sessions that remembers what was done with it."""
 
     def __init__(self, count: int = 6) -> None:
@@ -29,7 +29,7 @@ class FakeStoredSessions(StoredSessions):
     def with_figures(self, line: SessionLine) -> SessionLine:
         number = int(line.entry.session_id[1:])
         if number == 4:
-            return replace(line, damaged=True)
+            return replace(line, is_damaged=True)
         words = "mean of 9 repetitions; number 7 left out: pain"
         return replace(line, figure=f"Flexion {57 - 3 * number}° ± 2°", counted="9 / 10", counted_words=words)
 

@@ -11,46 +11,46 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.agreement.retest import LeftOut, Retest, StudyFigures
+from carpus.core.agreement.retest import ExcludedSession, RetestAnalysis, RetestResult
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
-from carpus.core.hand.exercises import exercise_named
-from carpus.core.measures.by_hand import HandValue
+from carpus.core.hand.exercises import get_exercise
+from carpus.core.measures.by_hand import ManualValue
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.patients import Patients
-from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import Onset, Patient, SessionEntry
-from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.figures import SessionResults, compute_session_results
 from carpus.core.results.measure import Measure
 from carpus.core.results.progress import Comparison
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, motion_of
-from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, stack_states
+from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import (
     ByteImage,
     Detections,
     FloatArray,
     Frame,
-    Moment,
+    KinematicState,
+    MarkerLabel,
     Side,
-    SpotAnswer,
     TrackedFrame,
     TrackStatus,
 )
 from carpus.ui.ports import (
-    MOST_ROWS,
+    MAX_LISTED_PATIENTS,
+    CalibrationAssessment,
+    CalibrationLimits,
     FoundMarker,
-    Judged,
+    LabelProposal,
+    MeasureWithChange,
     PatientCard,
-    ProposedMarker,
-    Result,
-    VerdictLimits,
 )
-from carpus.ui.report.gather import session_report
-from carpus.ui.report.home_page import HomeReport, HomeTask, OwnWay
+from carpus.ui.report.gather import build_session_report
+from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
 from tests.moments import with_moment
 
 FPS = 30.0
@@ -66,25 +66,25 @@ def simulated(
     speed_hz: float = 0.16,
     side: str = "right",
     protocol: str = "wrist6",
-) -> SimulatedPictures:
+) -> SimulatedRecording:
     """A bright, near, large hand: pictures by their number and the true motion."""
     spec = RecordingSpec(
         seed=5, hand=side, motion=motion, seconds=seconds, speed_hz=speed_hz, protocol=protocol, light="bright",  # type: ignore[arg-type]
         skin_tone=1, distance_m=0.62, hand_length_mm=196.0, yaw_deg=3.0, tilt_deg=4.0, sleeve="none",
     )  # fmt: skip
-    return SimulatedPictures(spec)
+    return SimulatedRecording(spec)
 
 
 @lru_cache(maxsize=32)
-def picture(pictures: SimulatedPictures | None = None, number: int = 0) -> ByteImage:
+def picture(pictures: SimulatedRecording | None = None, number: int = 0) -> ByteImage:
     """One colour picture, of flexion unless told otherwise."""
     pictures = pictures or simulated()
-    return pictures.sensed(number, pictures.clean(number))[0]
+    return pictures.apply_sensor(number, pictures.render_clean(number))[0]
 
 
 @lru_cache(maxsize=32)
 def tracked_frames(
-    pictures: SimulatedPictures,
+    pictures: SimulatedRecording,
     hidden: tuple[tuple[float, float, str], ...] = (),
     lost: tuple[tuple[float, float], ...] = (),
 ) -> list[TrackedFrame]:
@@ -104,7 +104,7 @@ def tracked_frames(
         covered = np.array([any(a <= time_s < b and name == marker for a, b, marker in hidden) for name in markers])
         covered_since = np.where(covered, covered_since + 1 / FPS, 0.0)
         is_lost = any(a <= time_s < b for a, b in lost)
-        measured = truth.disc_pixel[k] + rng.normal(0.0, 0.2, (len(markers), 2))
+        measured = truth.marker_px[k] + rng.normal(0.0, 0.2, (len(markers), 2))
         measured[covered | is_lost] = math.nan
         predicted_only = int(np.isfinite(measured[:, 0]).sum()) < 3
         status = TrackStatus.LOST if is_lost else TrackStatus.PREDICTED if predicted_only else TrackStatus.TRACKED
@@ -115,7 +115,7 @@ def tracked_frames(
                 index=k,
                 timestamp_s=float(truth.timestamp_s[k]),
                 status=status,
-                moment=Moment(
+                kinematics=KinematicState(
                     position_m=truth.position_m[k] * unknown,
                     velocity_m_s=truth.velocity_m_s[k] * unknown,
                     w0_turn_rad=np.zeros(3) * unknown,
@@ -130,12 +130,12 @@ def tracked_frames(
                     joint_position_m=truth.joint_position_w0_m[k][: len(markers) if len(truth.joint_names) else 0]
                     * unknown,
                 ),
-                marker_position_cam_m=truth.disc_position_cam_m[k] * unknown,
-                marker_predicted_px=truth.disc_pixel[k] * unknown,
+                marker_position_cam_m=truth.marker_position_cam_m[k] * unknown,
+                marker_predicted_px=truth.marker_px[k] * unknown,
                 marker_predicted_cov_px2=np.eye(2)[None] * (4.0 + 30.0 * covered_since[:, None, None]) * unknown,
                 marker_measured_px=measured,
                 marker_measured_depth_m=np.where(
-                    np.isfinite(measured[:, 0]), truth.disc_position_cam_m[k][:, 2], math.nan
+                    np.isfinite(measured[:, 0]), truth.marker_position_cam_m[k][:, 2], math.nan
                 ),
                 detections=Detections.none(),
                 dropped_before=0,
@@ -147,7 +147,7 @@ def tracked_frames(
     return out
 
 
-def joint_sds_rad(pictures: SimulatedPictures, covered_since_s: np.ndarray) -> np.ndarray:
+def joint_sds_rad(pictures: SimulatedRecording, covered_since_s: np.ndarray) -> np.ndarray:
     """Two degrees, growing by ten degrees a second while the finger's farther discs are covered."""
     markers, names = pictures.spec.marker_protocol.markers, pictures.truth.joint_names
     hidden_s = []
@@ -158,13 +158,13 @@ def joint_sds_rad(pictures: SimulatedPictures, covered_since_s: np.ndarray) -> n
     return np.radians(2.0 + np.minimum(10.0 * np.array(hidden_s), 14.0)) if len(names) else np.empty(0)
 
 
-def calibration(pictures: SimulatedPictures) -> Calibration:
+def calibration(pictures: SimulatedRecording) -> Calibration:
     """A perfect calibration on the first picture."""
     truth, spec = pictures.truth, pictures.spec
     count = len(spec.marker_protocol.markers)
     verdict = Verdict(np.full(count, 0.4), 184.0, 4.0, 0.66, 15, ())
     return Calibration(
-        clicks=Clicks(spec.hand, spec.marker_protocol, truth.disc_pixel[0]),
+        clicks=Clicks(spec.hand, spec.marker_protocol, truth.marker_px[0]),
         marker_position_w0_m=truth.marker_position_w0_m,
         rotation_w0_cam=truth.rotation_w0_cam,
         translation_w0_cam_m=truth.translation_w0_cam_m,
@@ -174,8 +174,8 @@ def calibration(pictures: SimulatedPictures) -> Calibration:
     )
 
 
-def set_up(exercise: str = "WRIST_FE", target_deg: float = 60.0) -> SetUp:
-    return SetUp("linden", "Linden 42", "right", exercise_named(exercise), 10, target_deg, math.nan)
+def set_up(exercise: str = "WRIST_FE", target_deg: float = 60.0) -> SessionSetup:
+    return SessionSetup("linden", "Linden 42", "right", get_exercise(exercise), 10, target_deg, math.nan)
 
 
 class FakeFeed:
@@ -193,8 +193,8 @@ class FakeFeed:
         self.pictures = simulated(motion, seconds, speed_hz, protocol=protocol)
         self.frames = list(tracked_frames(self.pictures, tuple(hidden), tuple(lost)))
         self.place = -1
-        self.recording = False
-        self.paused = False
+        self.is_recording = False
+        self.is_paused = False
         self.first_recorded = 0
         self.events: list[LiveEvent] = []
         self.noted: list[tuple[str, str]] = []
@@ -202,8 +202,8 @@ class FakeFeed:
         self.picture_number: int | None = None
 
     @property
-    def recorded_from(self) -> int | None:
-        return self.first_recorded if self.recording else None
+    def first_recorded_index(self) -> int | None:
+        return self.first_recorded if self.is_recording else None
 
     def step(self, frames: int = 1) -> None:
         self.place = min(self.place + frames, len(self.frames) - 1)
@@ -212,13 +212,13 @@ class FakeFeed:
         number = place if self.picture_number is None else self.picture_number
         return Frame(place, self.frames[place].timestamp_s, picture(self.pictures, number), None, 0.001)
 
-    def newest_frame(self) -> Frame | None:
+    def current_frame(self) -> Frame | None:
         return self._frame(max(self.place, 0))
 
-    def newest(self) -> TrackedView | None:
+    def current_view(self) -> TrackedView | None:
         return None if self.place < 0 else TrackedView(self._frame(self.place), self.frames[self.place], 0.0)
 
-    def tracked_since(self, index: int) -> list[TrackedFrame]:
+    def frames_since(self, index: int) -> list[TrackedFrame]:
         return [frame for frame in self.frames[: self.place + 1] if frame.index > index]
 
     def drain_events(self) -> list[LiveEvent]:
@@ -227,23 +227,35 @@ class FakeFeed:
 
     def counters(self) -> LiveCounters:
         return LiveCounters(
-            captured=self.place, tracked=self.place, dropped=0, missing=0, fps=30.0, latency_p50_ms=6.0,
-            latency_p95_ms=11.0, waiting_tracking=0, catching_up_s=0.0, rows_written=self.place, pictures_written=0,
-            recording=self.recording, paused=self.paused, disk_free_bytes=2 * 10**10, disk_minutes_left=212.0,
-        )  # fmt: skip
+            captured=self.place,
+            tracked=self.place,
+            dropped=0,
+            missing=0,
+            fps=30.0,
+            latency_p50_ms=6.0,
+            latency_p95_ms=11.0,
+            frames_waiting=0,
+            tracking_lag_s=0.0,
+            rows_written=self.place,
+            frames_written=0,
+            is_recording=self.is_recording,
+            is_paused=self.is_paused,
+            disk_free_bytes=2 * 10**10,
+            disk_minutes_left=212.0,
+        )
 
     def add_event(self, kind: str, text: str = "") -> bool:
         self.noted.append((kind, text))
-        return self.recording
+        return self.is_recording
 
-    def tell(self, kind: str, at_s: float) -> None:
+    def notify_listener(self, kind: str, at_s: float) -> None:
         self.told.append((kind, at_s))
 
     def pause_recording(self) -> None:
-        self.paused = True
+        self.is_paused = True
 
     def resume_recording(self) -> None:
-        self.paused = False
+        self.is_paused = False
 
 
 class LateFeed(FakeFeed):
@@ -253,13 +265,13 @@ class LateFeed(FakeFeed):
     dropped = 0
     waiting = 0
 
-    def newest_frame(self) -> Frame | None:
-        frame = super().newest_frame()
+    def current_frame(self) -> Frame | None:
+        frame = super().current_frame()
         return None if frame is None else replace(frame, timestamp_s=frame.timestamp_s + self.ahead_s)
 
     def counters(self) -> LiveCounters:
         left_s = self.waiting / 100.0
-        return replace(super().counters(), dropped=self.dropped, waiting_tracking=self.waiting, catching_up_s=left_s)
+        return replace(super().counters(), dropped=self.dropped, frames_waiting=self.waiting, tracking_lag_s=left_s)
 
 
 def with_other_spot(feed: FakeFeed, marker: int, from_s: float, *, taken: bool, off_px: tuple[float, float]) -> None:
@@ -279,7 +291,7 @@ def with_other_spot(feed: FakeFeed, marker: int, from_s: float, *, taken: bool, 
             marker_measured_px=measured,
             detections=spots,
             doubted=rows if taken else frame.doubted,
-            no_disc=np.zeros(len(pixel), dtype=bool),
+            is_rejected=np.zeros(len(pixel), dtype=bool),
             status=TrackStatus.DOUBTFUL if taken else frame.status,
         )
 
@@ -293,23 +305,23 @@ class FakeMeasuring:
         self.calibration: Calibration | None = calibration(feed.pictures)
         self.fault: Exception | None = None
         self.closed = False
-        self.answers: list[SpotAnswer] = []
+        self.answers: list[MarkerLabel] = []
 
-    def answer_spot(self, answer: SpotAnswer) -> None:
+    def add_label(self, answer: MarkerLabel) -> None:
         self.answers.append(answer)
 
-    starts_with_recording = False
+    is_playback = False
 
-    def choose(self, set_up: SetUp) -> None:
+    def set_exercise(self, set_up: SessionSetup) -> None:
         self.chosen = set_up
 
     def start_recording(self) -> None:
         if self.fault is not None:
             raise self.fault
-        self.feed.recording = True
+        self.feed.is_recording = True
 
     def stop_recording(self) -> str:
-        self.feed.recording = self.feed.paused = False
+        self.feed.is_recording = self.feed.is_paused = False
         if self.fault is not None:
             raise self.fault
         return "session-7"
@@ -337,7 +349,7 @@ def made_once(make: Callable[..., Session]) -> Callable[..., Session]:
 
 
 def stored(
-    pictures: SimulatedPictures, when: datetime, exercise: str, session_id: str, events: tuple[Event, ...], *,
+    pictures: SimulatedRecording, when: datetime, exercise: str, session_id: str, events: tuple[Event, ...], *,
     status: np.ndarray, motion: Motion, markers: MarkerSeries, quality: QualitySeries,
 ) -> Session:  # fmt: skip
     """A complete session of Linden 42 with what was measured in it."""
@@ -370,13 +382,13 @@ def session(
     """A stored session of the simulated patient, its angles scaled to a share of the full range."""
     pictures = simulated(motion, seconds, speed_hz, side)
     frames = [
-        with_moment(frame, angles_rad=frame.moment.angles_rad * scale)
+        with_moment(frame, angles_rad=frame.kinematics.angles_rad * scale)
         for frame in tracked_frames(pictures, tuple(hidden), tuple(lost))
     ]
     return stored(
         pictures, when, exercise, session_id, tuple(events),
         status=np.array([int(frame.status) for frame in frames]),
-        motion=motion_of(frames),
+        motion=stack_states(frames),
         markers=MarkerSeries(
             np.array([frame.marker_position_cam_m for frame in frames]),
             np.array([frame.marker_measured_px for frame in frames]),
@@ -389,18 +401,18 @@ def session(
     )  # fmt: skip
 
 
-_FIGURES: dict[tuple[int, str, str], tuple[Session, SessionFigures]] = {}
+_FIGURES: dict[tuple[int, str, str], tuple[Session, SessionResults]] = {}
 _MOST_FIGURES = 128
 
 
 def figures_once(
     made: Session, choices: RepetitionChoices | None = None, limits: ErrorLimits = DEFAULT_LIMITS
-) -> SessionFigures:
-    """What :func:`session_figures` makes of a session, computed once: nobody changes a session."""
+) -> SessionResults:
+    """What :func:`compute_session_results` makes of a session, computed once: nobody changes a session."""
     key = id(made), repr(choices), repr(limits)
     known = _FIGURES.get(key)
     if known is None:
-        known = _FIGURES[key] = made, session_figures(made, choices, limits)
+        known = _FIGURES[key] = made, compute_session_results(made, choices, limits)
         if len(_FIGURES) > _MOST_FIGURES:
             _FIGURES.pop(next(iter(_FIGURES)), None)
     return known[1]
@@ -444,11 +456,13 @@ class FakeStore:
         self.in_archive: list[str] = []
         self.listed = ["Wrist fracture, plate", "Wrist fracture, cast", "Flexor tendon repair"]
 
-    def patients(self, search: str = "") -> list[Patient]:
+    def list_patients(self, search: str = "") -> list[Patient]:
         words = search.casefold().split()
-        return [one for one in self.rows if all(word in one.pseudonym.casefold() for word in words)][:MOST_ROWS]
+        return [one for one in self.rows if all(word in one.pseudonym.casefold() for word in words)][
+            :MAX_LISTED_PATIENTS
+        ]
 
-    def archived(self) -> list[str]:
+    def list_archived_names(self) -> list[str]:
         return list(self.in_archive)
 
     def card(self, patient_id: str) -> PatientCard:
@@ -473,7 +487,7 @@ class FakeStore:
     def change(self, patient: Patient) -> None:
         self.rows = [patient if one.patient_id == patient.patient_id else one for one in self.rows]
 
-    keep = Patients.keep
+    keep = Patients.save
 
     def diagnoses(self) -> list[str]:
         return list(self.listed)
@@ -482,7 +496,7 @@ class FakeStore:
         self.listed = [*(one for one in self.listed if one != words), *([words] if listed else [])]
 
 
-def _result(movement: str, mean_deg: float, change_deg: float, verdict: str) -> Result:
+def _result(movement: str, mean_deg: float, change_deg: float, verdict: str) -> MeasureWithChange:
     row = Measure("range", "flexion", movement, "deg", (mean_deg,) * 10, mean_deg, 3.0)
     return row, Comparison(replace(row, mean=mean_deg - change_deg), row, 10.0, verdict)  # type: ignore[arg-type]
 
@@ -495,7 +509,7 @@ class FakeCalibrator:
         self.is_live = is_live
         self.side = self.pictures.spec.hand
         self.protocol = self.pictures.spec.marker_protocol
-        self.limits = VerdictLimits(0.6, 15.0, 4.0, (110.0, 225.0))
+        self.limits = CalibrationLimits(0.6, 15.0, 4.0, (110.0, 225.0))
         self.findings: tuple[CalibrationFinding, ...] = ()
         self.doubtful: tuple[str, ...] = ()
         self.not_found: tuple[str, ...] = self.protocol.markers if protocol == "wrist6" else ()
@@ -506,37 +520,37 @@ class FakeCalibrator:
 
     @property
     def disc_px(self) -> np.ndarray:
-        return self.pictures.truth.disc_pixel[0]
+        return self.pictures.truth.marker_px[0]
 
-    def newest_frame(self) -> Frame:
+    def current_frame(self) -> Frame:
         return Frame(0, 0.0, picture(self.pictures), None, 0.001)
 
-    hold = newest_frame
+    freeze_frame = current_frame
 
-    last_straight_fingers = (True, True, True, True, True)
+    previous_straight_fingers = (True, True, True, True, True)
 
-    def discs_seen(self) -> int:
+    def count_candidates(self) -> int:
         return 6
 
-    def discs_px(self) -> np.ndarray:
+    def candidate_px(self) -> np.ndarray:
         return self.disc_px
 
     def hand_area(self) -> np.ndarray:
         return np.array([self.disc_px.min(axis=0), self.disc_px.max(axis=0)])
 
-    def marker_at(self, pixel: np.ndarray) -> FoundMarker | None:
+    def find_marker(self, pixel: np.ndarray) -> FoundMarker | None:
         distance = np.linalg.norm(self.disc_px - pixel, axis=1)
         nearest = int(distance.argmin())
         return FoundMarker(self.disc_px[nearest], 10.0) if distance[nearest] < 8.0 else None
 
-    def propose(self, named: Mapping[str, np.ndarray]) -> dict[str, ProposedMarker]:
+    def propose_labels(self, named: Mapping[str, np.ndarray]) -> dict[str, LabelProposal]:
         return {
-            name: ProposedMarker(pixel, 10.0, name not in self.doubtful)
+            name: LabelProposal(pixel, 10.0, name not in self.doubtful)
             for name, pixel in zip(self.protocol.markers, self.disc_px, strict=True)
             if name not in named and name not in self.not_found
         }
 
-    def judge(self, clicks: Clicks, start_angles_rad: np.ndarray) -> Judged:
+    def assess(self, clicks: Clicks, start_angles_rad: np.ndarray) -> CalibrationAssessment:
         self.judged.append(clicks)
         self.angles.append(start_angles_rad)
         perfect = calibration(self.pictures)
@@ -544,9 +558,9 @@ class FakeCalibrator:
         tilt = next((finding for finding in self.findings if finding.kind == "tilt"), None)
         if tilt is not None:
             verdict = replace(verdict, tilt_deg=tilt.value)
-        return Judged(verdict, perfect if verdict.can_start else None)
+        return CalibrationAssessment(verdict, perfect if verdict.can_start else None)
 
-    def begin(self, calibration: Calibration) -> None:
+    def start_tracking(self, calibration: Calibration) -> None:
         self.begun = calibration
 
 
@@ -574,7 +588,7 @@ def sessions_of_linden() -> Mapping[str, Session]:
 class FakeSessions:
     """Seven sessions of Linden 42 that get better, and one of the other hand."""
 
-    hand_values: Sequence[HandValue] = ()
+    hand_values: Sequence[ManualValue] = ()
 
     def __init__(self, pictures: bool = True) -> None:
         self.sessions = dict(sessions_of_linden())
@@ -583,13 +597,13 @@ class FakeSessions:
         self.owners: dict[str, str] = {}
         self.pictures = pictures
 
-    def pictures_of(self, side: str) -> SimulatedPictures:
+    def pictures_of(self, side: str) -> SimulatedRecording:
         return simulated(seconds=62.0, speed_hz=0.165, side=side)
 
     def session(self, session_id: str) -> Session:
         return self.sessions[session_id]
 
-    def figures_of(self, session_id: str) -> SessionFigures:
+    def figures_of(self, session_id: str) -> SessionResults:
         return figures_once(self.session(session_id), self.choices(session_id))
 
     def picture(self, session_id: str, row: int) -> ByteImage | None:
@@ -609,34 +623,34 @@ class FakeSessions:
     def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
         self.kept[session_id] = choices
 
-    def history(self, patient_id: str) -> list[SessionFigures]:
+    def history(self, patient_id: str) -> list[SessionResults]:
         return [figures_once(stored, self.choices(key)) for key, stored in self.sessions.items()]
 
-    def by_hand(self, patient_id: str) -> list[HandValue]:
+    def by_hand(self, patient_id: str) -> list[ManualValue]:
         return list(self.hand_values)
 
 
 def home_report(language: str = "", side: Side = "right", names: Sequence[str] = ("WRIST_FE",)) -> HomeReport:
     """The sheet for home of the last session, with an appointment in a week and a goal."""
     store = FakeSessions()
-    made = session_report(store.session("session-7"), history=store.history("linden"), pseudonym="Linden 42")
-    made = replace(made, figures=replace(made.figures, side=side))
-    tasks = tuple(HomeTask(exercise_named(name), 10, 3) for name in names)
-    way = OwnWay((date(2026, 10, 2), date(2026, 11, 6), NOW.date()), (25.0, 36.0, 47.0), 60.0, True)
+    made = build_session_report(store.session("session-7"), history=store.history("linden"), pseudonym="Linden 42")
+    made = replace(made, figures=replace(made.results, side=side))
+    tasks = tuple(HomeTask(get_exercise(name), 10, 3) for name in names)
+    way = HomeProgress((date(2026, 10, 2), date(2026, 11, 6), NOW.date()), (25.0, 36.0, 47.0), 60.0, True)
     return HomeReport(made, tasks, NOW.date(), date(2026, 11, 27), "11:30", "", way, language)
 
 
-def hand_values_today() -> list[HandValue]:
+def hand_values_today() -> list[ManualValue]:
     """What a goniometer said on the day of the last session, of the wrist and of a finger that the camera lost."""
     said = (("FLEXION", 48.0, 60.0), ("EXTENSION", 40.0, 52.0), ("PIP4_FLEXION", 70.0, 90.0))
     return [
-        HandValue(name, way, "right", NOW.date(), (value,), by="M. K.")
+        ManualValue(name, way, "right", NOW.date(), (value,), rater="M. K.")
         for name, active, passive in said
         for way, value in (("active", active), ("passive", passive))
     ]
 
 
-def hand_values() -> list[HandValue]:
+def hand_values() -> list[ManualValue]:
     """What somebody measured by hand on three days, in the order in which it was entered."""
     found = []
     for day, (flexion, passive, grip, score) in {
@@ -645,13 +659,13 @@ def hand_values() -> list[HandValue]:
         date(2026, 11, 20): (47.0, 58.0, (18.0, 19.0, 17.0), 46.5),
     }.items():
         found += [
-            HandValue("FLEXION", "active", "right", day, (flexion,), by="MK"),
-            HandValue("FLEXION", "passive", "right", day, (passive,), by="MK"),
-            HandValue("GRIP", "", "right", day, grip, by="MK"),
-            HandValue("PRWE", "", "", day, (score,), by="MK"),
+            ManualValue("FLEXION", "active", "right", day, (flexion,), rater="MK"),
+            ManualValue("FLEXION", "passive", "right", day, (passive,), rater="MK"),
+            ManualValue("GRIP", "", "right", day, grip, rater="MK"),
+            ManualValue("PRWE", "", "", day, (score,), rater="MK"),
         ]
-    other = HandValue("GRIP", "", "left", date(2026, 10, 2), (34.0, 33.0, 35.0), by="MK")
-    size = HandValue("WRIST_ROUND", "", "right", date(2026, 11, 13), (17.6,), "over both styloids", "MK")
+    other = ManualValue("GRIP", "", "left", date(2026, 10, 2), (34.0, 33.0, 35.0), rater="MK")
+    size = ManualValue("WRIST_ROUND", "", "right", date(2026, 11, 13), (17.6,), "over both styloids", "MK")
     return [*found, other, size]
 
 
@@ -667,13 +681,13 @@ class FakeCorrections(Corrections):
         return self._sessions.picture(session_id, row) if self._pictures else None, spots
 
 
-def retest_studies() -> list[StudyFigures]:
+def retest_studies() -> list[RetestAnalysis]:
     """One of ten people, with a figure of which few are sure, and one of too few."""
     ends = {
         ("flexion", "flexion"): (2.4, 6.6), ("flexion", "extension"): (2.7, 7.5), ("flexion", "arc"): (3.1, 8.6),
     }  # fmt: skip
     found = {
-        key: Retest(
+        key: RetestResult(
             10, 20, 0.9, (0.7, 0.97), 0.92, (0.74, 0.98), sem, (0.7 * sem, 1.6 * sem), 9.0, mdc,
             (0.7 * mdc, 1.6 * mdc), math.nan, 0.2,
         )
@@ -681,8 +695,8 @@ def retest_studies() -> list[StudyFigures]:
     }  # fmt: skip
     few = {key: replace(one, people=3, readings=6) for key, one in found.items()}
     found["PIP3_flexion", "arc"] = replace(found["flexion", "arc"], people=2, mdc95_interval=(7.2, 86.0))
-    left = (LeftOut("a", "once"), LeftOut("b", "too_late"), LeftOut("c", "forearm_moved"))
+    left = (ExcludedSession("a", "once"), ExcludedSession("b", "too_late"), ExcludedSession("c", "forearm_moved"))
     return [
-        StudyFigures("wrist6", "WRIST_FE", "zyx", 10, 20, 2, False, found, left),
-        StudyFigures("wrist6", "WRIST_RU", "zyx", 3, 6, 0, False, few, ()),
+        RetestAnalysis("wrist6", "WRIST_FE", "zyx", 10, 20, 2, False, found, left),
+        RetestAnalysis("wrist6", "WRIST_RU", "zyx", 3, 6, 0, False, few, ()),
     ]

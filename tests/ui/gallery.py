@@ -21,56 +21,56 @@ from PySide6.QtWidgets import QApplication, QWidget
 from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
-from carpus.core.records.corrections import Difference
+from carpus.core.records.corrections import ResultDifference
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.set_up import USUAL_SETS
+from carpus.core.records.set_up import DEFAULT_SETS
 from carpus.core.records.values import SessionEntry
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.report_form import Letterhead, ReportForm
-from carpus.core.results.seen import joint_curves, session_curves
+from carpus.core.results.seen import joint_curves, wrist_curves
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, Side
-from carpus.core.words import Words
+from carpus.core.words import MessageText
 from carpus.ui import numbers
 from carpus.ui.background import Background
-from carpus.ui.beside.screen import BesideScreen
-from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
-from carpus.ui.camera_calibration.screen import BoardScreen
-from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.controls.sheet import Sheet
+from carpus.ui.beside.screen import ComparisonScreen
+from carpus.ui.by_hand.screen import ManualMeasurementsScreen, ManualRecord
+from carpus.ui.camera_calibration.screen import CameraCalibrationScreen
+from carpus.ui.check_card.screen import CheckCardScreen
+from carpus.ui.controls.sheet import Dialog
 from carpus.ui.correct.flow import difference_words
-from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
-from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.correct.results_sheet import ResultPair, ResultsDialog
+from carpus.ui.correct.screen import CorrectionScreen
 from carpus.ui.fault_words import fault_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.help.screen import HelpScreen
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.messages.messages import Answer, NoticeStrip, StopCard
+from carpus.ui.messages.messages import Answer, MessageDialog, NoticeStrip
 from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import Preferences
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
-from carpus.ui.records.erasing import EraseSheet
-from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
-from carpus.ui.records.locking import LockSheet, PinSheet
-from carpus.ui.report.gather import progress_report, session_report
+from carpus.ui.records.erasing import DeleteDialog
+from carpus.ui.records.lists import ListedRecord, LogDialog, RecordsDialog
+from carpus.ui.records.locking import LockScreen, PinDialog
+from carpus.ui.report.gather import build_progress_report, build_session_report
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pages import Report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.sheets import HomeSheet, LetterSheet
+from carpus.ui.report.sheets import HomeDialog, LetterDialog
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.sessions.screen import SessionsScreen
-from carpus.ui.settings.retest import RetestSheet
+from carpus.ui.settings.retest import RetestDialog
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.exercise import ExerciseScreen
-from carpus.ui.setup.set_sheet import SetSheet
-from carpus.ui.shell import Shell
+from carpus.ui.setup.set_sheet import SetDialog
+from carpus.ui.shell import MainWindow
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.tour.order import Bubble
@@ -105,7 +105,7 @@ TABS = ("Sessions", "Review", "Progress", "Report")
 TODAY = date(2026, 11, 20)
 SAVED = "Saved 11:37"
 TICK_FRAMES = 30
-LOST = Words(
+LOST = MessageText(
     "The camera has stopped sending images.",
     "Everything recorded so far is saved on this computer.",
     "Plug the camera in again. Tracking and recording then continue automatically.",
@@ -113,7 +113,7 @@ LOST = Words(
     "C-209",
     ("Xtion 1206", "no frame for 2 s"),
 )
-RECOVERED = Words(
+RECOVERED = MessageText(
     "A session of Heron 17 was cut short yesterday at 16:42. It has been recovered.",
     "All data up to 04:12 are safe; at most the last second is missing; more only where the figures came late."
     " The file is marked “recovered”.",
@@ -132,7 +132,7 @@ ERASED_PATIENT = replace(
 LAST_BACKUP = datetime(2026, 11, 15, 18, 4)
 KEPT = "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025"
 DEEDS = [
-    (numbers.report_date(datetime(2026, 11, 20, 9, number)), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
+    (numbers.format_date_time(datetime(2026, 11, 20, 9, number)), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
     for number, (what, detail) in enumerate(
         (("recorded", ""), ("opened", ""), ("exported", "files 7 · by command"), ("erased", "files 4, made 3")), 1
     )
@@ -156,7 +156,7 @@ CHECKS = (
     Check("Screen", "good", "1920 × 1053 for windows"),
 )  # fmt: skip
 ScreenT = TypeVar("ScreenT", bound=QWidget)
-SheetT = TypeVar("SheetT", bound=Sheet)
+SheetT = TypeVar("SheetT", bound=Dialog)
 
 
 class GalleryWindow:
@@ -165,11 +165,11 @@ class GalleryWindow:
     def __init__(self, application: QApplication, theme: ThemeName, size: tuple[int, int], scale: float = 1.0) -> None:
         self.application = application
         self.theme = Theme(theme, scale)
-        self.shell = Shell(self.theme)
+        self.shell = MainWindow(self.theme)
         self.background = Background()
         self.sessions = FakeSessions()
         self.sessions.kept["session-7"] = RepetitionChoices({6: "pain"})
-        self.over: list[Sheet] = []
+        self.over: list[Dialog] = []
         self.shell.resize(*size)
         self.shell.show()
         self.shell.activateWindow()
@@ -179,8 +179,8 @@ class GalleryWindow:
         """Let everything finish that is under way; a page lays its parts out one after the other."""
         for _ in range(6):
             self.application.processEvents()
-            while self.background.busy:
-                self.background.wait()
+            while self.background.is_busy:
+                self.background.join()
                 self.application.processEvents()
 
     def show_state(self, name: str) -> None:
@@ -189,21 +189,21 @@ class GalleryWindow:
         self.settle()
 
     def place(self, steps: int = -1, tab: int = -1, where: str = "Right hand", camera: str = "Camera ready") -> None:
-        bar = self.shell.bar
+        bar = self.shell.top_bar
         bar.show()
-        bar.show_place("Linden 42" if steps >= 0 or tab >= 0 or where else "", where)
+        bar.show_session("Linden 42" if steps >= 0 or tab >= 0 or where else "", where)
         if steps >= 0:
             bar.show_steps(STEPS, steps)
         elif tab >= 0:
             bar.show_tabs(TABS, tab)
         else:
-            bar.show_nothing()
+            bar.clear_navigation()
         bar.camera.show_state("good" if camera else "none", camera)
         bar.disk.show_state("none", "")
-        bar.pill.show_state("off", 0)
+        bar.recording_pill.show_state("off", 0)
         bar.show_recording(False)
-        bar.again.show_words("", "")
-        self.shell.sign.show_lines([])
+        bar.reanalysis_button.show_text("", "")
+        self.shell.banner.show_lines([])
 
     def show(self, screen: ScreenT, first: QWidget | None = None, **place: Any) -> ScreenT:
         """One screen alone, in a :meth:`place` where one is told."""
@@ -211,10 +211,10 @@ class GalleryWindow:
             self.place(**place)
         while self.over:
             sheet = self.over.pop()
-            sheet.close_sheet()
+            sheet.close_dialog()
             sheet.deleteLater()
         self.shell.show_screen(screen, first)
-        stage = self.shell.stage
+        stage = self.shell.screen_stack
         for old in [stage.widget(number) for number in range(stage.count())]:
             if old is not screen:  # every change of style would go through all that were ever shown
                 stage.removeWidget(old)
@@ -224,19 +224,19 @@ class GalleryWindow:
         return screen
 
     def shown(self, kind: type[ScreenT]) -> ScreenT:
-        screen = self.shell.stage.currentWidget()
+        screen = self.shell.screen_stack.currentWidget()
         assert isinstance(screen, kind)
         return screen
 
     def sheet(self, kind: Callable[[QWidget, Theme], SheetT], host: QWidget | None = None) -> SheetT:
         """A sheet over the whole stage, taken away with the next screen."""
-        self.over.append(made := kind(host or self.shell.stage, self.theme))
+        self.over.append(made := kind(host or self.shell.screen_stack, self.theme))
         return made
 
     def close(self) -> None:
         """Take the window away."""
         self.shell.close()
-        self.background.wait()
+        self.background.join()
         self.settle()
 
 
@@ -248,7 +248,7 @@ def _then(state: str, act: Callable[[Any], object]) -> State:
     return lambda gallery: act(getattr(gallery, state)())
 
 
-def _under(state: str, kind: type[Sheet], *given: object, **named: object) -> State:
+def _under(state: str, kind: type[Dialog], *given: object, **named: object) -> State:
     """A state with a sheet over it, which begins with what it is given."""
 
     def show(gallery: GalleryWindow) -> None:
@@ -270,9 +270,9 @@ def _guided(state: str, bubble: Bubble) -> State:
 
 def _patient_view(exercise: str, scene: GuideScene, side: Side = "right", *, for_child: bool = False) -> State:
     def show(gallery: GalleryWindow) -> None:
-        gallery.shell.bar.hide()
+        gallery.shell.top_bar.hide()
         view = gallery.show(PatientView(gallery.theme))
-        view.begin(replace(set_up(exercise), side=side, for_child=for_child))
+        view.show_set_up(replace(set_up(exercise), side=side, for_child=for_child))
         view.show_scene(scene)
 
     return show
@@ -296,31 +296,31 @@ class Gallery(GalleryWindow):
     patients_not_found = _then("patients", lambda screen: screen.search.setText("Fir 12"))
 
     def patients_recovered(self) -> None:
-        self.patients().notice_place.addWidget(NoticeStrip(self.theme, RECOVERED, "Re&view it"))
+        self.patients().notice_layout.addWidget(NoticeStrip(self.theme, RECOVERED, "Re&view it"))
 
     patient_form = _then("patients", PatientsScreen.new_patient)
 
     def exercise(self) -> ExerciseScreen:
         screen = ExerciseScreen(self.theme)
-        screen.show_sets(USUAL_SETS)
-        screen.begin(FakeStore().rows[5], set_up(), "right", True, 110.0, 720.0)
-        return self.show(screen, screen.first(), steps=0)
+        screen.show_sets(DEFAULT_SETS)
+        screen.show_patient(FakeStore().rows[5], set_up(), "right", True, 110.0, 720.0)
+        return self.show(screen, screen.initial_focus(), steps=0)
 
     def exercise_hand(self) -> None:
         screen = ExerciseScreen(self.theme)
-        screen.begin(FakeStore().rows[5], set_up("FIST_COMPOSITE", 90.0), "left", False)
-        self.show(screen, screen.first(), steps=0)
+        screen.show_patient(FakeStore().rows[5], set_up("FIST_COMPOSITE", 90.0), "left", False)
+        self.show(screen, screen.initial_focus(), steps=0)
 
     def camera(self) -> None:
         screen = CameraScreen(self.theme)
         screen.set_camera_ready(True)
-        screen.begin(set_up(), "camera")
-        self.show(screen, screen.first(), steps=1)
+        screen.show_set_up(set_up(), "camera")
+        self.show(screen, screen.initial_focus(), steps=1)
 
     def _begin_markers(self, calibrator: FakeCalibrator, shown: ByteImage | None, since: str) -> MarkersScreen:
         screen = MarkersScreen(self.theme, self.background)
         self.show(screen, screen.picture, steps=2)
-        screen.begin(calibrator, shown, since)
+        screen.open_calibrator(calibrator, shown, since)
         self.settle()
         return screen
 
@@ -343,7 +343,7 @@ class Gallery(GalleryWindow):
 
     def markers_start_angle(self) -> None:
         screen, _ = self._markers(2)
-        screen.angle_sheet.begin(np.radians([0.0, 10.0, 0.0]))
+        screen.angle_dialog.open_angles(np.radians([0.0, 10.0, 0.0]))
 
     def _proposed(self, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()) -> MarkersScreen:
         calibrator = FakeCalibrator("fist", protocol="hand21")
@@ -356,9 +356,9 @@ class Gallery(GalleryWindow):
 
     def markers_straight(self) -> None:
         screen = self._proposed()
-        screen.naming.take_all()
+        screen.labelling.accept_all()
         self.settle()
-        screen.guidance.straight.buttons[3].click()
+        screen.guidance.straight_fingers.buttons[3].click()
 
     def markers_other_spot(self) -> None:
         spot = tuple(map(float, FakeCalibrator().disc_px[3] + [14.0, 24.0]))
@@ -367,11 +367,13 @@ class Gallery(GalleryWindow):
     def sessions_list(self) -> None:
         sessions = FakeStoredSessions()
         sessions.set_aside("s2", "discs lost")
-        self.show(SessionsScreen(self.theme, self.background, sessions), tab=0).begin("linden", "Linden 42", "s1")
+        self.show(SessionsScreen(self.theme, self.background, sessions), tab=0).show_patient(
+            "linden", "Linden 42", "s1"
+        )
         self.settle()
 
-    sessions_erase = _under("sessions_list", EraseSheet, ERASED_SESSION, 10, LAST_BACKUP, TODAY)
-    patient_erase = _under("patients", EraseSheet, ERASED_PATIENT, 0, None, TODAY)
+    sessions_erase = _under("sessions_list", DeleteDialog, ERASED_SESSION, 10, LAST_BACKUP, TODAY)
+    patient_erase = _under("patients", DeleteDialog, ERASED_PATIENT, 0, None, TODAY)
 
     def _live(
         self, feed: FakeFeed | None = None, seconds: float = 25.0, *, hidden: Sequence[tuple[float, float, str]] = (),
@@ -383,30 +385,30 @@ class Gallery(GalleryWindow):
         feed = feed or FakeFeed(seconds=32.0, hidden=hidden, lost=lost)
         self.place(where="Right hand · Wrist flexion–extension", camera="30 pictures/s")
         screen = self.show(LiveScreen(self.theme, self.background))
-        screen.begin(FakeMeasuring(feed), set_up("FIST_COMPOSITE", 90.0) if whole_hand else set_up())
+        screen.open_source(FakeMeasuring(feed), set_up("FIST_COMPOSITE", 90.0) if whole_hand else set_up())
         screen._timer.stop()
         feed.picture_number = 0
         feed.step(2)
-        screen.tick()
+        screen.draw()
         screen.recording.toggle()
         self.settle()
         left = round(30 * seconds) - 1
         while left > 0:  # some at a time, as a busy window looks
             feed.step(min(left, TICK_FRAMES))
             left -= TICK_FRAMES
-            screen.tick()
+            screen.draw()
         feed.picture_number = None
         feed.step()
         for _ in range(2 * 20):
-            screen.tick()
-        bar = self.shell.bar
+            screen.draw()
+        bar = self.shell.top_bar
         bar.disk.show_state("none", "212 min of disk left", icon="hard-drive")
-        bar.pill.show_state("recording", 84.0)
+        bar.recording_pill.show_state("recording", 84.0)
         bar.show_recording(True)
         self.settle()
         if whole_hand:
-            bar.show_place("Linden 42", "Right hand · Full fist")
-            screen.on_picture.toggle_side()
+            bar.show_session("Linden 42", "Right hand · Full fist")
+            screen.frame_overlay.toggle_side()
         return screen
 
     live = partialmethod(_live, hidden=[(16.0, 16.9, "CMC1")])
@@ -416,10 +418,10 @@ class Gallery(GalleryWindow):
         """Stopped on a busy computer: the newest picture by itself, and how long it takes until all is tracked."""
         screen = self._live(feed := LateFeed(seconds=32.0))
         feed.ahead_s, feed.waiting = 21.0, 1200
-        screen.recording.under_way = True
+        screen.recording.is_busy = True
         screen._show_values()
         feed.waiting = 500
-        screen.tick()
+        screen.draw()
         screen._show_values()
 
     live_speeds = _then("_live", LiveScreen.toggle_speeds)
@@ -429,7 +431,7 @@ class Gallery(GalleryWindow):
         """On the whole hand, where the picture has least room for it."""
         feed = FakeFeed("fist", 32.0, protocol="hand21")
         with_other_spot(feed, 9, 23.0, taken=True, off_px=(6.0, 20.0))
-        self._live(feed, whole_hand=True).on_picture.toggle_side()  # back to the usual view
+        self._live(feed, whole_hand=True).frame_overlay.toggle_side()  # back to the usual view
 
     live_hand_lost = partialmethod(_live, lost=[(23.5, 30.0)])
     live_hand = partialmethod(_live, whole_hand=True)
@@ -447,19 +449,19 @@ class Gallery(GalleryWindow):
         feed = FakeFeed(seconds=32.0)
         for number, frame in enumerate(feed.frames):
             if number > 30 * 23.5:
-                feed.frames[number] = with_moment(frame, position_m=frame.moment.position_m + [0.0, 0.021, 0.004])
+                feed.frames[number] = with_moment(frame, position_m=frame.kinematics.position_m + [0.0, 0.021, 0.004])
         self._live(feed)
 
     def live_disk_full(self) -> None:
         screen = self._live(feed := FakeFeed(seconds=32.0))
-        self.shell.bar.disk.show_state("bad", "Disk full")
-        self.shell.bar.pill.show_state("off", 0.0)
-        self.shell.bar.show_recording(False)
-        feed.recording = False
+        self.shell.top_bar.disk.show_state("bad", "Disk full")
+        self.shell.top_bar.recording_pill.show_state("off", 0.0)
+        self.shell.top_bar.show_recording(False)
+        feed.is_recording = False
         screen.controls.refresh()
         answers = [Answer("To the patients", lambda: None, "P"), Answer("Go on measuring", lambda: None, "Space")]
         words = fault_words(DiskFull("session.h5", "no space left"))
-        StopCard(screen.stage, self.theme).show_words(words, answers, icon="hard-drive")
+        MessageDialog(screen.stage, self.theme).show_words(words, answers, icon="hard-drive")
 
     live_note = _then("_live", lambda screen: screen.note_sheet.begin())
     live_pain = _then("_live", lambda screen: screen.pain_sheet.begin())
@@ -468,16 +470,16 @@ class Gallery(GalleryWindow):
         screen = self._live()
         screen.set_camera_lost(True)
         for _ in range(30):
-            screen.tick()
-        bar = self.shell.bar
+            screen.draw()
+        bar = self.shell.top_bar
         bar.camera.show_state("bad", "No camera")
-        bar.pill.show_state("paused", 84.0)
+        bar.recording_pill.show_state("paused", 84.0)
         bar.show_recording(False)
-        card = StopCard(screen.stage, self.theme)
+        card = MessageDialog(screen.stage, self.theme)
         answers = [Answer("Check camera", lambda: None, "C"), Answer("Stop and review", screen.recording.stop, "Space")]
         detail, safe_detail = "Recording paused by itself at 01:24.", "All 1 min 24 s and 3 full repetitions."
         card.show_words(LOST, answers, icon="unplug", detail=detail, safe_detail=safe_detail)
-        card.set_waiting("Waiting for the camera … 7 s")
+        card.set_wait_text("Waiting for the camera … 7 s")
 
     patient_view = _patient_view("WRIST_FE", GuideScene("out", 1, 42.0, 60.0, done=5, asked=10))
     patient_view_goal = _patient_view(
@@ -486,7 +488,7 @@ class Gallery(GalleryWindow):
     patient_view_child = _patient_view("WRIST_RU", GuideScene("out", 1, 14.0, 20.0, done=5, asked=10), for_child=True)
     patient_view_lost = _patient_view("FOREARM_PS", GuideScene("lost", 1, goal_deg=70.0, done=5, asked=10))
     patient_view_rest = _patient_view("WRIST_RU", GuideScene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
-    exercise_sets = _under("exercise", SetSheet, USUAL_SETS, "wrist6")
+    exercise_sets = _under("exercise", SetDialog, DEFAULT_SETS, "wrist6")
 
     def exercise_goals(self) -> None:
         self.exercise().show_history("linden", self.sessions.history("linden"))
@@ -496,13 +498,13 @@ class Gallery(GalleryWindow):
         at_s: float = 20.6,
     ) -> ReviewScreen:  # fmt: skip
         screen = ReviewScreen(self.theme, self.background, store or self.sessions)
-        self.show(screen, tab=1, camera=SAVED).begin("linden", session_id, may_repeat=True)
+        self.show(screen, tab=1, camera=SAVED).load_session("linden", session_id, may_repeat=True)
         self.settle()
         if finger >= 0:
             screen.charts.finger.buttons()[finger].click()
         if view:
             screen.player.view.setCurrentIndex(screen.player.view.findData(view))
-        screen.playing.seek(at_s)
+        screen.playing.set_time(at_s)
         self.settle()
         screen.playing.stop()
         return screen
@@ -530,8 +532,8 @@ class Gallery(GalleryWindow):
 
     def review_hand_picture(self) -> None:
         screen = self.review()
-        screen.hand_picture.begin()
-        screen.hand_picture.agreed.click()
+        screen.hand_image_dialog.open_form()
+        screen.hand_image_dialog.consent_check.click()
 
     review_path = partialmethod(_review, view="path")
     review_speeds = partialmethod(_review, view="place")
@@ -553,36 +555,38 @@ class Gallery(GalleryWindow):
     review_opposition = partialmethod(_review_exercise, "THUMB_OPP", "opposition", 0)
     review_finger_ways = partialmethod(_review_exercise, "THUMB_OPP", "opposition", 1)
 
-    def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectScreen:
+    def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectionScreen:
         """With ``wrong_px``, where the middle knuckle was taken to be."""
         store = FakeCorrections(self.sessions, pictures=pictures)
-        screen = self.show(CorrectScreen(self.theme, self.background, store), tab=1, camera=SAVED)
+        screen = self.show(CorrectionScreen(self.theme, self.background, store), tab=1, camera=SAVED)
         session = self.sessions.session("session-7")
         if wrong_px is not None:
             measured = session.markers.measured_px.copy()
             measured[620, 3] = wrong_px
             session = replace(session, markers=replace(session.markers, measured_px=measured))
-        screen.begin("session-7", session, 620)
+        screen.show_session("session-7", session, 620)
         self.settle()
         return screen
 
     def correct(self) -> None:
         """A name that stood where there is no disc has been put on its own."""
         right_px = self.sessions.session("session-7").markers.measured_px[620, 3]
-        self._correct(wrong_px=(right_px[0] - 10.0, right_px[1] + 36.0)).put("MCP3", right_px)
+        self._correct(wrong_px=(right_px[0] - 10.0, right_px[1] + 36.0)).place_marker("MCP3", right_px)
 
     correct_spots = partialmethod(_correct, pictures=False)
     correct_exchanged = _then("_correct", lambda screen: screen.put("MCP3", screen.places.before(620)[4]))
 
     def _results(self, old: Session, new: Session) -> None:
         self.place(tab=1, camera=SAVED)
-        self.shell.bar.again.show_words("New result: choose", "Choose")
-        sheet = self.sheet(ResultsSheet)
-        both = BothResults(
-            session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new)
+        self.shell.top_bar.reanalysis_button.show_text("New result: choose", "Choose")
+        sheet = self.sheet(ResultsDialog)
+        both = ResultPair(
+            compute_session_results(new), wrist_curves(old), wrist_curves(new), joint_curves(old), joint_curves(new)
         )
-        words = difference_words(Difference(1240, 212, 0.3, 39.2, 3, "flexion", ("MCP3",), live=True), ("MCP3",))
-        sheet.show_both(CORRECTED, words, both)
+        words = difference_words(
+            ResultDifference(1240, 212, 0.3, 39.2, 3, "flexion", ("MCP3",), is_live=True), ("MCP3",)
+        )
+        sheet.show_results(CORRECTED, words, both)
         sheet.begin()
         sheet.curves.set_time(12.0)
 
@@ -598,22 +602,22 @@ class Gallery(GalleryWindow):
 
     def correct_running(self) -> None:
         self.show_state("correct")
-        self.shell.bar.again.show_words("Tracking again 63 %", "63 %")
-        sheet = self.sheet(ResultsSheet)
+        self.shell.top_bar.reanalysis_button.show_text("Tracking again 63 %", "63 %")
+        sheet = self.sheet(ResultsDialog)
         sheet.show_running(CORRECTED, 63)
         sheet.begin()
 
-    def _beside(self, store: FakeSessions, one: str, other: str) -> BesideScreen:
-        screen = self.show(BesideScreen(self.theme, self.background, store), tab=1, camera="")
-        screen.begin((one, other), "right")
+    def _beside(self, store: FakeSessions, one: str, other: str) -> ComparisonScreen:
+        screen = self.show(ComparisonScreen(self.theme, self.background, store), tab=1, camera="")
+        screen.load_sessions((one, other), "right")
         self.settle()
-        starts = screen.together.step.starts_s
-        screen.playing.seek(starts[3] + 1.0 if len(starts) > 3 else 2.0)
+        starts = screen.alignment.step.starts_s
+        screen.playing.set_time(starts[3] + 1.0 if len(starts) > 3 else 2.0)
         self.settle()
         screen.playing.stop()
         return screen
 
-    def beside(self) -> BesideScreen:
+    def beside(self) -> ComparisonScreen:
         """The healthy hand of the same day."""
         store = FakeSessions()
         store.kept["session-7"] = RepetitionChoices({6: "pain"})
@@ -635,12 +639,12 @@ class Gallery(GalleryWindow):
     def beside_reading(self) -> None:
         never = Background()
         never.run = lambda *_: None  # type: ignore[method-assign]
-        screen = BesideScreen(self.theme, never, self.sessions)
-        self.show(screen, tab=1, camera="").begin(("session-1", "session-7"))
+        screen = ComparisonScreen(self.theme, never, self.sessions)
+        self.show(screen, tab=1, camera="").load_sessions(("session-1", "session-7"))
 
     def progress(self, store: FakeSessions | None = None, session_id: str = "session-7") -> None:
         screen = ProgressScreen(self.theme, self.background, store or self.sessions)
-        self.show(screen, tab=2, camera="").begin("linden", session_id)
+        self.show(screen, tab=2, camera="").load_patient("linden", session_id)
 
     def progress_by_hand(self) -> None:
         store = FakeSessions()
@@ -651,26 +655,26 @@ class Gallery(GalleryWindow):
         self.progress(FakeHandSessions(), "hand-7")
 
     def by_hand(self) -> None:
-        screen = self.show(ByHandScreen(self.theme, lambda: TODAY), tab=2, camera="")
+        screen = self.show(ManualMeasurementsScreen(self.theme, lambda: TODAY), tab=2, camera="")
         figures = sorted(self.sessions.history("linden"), key=lambda one: one.when)
-        screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
+        screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
 
     def _report(self, made: Report) -> None:
-        self.show(ReportScreen(self.theme, self.background), tab=3, camera="").begin(made, "")
+        self.show(ReportScreen(self.theme, self.background), tab=3, camera="").show_report(made, "")
         self.settle()
 
     def _session_report(self, **look: Any) -> SessionReport:
-        return session_report(self.sessions.session("session-7"), history=self.sessions.history("linden"), **look)
+        return build_session_report(self.sessions.session("session-7"), history=self.sessions.history("linden"), **look)
 
     def report(self) -> None:
         self._report(self._session_report(choices=self.sessions.choices("session-7")))
 
     def report_hand(self) -> None:
         store = FakeHandSessions()
-        self._report(session_report(store.session("hand-7"), history=store.history("linden")))
+        self._report(build_session_report(store.session("hand-7"), history=store.history("linden")))
 
     def report_progress(self) -> None:
-        self._report(progress_report(self.sessions.history("linden")))
+        self._report(build_progress_report(self.sessions.history("linden")))
 
     def report_own(self) -> None:
         """The clinic's letterhead on US Letter, a comment, a part left out."""
@@ -683,16 +687,16 @@ class Gallery(GalleryWindow):
 
     def letter_sheet(self) -> None:
         self.report_own()
-        sheet = self.sheet(LetterSheet)
-        sheet.begin([DOCTOR], has_name=True)
-        sheet.names.setChecked(True)
+        sheet = self.sheet(LetterDialog)
+        sheet.open_form([DOCTOR], has_name=True)
+        sheet.name_check.setChecked(True)
 
     def report_home(self) -> None:
         self._report(home_report())
 
     def home_sheet(self) -> None:
         self.report_own()
-        self.sheet(HomeSheet).begin(session_report(self.sessions.session("session-7")), TODAY)
+        self.sheet(HomeDialog).open_form(build_session_report(self.sessions.session("session-7")), TODAY)
 
     def settings(self) -> SettingsScreen:
         chosen = Preferences(
@@ -708,29 +712,29 @@ class Gallery(GalleryWindow):
         backup.show_facts(OLD_BACKUP)
         lock.show_pin(is_set=True)
         screen.add_cards("safety", backup, lock, RecordsCard(self.theme, 10, (0, 3, 5, 10, 15, 20, 30)))
-        screen.choose("safety")
+        screen.show_page("safety")
 
-    settings_retest = _under("settings_measuring", RetestSheet, retest_studies(), 1, TODAY)
+    settings_retest = _under("settings_measuring", RetestDialog, retest_studies(), 1, TODAY)
 
     def settings_research(self) -> None:
         screen = self.settings()
-        screen.choose("research")
-        screen.chosen["research"].click()
+        screen.show_page("research")
+        screen.form["research"].click()
 
     def locked(self) -> None:
         self.patients()
-        sheet = self.sheet(LockSheet, self.shell)
-        sheet.begin(sheet.reason(datetime(2026, 11, 20, 11, 52), 10), stored=True)
-        sheet.line.setText("4821")
-        sheet.refuse(4, 0)
+        sheet = self.sheet(LockScreen, self.shell)
+        sheet.lock(sheet.lock_reason(datetime(2026, 11, 20, 11, 52), 10), is_session_saved=True)
+        sheet.pin_field.setText("4821")
+        sheet.show_wrong_pin(4, 0)
 
-    pin_change = _under("patients", PinSheet, is_set=True)
+    pin_change = _under("patients", PinDialog, is_set=True)
     records_due = _under(
-        "patients", RecordsSheet, "What is due",
+        "patients", RecordsDialog, "What is due",
         "Their last session is more than 10 years ago. Nothing goes by itself.",
         [ListedRecord(name, name, KEPT, name[0] < "G") for name in ("Linden 42", "Heron 17", "Fir 12")],
     )  # fmt: skip
-    records_log = _under("patients", LogSheet, DEEDS)
+    records_log = _under("patients", LogDialog, DEEDS)
 
     def help(self) -> None:
         self.show(HelpScreen(self.theme), where="")
@@ -738,7 +742,7 @@ class Gallery(GalleryWindow):
     def _welcome(self, checks: Sequence[Check], *, counts_later: bool = False) -> None:
         screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY)
         panel = WelcomePanel(self.theme)
-        panel.show_folder("/home/clinic/.local/share/carpus", counts_later=counts_later)
+        panel.show_folder("/home/clinic/.local/share/carpus", needs_restart=counts_later)
         panel.show_checks(checks)
         screen.show_welcome(panel)
         self.show(screen, screen.search, where="", camera="")
@@ -756,33 +760,33 @@ class Gallery(GalleryWindow):
     review_guided = _guided("review", "results")
     report_guided = _guided("report", "end")
 
-    def _board(self) -> BoardScreen:
+    def _board(self) -> CameraCalibrationScreen:
         self.place(where="")
-        self.shell.bar.show_place("Camera calibration", "")
-        return self.show(BoardScreen(self.theme))
+        self.shell.top_bar.show_session("Camera calibration", "")
+        return self.show(CameraCalibrationScreen(self.theme))
 
     def board(self) -> None:
         screen = self._board()
-        screen.beginning.show_status(camera_words(checked())[1])
-        screen.beginning.set_camera_there(True)
-        screen.show_beginning()
+        screen.setup_view.show_status(camera_words(checked())[1])
+        screen.setup_view.set_camera_connected(True)
+        screen.show_setup()
 
     def board_showing(self) -> None:
         screen = self._board()
-        screen.show_showing()
-        screen.showing.opened()
+        screen.show_capture()
+        screen.capture_view.show_opened()
         frame, progress = board_progress()
-        screen.showing.show_progress(progress)
-        screen.showing.show_frame(frame.color_rgb)
+        screen.capture_view.show_progress(progress)
+        screen.capture_view.show_frame(frame.color_rgb)
 
     board_result = _then("_board", lambda screen: screen.show_result(board_result()))
     board_poor = _then("_board", lambda screen: screen.show_result(board_result(poor=True)))
 
-    def _card(self, status: CheckStatus) -> CardScreen:
+    def _card(self, status: CheckStatus) -> CheckCardScreen:
         self.place(where="")
-        self.shell.bar.show_place("Check card", "")
-        screen = CardScreen(self.theme)
-        screen.set_camera_there(True)
+        self.shell.top_bar.show_session("Check card", "")
+        screen = CheckCardScreen(self.theme)
+        screen.set_camera_connected(True)
         self.show(screen).show_status(status)
         self.settle()
         return screen

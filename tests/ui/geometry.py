@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.sheet import Dialog
 from carpus.ui.controls.text import ElidedText, Text
 from carpus.ui.shell import FocusRing
 
@@ -126,7 +126,7 @@ def shown_texts(window: QWidget) -> list[str]:
 
 def _topmost(window: QWidget) -> QWidget | None:
     """The sheet that covers all else, if there is one."""
-    sheets = [sheet for sheet in window.findChildren(Sheet) if sheet.isVisible()]
+    sheets = [sheet for sheet in window.findChildren(Dialog) if sheet.isVisible()]
     return sheets[-1] if sheets else None
 
 
@@ -139,7 +139,7 @@ def _labels(window: QWidget) -> list[Painted]:
     found = []
     for label in window.findChildren(QLabel):
         paints_itself = type(label).paintEvent not in (QLabel.paintEvent, Text.paintEvent)
-        if isinstance(label, Text) and label.shown_text != label.text():
+        if isinstance(label, Text) and label.visible_text != label.text():
             continue  # elided, and found as it is painted
         if paints_itself or not label.isVisible() or not label.text().strip():
             continue
@@ -215,7 +215,7 @@ def _crossing(window: QWidget, top: QWidget | None) -> list[str]:
         children = [
             child
             for child in parent.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
-            if child.isVisible() and not child.isWindow() and not isinstance(child, Sheet | FocusRing)
+            if child.isVisible() and not child.isWindow() and not isinstance(child, Dialog | FocusRing)
             and not child.property("floats")
         ]  # fmt: skip
         for number, child in enumerate(children):

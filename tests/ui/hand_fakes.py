@@ -13,7 +13,7 @@ from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.records.values import SessionEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session
-from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.recording import SimulatedRecording
 from tests.ui.fakes import FPS, NOW, FakeSessions, made_once, simulated, stored
 
 SECONDS, SPEED_HZ = 40.0, 0.2
@@ -48,7 +48,7 @@ def hand_session(
     wobble = np.cumsum(rng.normal(0.0, 0.25, (count, len(names))), axis=0)
     wobble = np.clip(wobble - np.linspace(0, 1, count)[:, None] * wobble[-1], -3.0, 3.0)
     joints = share * truth.joint_angles_rad + np.radians(wobble) * 0.5
-    measured = truth.disc_pixel + rng.normal(0.0, 0.2, truth.disc_pixel.shape)
+    measured = truth.marker_px + rng.normal(0.0, 0.2, truth.marker_px.shape)
     for finger in (2, 3, 4, 5):
         bent = np.degrees(joints[:, names.index(f"PIP{finger}_flexion")]) > hides_beyond_deg + 4 * (finger - 3)
         for joint in ("DIP", "TIP"):
@@ -88,9 +88,9 @@ def hand_session(
         (Event(float(truth.timestamp_s[300]), "note", "Swelling less than last week."),),
         status=status, motion=motion_values,
         markers=MarkerSeries(
-            truth.disc_position_cam_m * known[:, None, None],
+            truth.marker_position_cam_m * known[:, None, None],
             measured,
-            np.where(np.isfinite(measured[..., 0]), truth.disc_position_cam_m[..., 2], math.nan),
+            np.where(np.isfinite(measured[..., 0]), truth.marker_position_cam_m[..., 2], math.nan),
             np.zeros(measured.shape[:2], dtype=bool),
         ),
         quality=QualitySeries(
@@ -115,7 +115,7 @@ class FakeHandSessions(FakeSessions):
         self.results: list[SessionEntry] = []
         self.pictures = pictures
 
-    def pictures_of(self, side: str) -> SimulatedPictures:
+    def pictures_of(self, side: str) -> SimulatedRecording:
         return simulated("fist", SECONDS, SPEED_HZ, side, "hand21")
 
 

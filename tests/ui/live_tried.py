@@ -5,9 +5,9 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import SessionSetup
 from carpus.ui.live.number_card import Reading
-from carpus.ui.live.recording import HASTY_S
+from carpus.ui.live.recording import MIN_RECORDING_S
 from carpus.ui.live.screen import LiveScreen
 from tests.ui.fakes import FakeFeed, FakeMeasuring
 
@@ -15,21 +15,21 @@ from tests.ui.fakes import FakeFeed, FakeMeasuring
 class TriedLive:
     """A shown screen whose time passes only in :meth:`run`."""
 
-    def __init__(self, qtbot: QtBot, screen: LiveScreen, feed: FakeFeed, set_up: SetUp) -> None:
+    def __init__(self, qtbot: QtBot, screen: LiveScreen, feed: FakeFeed, set_up: SessionSetup) -> None:
         self.screen, self.feed = screen, feed
         self._qtbot = qtbot
         self.measuring = FakeMeasuring(feed)
         feed.picture_number = 0
         self.begin(set_up)
 
-    def begin(self, set_up: SetUp) -> None:
-        self.screen.begin(self.measuring, set_up)
+    def begin(self, set_up: SessionSetup) -> None:
+        self.screen.open_source(self.measuring, set_up)
         self.screen._timer.stop()
 
     def run(self, seconds: float) -> None:
         for _ in range(round(seconds * 30 / 2)):
             self.feed.step(2)
-            self.screen.tick()
+            self.screen.draw()
 
     def press(self, key: Qt.Key) -> None:
         self._qtbot.keyClick(self.screen, key)
@@ -37,11 +37,11 @@ class TriedLive:
     def record(self) -> None:
         """A recording that began a moment ago."""
         self.press(Qt.Key.Key_Space)
-        self._qtbot.waitUntil(lambda: self.screen.recording.count is not None)
-        self.screen.recording._begun_at_s -= HASTY_S
-        assert self.feed.recording
+        self._qtbot.waitUntil(lambda: self.screen.recording.counter is not None)
+        self.screen.recording._started_at_s -= MIN_RECORDING_S
+        assert self.feed.is_recording
 
     def reading(self) -> Reading:
         """The large number now."""
         self.screen._show_values()
-        return self.screen.number.reading
+        return self.screen.number_card.reading

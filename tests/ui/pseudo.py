@@ -42,13 +42,13 @@ def is_pseudo(text: str) -> bool:
 def spoken(code: str = CODE) -> Iterator[None]:
     """The window speaks it meanwhile, with German numbers and dates."""
     if code == CODE:
-        language.learn(CODE, lambda context, text: pseudo(text), QLocale("de_DE"))
+        language.register_language(CODE, lambda context, text: pseudo(text), QLocale("de_DE"))
     before = QLocale()
-    language.speak(code)
+    language.set_window_language(code)
     try:
         yield
     finally:
-        language.speak("en")
+        language.set_window_language("en")
         QLocale.setDefault(before)
 
 

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measures_table import measure_rows
-from carpus.core.results.progress import previous_of, progress, unfair_reasons
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.measures_table import build_measure_rows
+from carpus.core.results.progress import compute_progress, find_previous, incomparable_reasons
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
 from carpus.core.session.values import Event, Session
 from carpus.ui.report.gather import write_session_report
-from carpus.ui.words.active_passive import BY_HAND, active_passive
-from carpus.ui.words.progress import unfair_words
+from carpus.ui.words.active_passive import MANUAL_SIGN, build_active_passive
+from carpus.ui.words.progress import exclusion_words
 from carpus.ui.words.ranges import repetition_words
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once, hand_values_today, session
@@ -38,26 +38,28 @@ def helped_session(*events: tuple[float, str]) -> Session:
     return replace(made, motion=motion, events=said)
 
 
-def mean_of(figures: SessionFigures | None) -> float:
+def mean_of(figures: SessionResults | None) -> float:
     return figures.find("flexion", "flexion").mean
 
 
 def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    helped = [number for number, one in enumerate(figures.repetitions) if one.helped]
-    assert figures.counted >= 3
-    assert figures.as_passive().counted == len(helped) >= 3
-    assert figures.counted + len(helped) == len([one for one in figures.repetitions if not one.unmeasured])
-    assert mean_of(figures) < 0.75 * mean_of(figures.as_passive())
+    helped = [number for number, one in enumerate(figures.repetitions) if one.is_passive]
+    assert figures.repetition_count >= 3
+    assert figures.passive_results().repetition_count == len(helped) >= 3
+    assert figures.repetition_count + len(helped) == len(
+        [one for one in figures.repetitions if not one.unmeasured_reason]
+    )
+    assert mean_of(figures) < 0.75 * mean_of(figures.passive_results())
     left_out = RepetitionChoices(dict.fromkeys(helped, "pain"))
     assert mean_of(figures) == mean_of(figures_once(helped_session(), left_out)), "as if it had been left out"
-    rows = {row.of for row in measure_rows(figures, "s")}
+    rows = {row.of for row in build_measure_rows(figures, "s")}
     assert {"flexion", "flexion, passive"} <= rows
 
 
 @pytest.mark.parametrize("exercise", ["FREE", "REACH_GRASP"])
 def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exercise: str) -> None:
-    def free(*events: tuple[float, str]) -> SessionFigures:
+    def free(*events: tuple[float, str]) -> SessionResults:
         made = helped_session(*events)
         return figures_once(replace(made, header=replace(made.header, exercise=exercise)))
 
@@ -72,19 +74,19 @@ def test_a_session_that_is_passive_only_is_named_so_and_has_no_empty_column() ->
     later = replace(
         figures_once(session()), when=helped.when + timedelta(days=7), session_id="later", recording_id="later"
     )
-    assert unfair_reasons(helped, helped) == ("only_passive",)
-    found = progress([helped, later])
-    words = unfair_words(found.points[0], found)
+    assert incomparable_reasons(helped, helped) == ("only_passive",)
+    found = compute_progress([helped, later])
+    words = exclusion_words(found.points[0], found)
     assert "no active repetition" in words
     assert "ring" not in words, "there is none"
-    assert previous_of([helped, later], later) is None, "it has nothing to be beside"
+    assert find_previous([helped, later], later) is None, "it has nothing to be beside"
 
 
 def test_a_passive_repetition_that_was_hidden_says_that() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    number = next(number for number, one in enumerate(figures.repetitions) if one.helped)
+    number = next(number for number, one in enumerate(figures.repetitions) if one.is_passive)
     shown = list(figures.repetitions)
-    shown[number] = replace(shown[number], unmeasured="hidden")
+    shown[number] = replace(shown[number], unmeasured_reason="hidden")
     assert f"number {number + 1} left out: not seen well enough" in repetition_words(
         replace(figures, repetitions=tuple(shown))
     )
@@ -92,54 +94,56 @@ def test_a_passive_repetition_that_was_hidden_says_that() -> None:
 
 def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> None:
     made = FakeHandSessions().session("hand-7")
-    assert figures_once(made).group("task")
+    assert figures_once(made).measures_in_group("task")
     helped = replace(made, events=(Event(float(made.timestamp_s[0]), PASSIVE, ""),))
     everything = figures_once(helped)
     assert everything.has_passive
-    assert not everything.group("task"), "nothing was active"
-    assert figures_once(helped, RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))).group("task")
+    assert not everything.measures_in_group("task"), "nothing was active"
+    assert figures_once(
+        helped, RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))
+    ).measures_in_group("task")
 
 
 def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
     made = helped_session((HELPED_S, PASSIVE))
-    helped = [number for number, one in enumerate(figures_once(made).repetitions) if one.helped]
+    helped = [number for number, one in enumerate(figures_once(made).repetitions) if one.is_passive]
     taken_back = figures_once(made, RepetitionChoices({helped[0]: ""}))
-    assert taken_back.repetitions[helped[0]].counts
+    assert taken_back.repetitions[helped[0]].is_counted
     assert not figures_once(helped_session((0.0, PASSIVE), (0.5, ACTIVE))).has_passive
     everything = figures_once(helped_session((0.0, PASSIVE)))
-    assert everything.counted == 0
+    assert everything.repetition_count == 0
     assert not everything.wrist_ranges, "nothing was active"
     assert everything.has_passive
-    assert active_passive(everything, ()) is not None
+    assert build_active_passive(everything, ()) is not None
 
 
 def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    found = active_passive(figures, hand_values_today())
+    found = build_active_passive(figures, hand_values_today())
     flexion = next(row for row in found.table.rows if row[0] == "Flexion")
-    assert flexion[4] == f"{BY_HAND} 48° / 60°"
+    assert flexion[4] == f"{MANUAL_SIGN} 48° / 60°"
     assert f"{mean_of(figures):.0f}°" in flexion[1]
-    assert f"{mean_of(figures.as_passive()):.0f}°" in flexion[2]
+    assert f"{mean_of(figures.passive_results()):.0f}°" in flexion[2]
     assert "error" in flexion[3]
-    assert "when helped" in found.said
-    assert active_passive(figures_once(session()), ()) is None, "one way alone has no table"
+    assert "when helped" in found.sentence
+    assert build_active_passive(figures_once(session()), ()) is None, "one way alone has no table"
 
 
 def test_where_passive_went_less_far_the_table_says_so_and_the_sentence_keeps_the_sign() -> None:
-    found = active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
+    found = build_active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
     arc = next(row for row in found.table.rows if row[0] == "Whole arc")
     assert arc[3].startswith("\N{MINUS SIGN}")
     assert "error" in arc[3]
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    made = with_ranges(figures, lambda row: {"mean": -12.0} if row.what == "flexion" and not row.passive else {})
-    assert "\N{MINUS SIGN}12° by itself" in active_passive(made, ()).said, "it does not reach neutral"
+    made = with_ranges(figures, lambda row: {"mean": -12.0} if row.quantity == "flexion" and not row.is_passive else {})
+    assert "\N{MINUS SIGN}12° by itself" in build_active_passive(made, ()).sentence, "it does not reach neutral"
 
 
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:
     figures = figures_once(FakeHandSessions().session("hand-7"))
-    found = active_passive(figures, hand_values_today())
+    found = build_active_passive(figures, hand_values_today())
     ring = next(row for row in found.table.rows if row[0] == "Ring")
-    assert f"{BY_HAND} 70° / 90°" in ring
+    assert f"{MANUAL_SIGN} 70° / 90°" in ring
     assert any(cell.startswith("≥") for row in found.table.rows for cell in row)
     assert not any(head.endswith("passive") for head in found.table.heads), "nothing was passive: no column of it"
 
@@ -148,5 +152,5 @@ def test_the_report_prints_both_and_what_was_measured_by_hand(tmp_path: Path) ->
     path = write_session_report(helped_session((HELPED_S, PASSIVE)), tmp_path / "both.pdf", by_hand=hand_values_today())
     words = words_of(path)
     assert "Active and passive" in words
-    assert f"{BY_HAND} 48° / 60°" in words
+    assert f"{MANUAL_SIGN} 48° / 60°" in words
     assert "passive beside it" in words

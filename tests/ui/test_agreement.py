@@ -6,32 +6,32 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QRectF
 
-from carpus.core.agreement.compare import Pairs
-from carpus.core.agreement.statistics import agreement, judged
+from carpus.core.agreement.compare import AnglePairs
+from carpus.core.agreement.statistics import compute_agreement, judge_agreement
 from carpus.ui.plot.agreement import AgreementPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
-from carpus.ui.words.agreement import angle_name, interval, signed
+from carpus.ui.words.agreement import angle_name, format_difference, format_interval
 
 
-def of(name: str, bias: float, sd: float, count: int = 200) -> Pairs:
+def of(name: str, bias: float, sd: float, count: int = 200) -> AnglePairs:
     """Readings about ``bias``, the same each time."""
     draw = np.random.default_rng(7)
     reference = np.linspace(-40.0, 40.0, count)
     noise = draw.standard_normal(count)
     measured = reference + bias + sd * (noise - noise.mean()) / noise.std(ddof=1)
-    figures = agreement(measured, reference, waveform=False)
-    return Pairs(name, np.arange(count) / 30.0, np.radians(measured), np.radians(reference), figures)
+    figures = compute_agreement(measured, reference, waveform=False)
+    return AnglePairs(name, np.arange(count) / 30.0, np.radians(measured), np.radians(reference), figures)
 
 
 def test_the_sign_is_a_word() -> None:
-    assert signed(-3.44, "flexion") == "3.4° extension"
-    assert signed(0.31, "deviation") == "0.3° radial"
-    assert signed(-2.0, "PIP3_flexion") == "2.0° less"
-    assert interval((0.2, 1.2), "flexion") == "0.2° to 1.2°"
-    assert interval((-3.4, -2.6), "flexion") == "2.6° to 3.4°"
-    assert interval((-0.8, 2.4), "deviation") == "0.8° ulnar to 2.4° radial"
-    assert signed(float("nan"), "flexion") == "–"
+    assert format_difference(-3.44, "flexion") == "3.4° extension"
+    assert format_difference(0.31, "deviation") == "0.3° radial"
+    assert format_difference(-2.0, "PIP3_flexion") == "2.0° less"
+    assert format_interval((0.2, 1.2), "flexion") == "0.2° to 1.2°"
+    assert format_interval((-3.4, -2.6), "flexion") == "2.6° to 3.4°"
+    assert format_interval((-0.8, 2.4), "deviation") == "0.8° ulnar to 2.4° radial"
+    assert format_difference(float("nan"), "flexion") == "–"
     names = {angle_name(name) for name in ("MCP1_abduction", "PIP3_flexion", "MCP1_flexion", "DIP3_flexion")}
     assert len(names) == 4
 
@@ -47,21 +47,21 @@ def test_the_sign_is_a_word() -> None:
 def test_both_limits_must_lie_within_what_was_set_and_few_or_scattered_readings_say_nothing(
     bias: float, sd: float, count: int, limit: float, verdict: str
 ) -> None:
-    assert judged(of("flexion", bias, sd, count).figures_deg, limit) == verdict
+    assert judge_agreement(of("flexion", bias, sd, count).agreement_deg, limit) == verdict
 
 
 def test_what_lies_within_the_plot_is_where_its_axis_says(theme: Theme) -> None:
     pairs = of("flexion", 2.0, 1.0)
-    plot = AgreementPlot(pairs, 5.0, over_time=False)
+    plot = AgreementPlot(pairs, 5.0, is_time_series=False)
     panel = plot.panel(screen_style(theme), QRectF(0, 0, 900, 300))
-    shown = pairs.figures_deg.limits
+    shown = pairs.agreement_deg.limits
     assert float(panel.y(shown[1])) < float(panel.y(shown[0])), "more flexion is above"
     assert panel.scale.low < shown[0]
     assert shown[1] < panel.scale.high
     start, end = plot.extent()
     assert start < np.degrees(pairs.measured_rad).min()
     assert end > np.degrees(pairs.reference_rad).max()
-    words = [text for _, text in plot.along_labels(start, end)]
+    words = [text for _, text in plot.x_labels(start, end)]
     assert words[0].startswith("extension")
     assert words[-1].startswith("flexion")
     assert not any("-" in text for text in words)

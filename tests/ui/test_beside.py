@@ -8,42 +8,49 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.side_by_side import SideBySide, side_by_side
+from carpus.core.results.side_by_side import SessionPair, compare_pair
 from carpus.ui.background import Background
-from carpus.ui.beside.screen import BesideScreen
-from carpus.ui.beside.words import difference_table, facts_words, headline, keys_of, kinds, unfair_words
+from carpus.ui.beside.screen import ComparisonScreen
+from carpus.ui.beside.words import (
+    comparison_choices,
+    difference_table,
+    facts_words,
+    headline,
+    measure_keys,
+    unfair_words,
+)
 from carpus.ui.theme import Theme
-from carpus.ui.words.fingers import followed_keys
-from carpus.ui.words.table import cell_words
+from carpus.ui.words.fingers import progress_keys
+from carpus.ui.words.table import cell_text
 from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 
 @pytest.fixture(scope="module")
-def right() -> SessionFigures:
+def right() -> SessionResults:
     return figures_once(session(), RepetitionChoices({6: "pain"}))
 
 
 @pytest.fixture(scope="module")
-def left() -> SessionFigures:
+def left() -> SessionResults:
     return figures_once(session(NOW, 1.25, session_id="left", side="left"))
 
 
-def lines_of(both: SideBySide) -> dict[str, list[str]]:
-    rows = ([cell_words(cell) for cell in row] for row in difference_table(both).rows)
+def lines_of(both: SessionPair) -> dict[str, list[str]]:
+    rows = ([cell_text(cell) for cell in row] for row in difference_table(both).rows)
     return {row[0]: row for row in rows}
 
 
-def test_the_sentence_names_the_hand_that_moves_less(right: SessionFigures, left: SessionFigures) -> None:
-    assert headline(side_by_side(right, left))[0] == "Whole arc: 23° less on the right than on the left."
-    assert headline(side_by_side(left, right))[0] == "Whole arc: 23° more on the left than on the right."
-    sentence, basis = headline(side_by_side(right, replace(right, side="left")))
+def test_the_sentence_names_the_hand_that_moves_less(right: SessionResults, left: SessionResults) -> None:
+    assert headline(compare_pair(right, left))[0] == "Whole arc: 23° less on the right than on the left."
+    assert headline(compare_pair(left, right))[0] == "Whole arc: 23° more on the left than on the right."
+    sentence, basis = headline(compare_pair(right, replace(right, side="left")))
     assert sentence == "No difference beyond measurement error between right and left."
     assert "within the measurement error of 14°" in basis
-    both = side_by_side(right, left)
+    both = compare_pair(right, left)
     words = {name: row[-1] for name, row in lines_of(both).items()}
     assert words["Whole arc"] == "less than the left, beyond error"
     assert words["Extension"] == "less than the left, beyond error"
@@ -57,7 +64,7 @@ def test_the_sentence_names_the_hand_that_moves_less(right: SessionFigures, left
 def test_of_fingers_a_lower_bound_is_said_to_be_one() -> None:
     few = figures_once(hand_session(share=0.55, session_id="hand-right"))
     hidden = figures_once(hand_session(session_id="hand-left", side="left"))
-    both = side_by_side(few, hidden, followed_keys("tam"))
+    both = compare_pair(few, hidden, progress_keys("tam"))
     assert headline(both)[0].endswith("less on the right than on the left.")
     rows = lines_of(both)
     assert rows["Middle finger, TAM"][2].startswith("≥")
@@ -71,38 +78,38 @@ def test_of_a_hook_the_middle_joints_of_all_fingers_come_first() -> None:
         hand_session(session_id=side, side=side, exercise="FIST_HOOK", motion="hook") for side in ("right", "left")
     ]
     first, second = map(figures_once, hands)
-    offered = [value for value, _ in kinds(first, second)]
+    offered = [value for value, _ in comparison_choices(first, second)]
     assert offered[:2] == ["middle", "1"]
-    both = side_by_side(first, second, keys_of(offered[0]))
-    assert [one.after.of for one in both.ranges] == [f"PIP{finger}_flexion" for finger in (2, 3, 4, 5)]
+    both = compare_pair(first, second, measure_keys(offered[0]))
+    assert [one.after.subject for one in both.ranges] == [f"PIP{finger}_flexion" for finger in (2, 3, 4, 5)]
 
 
-def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionFigures, left: SessionFigures) -> None:
-    both = side_by_side(right, replace(left, quality=replace(left.quality, distance_m=0.95)))
+def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionResults, left: SessionResults) -> None:
+    both = compare_pair(right, replace(left, quality=replace(left.quality, distance_m=0.95)))
     assert headline(both) == ("Shown beside each other, not judged.", "")
     assert "the camera was at another distance" in unfair_words(both)
     rows = lines_of(both)
     assert {row[5] for row in rows.values()} == {"not judged"}
-    assert not any(one.is_beyond for one in both.ranges)
+    assert not any(one.is_beyond_error for one in both.ranges)
     assert rows["Whole arc"][3] == "23° less", "the values are shown"
 
 
 def test_the_left_hand_is_mirrored_and_says_so_until_m(
-    qtbot: QtBot, theme: Theme, show: Show[BesideScreen], background: Background
+    qtbot: QtBot, theme: Theme, show: Show[ComparisonScreen], background: Background
 ) -> None:
-    screen = show(BesideScreen(theme, background, FakeSessions(pictures=False)))
-    screen.begin(("session-left", "session-7"), "right")
-    qtbot.waitUntil(lambda: screen.both is not None)
-    assert screen.ids == ("session-7", "session-left"), "the affected hand first"
-    qtbot.waitUntil(lambda: all(picture.image is not None for picture in screen.pictures))
-    first, second = screen.pictures
-    assert (first.mirrored, second.mirrored) == (False, True)
-    assert second.name.endswith("healthy · mirrored")
+    screen = show(ComparisonScreen(theme, background, FakeSessions(pictures=False)))
+    screen.load_sessions(("session-left", "session-7"), "right")
+    qtbot.waitUntil(lambda: screen.comparison is not None)
+    assert screen.session_ids == ("session-7", "session-left"), "the affected hand first"
+    qtbot.waitUntil(lambda: all(picture.image is not None for picture in screen.frame_views))
+    first, second = screen.frame_views
+    assert (first.is_mirrored, second.is_mirrored) == (False, True)
+    assert second.session_name.endswith("healthy · mirrored")
     qtbot.keyClick(screen, Qt.Key.Key_M)
-    assert not second.mirrored
-    assert "mirrored" not in second.name
-    screen.player.tracks[1].sought.emit(30.0)  # pointed at in the second one's track
-    assert screen.together.step.at(screen.playing.time_s)[1] == pytest.approx(30.0, abs=1e-6)
-    screen.begin(("session-7", "session-6"))
-    qtbot.waitUntil(lambda: screen.both is not None)
+    assert not second.is_mirrored
+    assert "mirrored" not in second.session_name
+    screen.player.tracks[1].time_chosen.emit(30.0)  # pointed at in the second one's track
+    assert screen.alignment.step.recording_times(screen.playing.time_s)[1] == pytest.approx(30.0, abs=1e-6)
+    screen.load_sessions(("session-7", "session-6"))
+    qtbot.waitUntil(lambda: screen.comparison is not None)
     assert not screen.differences.mirror_button.isVisible(), "there is no left hand"

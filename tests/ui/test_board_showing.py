@@ -5,20 +5,20 @@ from __future__ import annotations
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.camera_calibration.showing import BoardShowing
+from carpus.ui.camera_calibration.showing import BoardCaptureView
 from carpus.ui.theme import Theme
 
 
 def test_the_keyboard_stays_with_the_board_while_it_is_worked_out(qtbot: QtBot) -> None:
     window = QWidget()
     qtbot.addWidget(window)
-    back, showing = QPushButton("back", window), BoardShowing(Theme("light"))
+    back, showing = QPushButton("back", window), BoardCaptureView(Theme("light"))
     row = QVBoxLayout(window)
     row.addWidget(back)
     row.addWidget(showing)
     window.show()
-    showing.primary.setEnabled(True)
-    showing.primary.setFocus()
-    assert window.focusWidget() is showing.primary
-    showing.work()
-    assert window.focusWidget() is showing.picture, "a key more would go back, and the pictures would be lost"
+    showing.primary_button.setEnabled(True)
+    showing.primary_button.setFocus()
+    assert window.focusWidget() is showing.primary_button
+    showing.show_calculating()
+    assert window.focusWidget() is showing.frame_view, "a key more would go back, and the pictures would be lost"

@@ -15,17 +15,22 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.measures.by_hand import HandValue, counted
+from carpus.core.measures.by_hand import ManualValue, current_values
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import Patient
-from carpus.core.results.progress import progress
+from carpus.core.results.progress import compute_progress
 from carpus.ui.background import Background
-from carpus.ui.by_hand.flow import ByHandFlow
-from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
+from carpus.ui.by_hand.flow import ManualMeasurementsFlow
+from carpus.ui.by_hand.screen import ManualMeasurementsScreen, ManualRecord
 from carpus.ui.progress.flow import write_tables
-from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
-from carpus.ui.shell import Shell
+from carpus.ui.report.gather import (
+    build_progress_report,
+    build_session_report,
+    write_progress_report,
+    write_session_report,
+)
+from carpus.ui.shell import MainWindow
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
@@ -36,98 +41,100 @@ TODAY = NOW.date()
 
 
 @pytest.fixture
-def screen(theme: Theme, show: Show[ByHandScreen]) -> ByHandScreen:
+def screen(theme: Theme, show: Show[ManualMeasurementsScreen]) -> ManualMeasurementsScreen:
     days = iter((TODAY - timedelta(days=1),))
-    return show(ByHandScreen(theme, lambda: next(days, TODAY)))  # made yesterday, it stood open over night
+    return show(ManualMeasurementsScreen(theme, lambda: next(days, TODAY)))  # made yesterday, it stood open over night
 
 
-def typed(screen: ByHandScreen, name: str, *texts: str) -> None:
+def typed(screen: ManualMeasurementsScreen, name: str, *texts: str) -> None:
     for (_, field), text in zip(screen.form.rows[name].fields, texts, strict=False):
         field.setFocus()
         QTest.keyClick(field, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
         QTest.keyClicks(field, text) if text else QTest.keyClick(field, Qt.Key.Key_Delete)
 
 
-def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ByHandScreen, qtbot: QtBot) -> None:
+def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ManualMeasurementsScreen, qtbot: QtBot) -> None:
     figures = sorted(FakeSessions().history("linden"), key=lambda one: one.when)
-    screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
+    screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
     assert not screen.save_button.isEnabled()
-    assert screen.day_shown == TODAY
+    assert screen.selected_day == TODAY
     flexion, extension = screen.form.rows["FLEXION"], screen.form.rows["EXTENSION"]
-    assert flexion.last.text() == "13 Nov: 45° / 56°"
-    assert "47°" in flexion.beside.text()
-    assert extension.beside.text() == "–", "what Carpus measured is not shown before the hand's value is there"
+    assert flexion.last_text.text() == "13 Nov: 45° / 56°"
+    assert "47°" in flexion.side_text.text()
+    assert extension.side_text.text() == "–", "what Carpus measured is not shown before the hand's value is there"
     typed(screen, "EXTENSION", "44")
-    assert "48°" in extension.beside.text()
+    assert "48°" in extension.side_text.text()
     typed(screen, "GRIP", "18", "19", "20,5")
-    assert screen.form.rows["GRIP"].beside.text() == "mean 19.2 kg"
+    assert screen.form.rows["GRIP"].side_text.text() == "mean 19.2 kg"
     typed(screen, "GRIP", "18", "19", "260")
-    assert screen.form.rows["GRIP"].beside.text() == "mean 18.5 kg", "a try that is marked wrong counts nowhere"
+    assert screen.form.rows["GRIP"].side_text.text() == "mean 18.5 kg", "a try that is marked wrong counts nowhere"
     typed(screen, "GRIP", "18", "19", "20,5")
     typed(screen, "FLEXION", "47", "")
-    with qtbot.waitSignal(screen.save) as caught:
+    with qtbot.waitSignal(screen.save_requested) as caught:
         QTest.keyClick(screen, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
     assert caught.args == [
         [
-            HandValue("FLEXION", "passive", "right", TODAY, ()),
-            HandValue("EXTENSION", "active", "right", TODAY, (44.0,)),
-            HandValue("GRIP", "", "right", TODAY, (18.0, 19.0, 20.5)),
+            ManualValue("FLEXION", "passive", "right", TODAY, ()),
+            ManualValue("EXTENSION", "active", "right", TODAY, (44.0,)),
+            ManualValue("GRIP", "", "right", TODAY, (18.0, 19.0, 20.5)),
         ],
         [],
     ]
-    screen.hand.choose("left")
-    screen.hand.chosen.emit("left")
+    screen.hand_choice.choose("left")
+    screen.hand_choice.chosen.emit("left")
     assert screen.form.rows["EXTENSION"].fields[0][1].is_empty
     typed(screen, "KEY_PINCH", "5,5")
-    screen.hand.choose("right")
-    screen.hand.chosen.emit("right")
+    screen.hand_choice.choose("right")
+    screen.hand_choice.chosen.emit("right")
     assert screen.form.rows["EXTENSION"].fields[0][1].value() == 44.0, "what is written stays, also beside another hand"
-    with qtbot.waitSignal(screen.save) as caught:
+    with qtbot.waitSignal(screen.save_requested) as caught:
         screen.save_button.click()
-    assert HandValue("KEY_PINCH", "", "left", TODAY, (5.5,)) in caught.args[0]
+    assert ManualValue("KEY_PINCH", "", "left", TODAY, (5.5,)) in caught.args[0]
     assert len(caught.args[0]) == 4
     typed(screen, "GRIP", "abc")
-    screen.hand.choose("left")
-    screen.hand.chosen.emit("left")
+    screen.hand_choice.choose("left")
+    screen.hand_choice.chosen.emit("left")
     assert screen.side == "right", "what cannot be kept is put right first"
     typed(screen, "GRIP", "18")
-    screen.hand.choose("left")
-    screen.hand.chosen.emit("left")
+    screen.hand_choice.choose("left")
+    screen.hand_choice.chosen.emit("left")
     assert flexion.fields[0][1].is_empty
-    assert screen.form.rows["GRIP"].last.text() == "2 Oct: 34.0 kg"
+    assert screen.form.rows["GRIP"].last_text.text() == "2 Oct: 34.0 kg"
     assert screen.form.rows["PRWE"].fields[0][1].value() == 46.5, "a score is of the person"
 
 
-def test_where_carpus_has_only_a_simulated_session_that_is_said(screen: ByHandScreen) -> None:
+def test_where_carpus_has_only_a_simulated_session_that_is_said(screen: ManualMeasurementsScreen) -> None:
     figures = max(FakeSessions().history("linden"), key=lambda one: one.when)
     for simulated in (False, True):
         shown = (replace(figures, simulated=simulated),)
-        screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), shown, "MK"))
-        assert ("47°" in screen.form.rows["FLEXION"].beside.text()) is not simulated
-        assert ("is simulated" in screen.basis.text()) is simulated
-    screen.hand.choose("left")
-    screen.hand.chosen.emit("left")
-    assert "is simulated" not in screen.basis.text(), "the other hand has none"
+        screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), shown, "MK"))
+        assert ("47°" in screen.form.rows["FLEXION"].side_text.text()) is not simulated
+        assert ("is simulated" in screen.basis_text.text()) is simulated
+    screen.hand_choice.choose("left")
+    screen.hand_choice.chosen.emit("left")
+    assert "is simulated" not in screen.basis_text.text(), "the other hand has none"
 
 
-def test_enter_goes_on_nonsense_is_refused_and_the_unusual_is_asked_about(screen: ByHandScreen, qtbot: QtBot) -> None:
-    screen.show_record(HandRecord("Linden 42", "right", (), (), ""))
+def test_enter_goes_on_nonsense_is_refused_and_the_unusual_is_asked_about(
+    screen: ManualMeasurementsScreen, qtbot: QtBot
+) -> None:
+    screen.show_record(ManualRecord("Linden 42", "right", (), (), ""))
     active, passive = (field for _, field in screen.form.rows["FLEXION"].fields)
     active.setFocus()
     QTest.keyClick(active, Qt.Key.Key_Return)
     assert screen.focusWidget() is passive
     for text in ("abc", "181", "1e9", "nan", "--3"):
         typed(screen, "FLEXION", text)
-        assert active.problem, text
+        assert active.error, text
         assert not screen.save_button.isEnabled()
-        assert "0" in screen.state.text() or text in screen.state.text()
+        assert "0" in screen.status_text.text() or text in screen.status_text.text()
     typed(screen, "FLEXION", "170")
     assert screen.save_button.isEnabled()
-    with qtbot.waitSignal(screen.save) as caught:
+    with qtbot.waitSignal(screen.save_requested) as caught:
         screen.save_button.click()
     assert "170°?" in caught.args[1][0]
-    screen.more.setCurrentIndex(screen.more.findData("PIP3_FLEXION"))
-    screen.more.activated.emit(screen.more.currentIndex())
+    screen.measure_choice.setCurrentIndex(screen.measure_choice.findData("PIP3_FLEXION"))
+    screen.measure_choice.activated.emit(screen.measure_choice.currentIndex())
     assert active.value() == 170.0, "what is written stays when a row is added"
     assert screen.focusWidget() is screen.form.rows["PIP3_FLEXION"].fields[0][1]
 
@@ -147,56 +154,56 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     closed: list[str] = []
     shell = SimpleNamespace(close_surely=lambda: closed.append("closed"))
     context = a_context(theme, host, told, background, library=library)
-    now = context.now
+    now = context.current
     now.patient = Patient("Linden 42", "left", patient_id=patient)
-    flow = ByHandFlow(context)
-    context.shell = cast("Shell", shell)
+    flow = ManualMeasurementsFlow(context)
+    context.window = cast("MainWindow", shell)
     screen = flow.screen
     qtbot.addWidget(screen)
     screen.show()
-    flow.show()
+    flow.open()
     qtbot.waitUntil(lambda: told.place == "by_hand")
     assert screen.side == "left"
     typed(screen, "FLEXION", "170")
     screen.save_button.click()
-    qtbot.waitUntil(lambda: screen.state.text() == "Kept.")
-    (kept,) = library.by_hand(patient)
-    assert (kept.value, kept.by, kept.side, kept.day) == (170.0, "MK", "left", TODAY)
+    qtbot.waitUntil(lambda: screen.status_text.text() == "Kept.")
+    (kept,) = library.manual_measurements(patient)
+    assert (kept.value, kept.rater, kept.side, kept.day) == (170.0, "MK", "left", TODAY)
     typed(screen, "FLEXION", "71")
     screen.save_button.click()
-    qtbot.waitUntil(lambda: len(library.by_hand(patient)) == 2 and not background.busy)
-    assert screen.form.rows["FLEXION"].last.text() == "changed"
-    assert "170° active · MK" in screen.form.rows["FLEXION"].last.toolTip()
+    qtbot.waitUntil(lambda: len(library.manual_measurements(patient)) == 2 and not background.is_busy)
+    assert screen.form.rows["FLEXION"].last_text.text() == "changed"
+    assert "170° active · MK" in screen.form.rows["FLEXION"].last_text.toolTip()
     assert told.asked == ["Unusual: check, or keep it"]
-    flow.up()
+    flow.navigate_back()
     assert told.shown == [("progress", patient)]
     typed(screen, "FLEXION", "70")
     heron = library.patients.add(Patient("Heron 17", "right"))
     for person, name, written in ((heron, "Heron 17", ""), (patient, "Linden 42", "70")):
         now.patient = Patient(name, "left", patient_id=person)
-        flow.show()
+        flow.open()
         qtbot.waitUntil(lambda person=person: screen.record.patient_id == person)
         assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name
-    assert flow.asks_before_closing(), "what is written would be lost with the window"
+    assert flow.prompt_before_close(), "what is written would be lost with the window"
     assert told.asked[1:] == ["Leave without saving?"]
     assert closed == ["closed"], "let go of, the window closes"
-    flow.up()
+    flow.navigate_back()
     assert told.asked[1:] == ["Leave without saving?"] * 2
-    assert not flow.asks_before_closing(), "nothing is left to be lost"
+    assert not flow.prompt_before_close(), "nothing is left to be lost"
     assert not told.faults
-    assert [entry.did for entry in read_log(library.store) if entry.did != "added"] == ["entered_by_hand"] * 2
+    assert [entry.action for entry in read_log(library.store) if entry.action != "added"] == ["entered_by_hand"] * 2
 
 
 def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:
     store = FakeSessions()
     values = hand_values()
-    report = session_report(store.session("session-7"), history=store.history("linden"), by_hand=values)
+    report = build_session_report(store.session("session-7"), history=store.history("linden"), manual_values=values)
     said = words_of(write_session_report(report, tmp_path / "session.pdf"))
     assert "Entered by hand, not measured by Carpus" in said
     assert "Wrist, flexion 47° active, 58° passive" in " ".join(said.split())
     assert "17.6" not in said, "of another day"
-    mine = [one for one in counted(values) if one.side in ("right", "")]
-    course = progress_report(store.history("linden"), by_hand=mine)
+    mine = [one for one in current_values(values) if one.side in ("right", "")]
+    course = build_progress_report(store.history("linden"), manual_values=mine)
     said = " ".join(words_of(write_progress_report(course, tmp_path / "progress.pdf")).split())
     for words in ("Entered by hand", "25° → 47° since 2 Oct", "Grip", "17.6 cm over both styloids"):
         assert words in said, words
@@ -209,6 +216,6 @@ def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:
     (tmp_path / "other-by-hand.csv").write_text("kept", encoding="utf-8")
     assert write_tables(tmp_path / "other.csv", course.progress)[1].name == "other-by-hand-2.csv"
     assert (tmp_path / "other-by-hand.csv").read_text(encoding="utf-8") == "kept", "nobody was asked for it"
-    bare = progress(store.history("linden"))
+    bare = compute_progress(store.history("linden"))
     write_tables(tmp_path / "bare.csv", bare)
     assert not (tmp_path / "bare-by-hand.csv").exists()

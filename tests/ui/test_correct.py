@@ -10,15 +10,15 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import session_figures
-from carpus.core.results.seen import joint_curves, session_curves
-from carpus.core.session.marker_doubts import Correction, name_doubt
+from carpus.core.results.figures import compute_session_results
+from carpus.core.results.seen import joint_curves, wrist_curves
+from carpus.core.session.marker_doubts import Correction, find_label_doubt
 from carpus.ui.background import Background
-from carpus.ui.correct.picture import RING_PX
-from carpus.ui.correct.places import Places
-from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
-from carpus.ui.correct.screen import CorrectScreen
-from carpus.ui.plot.compared import OLD_SHARE, ComparedHandPlot, ComparedPlot
+from carpus.ui.correct.picture import RING_RADIUS_PX
+from carpus.ui.correct.places import MarkerEdits
+from carpus.ui.correct.results_sheet import ResultPair, ResultsDialog
+from carpus.ui.correct.screen import CorrectionScreen
+from carpus.ui.plot.compared import OLD_WIDTH_FACTOR, ComparisonPlot, HandComparisonPlot
 from carpus.ui.plot.session import HandPlot
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
@@ -35,70 +35,70 @@ def sessions() -> FakeSessions:
 
 @pytest.fixture
 def screen(
-    qtbot: QtBot, theme: Theme, show: Show[CorrectScreen], sessions: FakeSessions, background: Background
-) -> CorrectScreen:
-    shown = show(CorrectScreen(theme, background, FakeCorrections(sessions, pictures=False)))
-    shown.begin("session-7", sessions.session("session-7"), ROW)
-    qtbot.waitUntil(lambda: not background.busy and shown.picture.image is not None)
+    qtbot: QtBot, theme: Theme, show: Show[CorrectionScreen], sessions: FakeSessions, background: Background
+) -> CorrectionScreen:
+    shown = show(CorrectionScreen(theme, background, FakeCorrections(sessions, pictures=False)))
+    shown.show_session("session-7", sessions.session("session-7"), ROW)
+    qtbot.waitUntil(lambda: not background.is_busy and shown.frame_view.image is not None)
     return shown
 
 
-def on_screen(screen: CorrectScreen, pixel: np.ndarray) -> QPoint:
-    return screen.picture.to_screen(float(pixel[0]), float(pixel[1])).toPoint()
+def on_screen(screen: CorrectionScreen, pixel: np.ndarray) -> QPoint:
+    return screen.frame_view.to_screen(float(pixel[0]), float(pixel[1])).toPoint()
 
 
-def drag(qtbot: QtBot, screen: CorrectScreen, start: np.ndarray, end: np.ndarray) -> None:
-    left, picture = Qt.MouseButton.LeftButton, screen.picture
+def drag(qtbot: QtBot, screen: CorrectionScreen, start: np.ndarray, end: np.ndarray) -> None:
+    left, picture = Qt.MouseButton.LeftButton, screen.frame_view
     qtbot.mousePress(picture, left, pos=on_screen(screen, start))
     qtbot.mouseMove(picture, on_screen(screen, end))
     qtbot.mouseRelease(picture, left, pos=on_screen(screen, end))
 
 
-def corrections(screen: CorrectScreen) -> tuple[Correction, ...]:
-    return screen.places.corrections()
+def corrections(screen: CorrectionScreen) -> tuple[Correction, ...]:
+    return screen.edits.corrections()
 
 
 @pytest.fixture
-def asked(screen: CorrectScreen) -> list[object]:
+def asked(screen: CorrectionScreen) -> list[object]:
     """With what it was to be tracked again."""
     said: list[object] = []
-    screen.wanted.connect(lambda _, corrections: said.append(corrections))
+    screen.reanalysis_requested.connect(lambda _, corrections: said.append(corrections))
     return said
 
 
 def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(
-    qtbot: QtBot, screen: CorrectScreen, asked: list[object]
+    qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
 ) -> None:
-    assert not screen.primary.isEnabled()
-    drag(qtbot, screen, screen.places.before(ROW)[3], np.array([423.0, 118.0]))
+    assert not screen.primary_button.isEnabled()
+    drag(qtbot, screen, screen.edits.original_px(ROW)[3], np.array([423.0, 118.0]))
     (one,) = corrections(screen)
     assert (one.row, one.places["MCP3"]) == (ROW, (420.0, 120.0))
     screen.undo()
-    screen.choose("MCP3")
+    screen.select_marker("MCP3")
     screen.hide_current()
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert asked == [corrections(screen)]
 
 
 def test_names_dragged_onto_each_other_swap_are_told_before_and_enter_mends_them(
-    qtbot: QtBot, screen: CorrectScreen, asked: list[object]
+    qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
 ) -> None:
-    before = screen.places.before(ROW).copy()
+    before = screen.edits.original_px(ROW).copy()
     drag(qtbot, screen, before[2], before[4])
-    np.testing.assert_allclose(screen.places.now(ROW)[[2, 4]], before[[4, 2]])
+    np.testing.assert_allclose(screen.edits.current_px(ROW)[[2, 4]], before[[4, 2]])
     assert screen.title.text() == "“Index knuckle” and “Ring knuckle” look exchanged"
-    assert screen.although.isVisible()
+    assert screen.anyway_button.isVisible()
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert asked == []
-    np.testing.assert_allclose(screen.places.now(ROW), before)
-    assert not screen.although.isVisible()
+    np.testing.assert_allclose(screen.edits.current_px(ROW), before)
+    assert not screen.anyway_button.isVisible()
     screen.undo()
-    screen.although.click()  # who means it may
+    screen.anyway_button.click()  # who means it may
     assert asked == [corrections(screen)]
 
 
-def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: CorrectScreen, asked: list[object]) -> None:
-    drag(qtbot, screen, screen.places.before(ROW)[5], np.array([600.0, 60.0]))
+def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: CorrectionScreen, asked: list[object]) -> None:
+    drag(qtbot, screen, screen.edits.original_px(ROW)[5], np.array([600.0, 60.0]))
     assert screen.title.text() == "“Little knuckle” cannot be there"
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert corrections(screen) == ()
@@ -111,21 +111,21 @@ def test_names_on_crossed_fingers_are_told() -> None:
     row = 40
     places = session.markers.measured_px[row]
     for one, other in (("PIP2", "PIP3"), ("TIP4", "TIP5"), ("DIP2", "TIP4")):
-        assert name_doubt(session, row, places, [one, other]) is None
+        assert find_label_doubt(session, row, places, [one, other]) is None
         wrong, pair = places.copy(), [markers.index(one), markers.index(other)]
         wrong[pair] = places[pair[::-1]]
-        told = name_doubt(session, row, wrong, [one, other])
-        assert told.exchanged == (one, other)
+        told = find_label_doubt(session, row, wrong, [one, other])
+        assert told.swapped == (one, other)
 
 
-def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectScreen) -> None:
+def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectionScreen) -> None:
     """Discs so near to each other that there is no room beside each: at the worst a name goes further off."""
     screen.grab()
-    now = screen.places.now(ROW)
-    rings = {name: on_screen(screen, now[number]) for number, name in enumerate(screen.places.markers)}
-    assert set(screen.picture.plates) == set(rings)
-    beside = 2 * RING_PX + 5
-    for name, plate in screen.picture.plates.items():
+    now = screen.edits.current_px(ROW)
+    rings = {name: on_screen(screen, now[number]) for number, name in enumerate(screen.edits.markers)}
+    assert set(screen.frame_view.label_boxes) == set(rings)
+    beside = 2 * RING_RADIUS_PX + 5
+    for name, plate in screen.frame_view.label_boxes.items():
         off = {
             other: np.hypot(
                 max(plate.left() - at.x(), 0.0, at.x() - plate.right()),
@@ -137,32 +137,32 @@ def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectS
 
 
 def test_a_click_without_a_drag_only_chooses_also_on_a_names_words_which_are_dragged_too(
-    qtbot: QtBot, screen: CorrectScreen
+    qtbot: QtBot, screen: CorrectionScreen
 ) -> None:
-    left, picture = Qt.MouseButton.LeftButton, screen.picture
-    before = screen.places.before(ROW).copy()
+    left, picture = Qt.MouseButton.LeftButton, screen.frame_view
+    before = screen.edits.original_px(ROW).copy()
     screen.grab()
-    qtbot.mouseClick(picture, left, pos=picture.plates["MCP4"].center().toPoint())
-    assert picture.current == "MCP4"
+    qtbot.mouseClick(picture, left, pos=picture.label_boxes["MCP4"].center().toPoint())
+    assert picture.current_marker == "MCP4"
     qtbot.mouseClick(picture, left, pos=on_screen(screen, before[5]))
-    assert screen.current == "MCP5"
+    assert screen.current_marker == "MCP5"
     assert corrections(screen) == ()
     qtbot.mouseClick(picture, left, pos=on_screen(screen, np.array([420.0, 120.0])))
     assert corrections(screen)[0].places["MCP5"] == (420.0, 120.0)
     screen.undo()
     screen.grab()
-    qtbot.mousePress(picture, left, pos=picture.plates["MCP4"].center().toPoint())
+    qtbot.mousePress(picture, left, pos=picture.label_boxes["MCP4"].center().toPoint())
     qtbot.mouseMove(picture, on_screen(screen, before[5]))
     qtbot.mouseRelease(picture, left, pos=on_screen(screen, before[5]))
-    np.testing.assert_allclose(screen.places.now(ROW)[screen.places.markers.index("MCP4")], before[5])
+    np.testing.assert_allclose(screen.edits.current_px(ROW)[screen.edits.markers.index("MCP4")], before[5])
 
 
-def test_keys_do_the_same(qtbot: QtBot, screen: CorrectScreen) -> None:
-    before = screen.places.before(ROW).copy()
+def test_keys_do_the_same(qtbot: QtBot, screen: CorrectionScreen) -> None:
+    before = screen.edits.original_px(ROW).copy()
     screen.rows["MCP4"].click()
     qtbot.keyClick(screen.rows["MCP4"], Qt.Key.Key_Right)
     qtbot.keyClick(screen.rows["MCP4"], Qt.Key.Key_Up, Qt.KeyboardModifier.ShiftModifier)
-    np.testing.assert_allclose(screen.places.now(ROW)[4], before[4] + [1.0, -10.0], atol=1e-9)
+    np.testing.assert_allclose(screen.edits.current_px(ROW)[4], before[4] + [1.0, -10.0], atol=1e-9)
     qtbot.keyClick(screen, "h")
     assert corrections(screen)[0].places["MCP4"] is None
     for _ in range(3):
@@ -171,26 +171,26 @@ def test_keys_do_the_same(qtbot: QtBot, screen: CorrectScreen) -> None:
 
 
 def test_a_marker_that_was_not_measured_is_put_on_the_spot_that_is_clicked_where_it_is_shown(
-    qtbot: QtBot, screen: CorrectScreen
+    qtbot: QtBot, screen: CorrectionScreen
 ) -> None:
-    number = screen.places.markers.index("MCP3")
-    whole = screen.places.session
+    number = screen.edits.markers.index("MCP3")
+    whole = screen.edits.session
     measured_px = whole.markers.measured_px.copy()
     measured_px[ROW, number] = np.nan
-    screen.places.session = replace(whole, markers=replace(whole.markers, measured_px=measured_px))
-    spot = screen.places.modelled(ROW)[number]
-    screen.picture.spots = np.vstack((screen.picture.spots, spot))
+    screen.edits.session = replace(whole, markers=replace(whole.markers, measured_px=measured_px))
+    spot = screen.edits.model_px(ROW)[number]
+    screen.frame_view.blob_px = np.vstack((screen.frame_view.blob_px, spot))
     drag(qtbot, screen, spot, spot)
     (one,) = corrections(screen)
     np.testing.assert_allclose(one.places["MCP3"], spot, atol=6.0)
 
 
 def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(sessions: FakeSessions) -> None:
-    places = Places(sessions.session("session-7"))
-    assert all(places.off_mm(ROW, name) < 3.0 for name in places.markers)
-    places.put(ROW, "MCP3", places.now(ROW)[3] + [40.0, 10.0], np.empty((0, 2)))
-    assert places.off_mm(ROW, "MCP3") > 30.0
-    assert all(places.off_mm(ROW, name) < 6.0 for name in places.markers if name != "MCP3")
+    places = MarkerEdits(sessions.session("session-7"))
+    assert all(places.residual_mm(ROW, name) < 3.0 for name in places.markers)
+    places.place_marker(ROW, "MCP3", places.current_px(ROW)[3] + [40.0, 10.0], np.empty((0, 2)))
+    assert places.residual_mm(ROW, "MCP3") > 30.0
+    assert all(places.residual_mm(ROW, name) < 6.0 for name in places.markers if name != "MCP3")
     assert places.undo() == ROW
     assert places.undo() == -1
 
@@ -199,63 +199,63 @@ def test_the_curve_is_of_the_finger_whose_disc_is_put_right_and_a_key_is_named_t
     qtbot: QtBot, theme: Theme
 ) -> None:
     background, sessions = Background(), FakeHandSessions()
-    shown = CorrectScreen(theme, background, FakeCorrections(sessions, pictures=False))
+    shown = CorrectionScreen(theme, background, FakeCorrections(sessions, pictures=False))
     qtbot.addWidget(shown)
     session = hand_session()
     for doubted, named in ((False, "H , . Z"), (True, "H , . Z D")):
         session = replace(session, markers=replace(session.markers, doubted=session.markers.doubted | doubted))
-        shown.begin("hand-7", session, 200)
-        assert " ".join(name for name, _ in shown._caps._keys[1:]) == named
+        shown.show_session("hand-7", session, 200)
+        assert " ".join(name for name, _ in shown._key_caps._keys[1:]) == named
     plot = shown.curves._plot
     assert isinstance(plot, HandPlot)
     assert plot.finger == 3, "what the exercise is about"
     for marker, finger in (("PIP5", 5), ("CMC1", 1)):
-        shown.choose(marker)
+        shown.select_marker(marker)
         assert isinstance(shown.curves._plot, HandPlot)
         assert shown.curves._plot.finger == finger
-    shown.choose("WRIST")
+    shown.select_marker("WRIST")
     assert not isinstance(shown.curves._plot, HandPlot)
-    qtbot.waitUntil(lambda: not background.busy)
+    qtbot.waitUntil(lambda: not background.is_busy)
 
 
 def test_the_results_are_shown_of_the_finger_that_was_corrected(qtbot: QtBot, theme: Theme) -> None:
     session = hand_session()
-    curves, joints = session_curves(session), joint_curves(session)
+    curves, joints = wrist_curves(session), joint_curves(session)
     host = QWidget()
     qtbot.addWidget(host)
-    sheet = ResultsSheet(host, theme)
+    sheet = ResultsDialog(host, theme)
     assert joints is not None
     other = replace(joints, angles_deg=joints.angles_deg + 90.0 * (np.arange(len(joints.names)) == 0))
-    both = BothResults(session_figures(session), curves, curves, joints, other)
+    both = ResultPair(compute_session_results(session), curves, curves, joints, other)
     for finger, opens_on in ((4, 4), (0, 1)):
-        sheet.show_both("", "", replace(both, finger=finger))
+        sheet.show_results("", "", replace(both, finger=finger))
         assert sheet.finger.value() == opens_on
 
 
 def test_old_and_new_curves_differ_in_width_also_where_both_are_predicted() -> None:
     session = hand_session(hidden=[(4.0, 5.0, "TIP3")])
-    curves, joints = session_curves(session), joint_curves(session)
-    shown = (curves, session_figures(session).exercise, ())
-    hand = ComparedHandPlot(*shown, joints=joints, finger=3, old=joints)
-    for drawn in (ComparedPlot(*shown, old=curves).moving(1, 400), hand.moving(0, 400)):
+    curves, joints = wrist_curves(session), joint_curves(session)
+    shown = (curves, compute_session_results(session).exercise, ())
+    hand = HandComparisonPlot(*shown, joints=joints, finger=3, old=joints)
+    for drawn in (ComparisonPlot(*shown, old=curves).visible_curves(1, 400), hand.visible_curves(0, 400)):
         old, new = drawn[: len(drawn) // 2], drawn[len(drawn) // 2 :]
-        assert {curve.share for curve in old} == {OLD_SHARE}
-        assert {curve.share for curve in new} == {1.0}
+        assert {curve.width_factor for curve in old} == {OLD_WIDTH_FACTOR}
+        assert {curve.width_factor for curve in new} == {1.0}
     assert any(0 < curve.series.predicted.sum() < len(curve.series.predicted) for curve in old), "as it was predicted"
 
 
 def test_each_picture_is_corrected_by_itself_and_a_shorter_session_is_shown(
-    qtbot: QtBot, screen: CorrectScreen, background: Background
+    qtbot: QtBot, screen: CorrectionScreen, background: Background
 ) -> None:
     assert "No pictures stored" in screen.hint.text()
-    assert len(screen.picture.spots) == 7
-    screen.put("MCP3", screen.places.before(ROW)[3])
-    screen.go_on(5)
-    qtbot.waitUntil(lambda: screen.picture.row == ROW + 5)
-    screen.put("MCP2", screen.places.before(ROW + 5)[2])
+    assert len(screen.frame_view.blob_px) == 7
+    screen.place_marker("MCP3", screen.edits.original_px(ROW)[3])
+    screen.step_frames(5)
+    qtbot.waitUntil(lambda: screen.frame_view.row == ROW + 5)
+    screen.place_marker("MCP2", screen.edits.original_px(ROW + 5)[2])
     assert [one.row for one in corrections(screen)] == [ROW, ROW + 5]
-    assert "00:20.6" in screen.primary.text()
-    screen.begin("session-7", session(seconds=0.5 * ROW / 30.0), ROW // 4)
+    assert "00:20.6" in screen.primary_button.text()
+    screen.show_session("session-7", session(seconds=0.5 * ROW / 30.0), ROW // 4)
     assert screen.hint.text() == "", "its picture is being read"
-    qtbot.waitUntil(lambda: not background.busy)
+    qtbot.waitUntil(lambda: not background.is_busy)
     assert screen.row == ROW // 4

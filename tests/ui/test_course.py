@@ -11,8 +11,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QImage, QPainter
 from pytestqt.qtbot import QtBot
 
-from carpus.core.measures.by_hand import HandValue
-from carpus.core.results.progress import progress
+from carpus.core.measures.by_hand import ManualValue
+from carpus.core.results.progress import compute_progress
 from carpus.ui.plot import course
 from carpus.ui.plot.course import ProgressChart
 from carpus.ui.plot.style import paper_style
@@ -33,35 +33,35 @@ def chart(qtbot: QtBot, theme: Theme, store: FakeSessions) -> Iterator[ProgressC
     qtbot.addWidget(chart)
     chart.resize(864, 560)
     chart.show()
-    chart.show_progress(progress(sorted(alike, key=lambda figures: figures.when)))
+    chart.show_progress(compute_progress(sorted(alike, key=lambda figures: figures.when)))
     return chart
 
 
 def place(chart: ProgressChart, number: int) -> QPointF:
     key = chart.panels()[0][1]
-    at_s = chart._progress.points[number].figures.when.timestamp()
+    at_s = chart._progress.points[number].results.when.timestamp()
     plot = chart.plots[0]
-    row = course.row_of(chart._progress, number, key)
+    row = course.find_session_measure(chart._progress, number, key)
     assert row is not None
     return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean)))
 
 
 def test_a_click_on_a_point_opens_its_session_and_one_beside_it_nothing(qtbot: QtBot, chart: ProgressChart) -> None:
     opened: list[str] = []
-    chart.opened.connect(opened.append)
+    chart.session_chosen.connect(opened.append)
     at = place(chart, 2).toPoint()
-    qtbot.mouseClick(chart.face, Qt.MouseButton.LeftButton, pos=at)
+    qtbot.mouseClick(chart.mouse_target, Qt.MouseButton.LeftButton, pos=at)
     assert opened == ["session-3"]
     at.setY(at.y() + 60)
-    qtbot.mouseClick(chart.face, Qt.MouseButton.LeftButton, pos=at)
+    qtbot.mouseClick(chart.mouse_target, Qt.MouseButton.LeftButton, pos=at)
     assert opened == ["session-3"]
 
 
 def test_a_point_under_the_mouse_says_date_value_set_up_and_remarks(chart: ProgressChart) -> None:
     for number in range(7):
-        move(chart.face, QPointF(place(chart, number).toPoint()))
+        move(chart.mouse_target, QPointF(place(chart, number).toPoint()))
         assert chart.current_session == number
-        assert chart.face.cursor().shape() == Qt.CursorShape.PointingHandCursor
+        assert chart.mouse_target.cursor().shape() == Qt.CursorShape.PointingHandCursor
     key = chart.panels()[0][1]
     newest = " · ".join(chart.describe_point(6, key))
     for word in ("20 Nov 2026", "Whole arc", "±", "repetitions", "Camera 66 cm away", "stopped for pain"):
@@ -69,7 +69,7 @@ def test_a_point_under_the_mouse_says_date_value_set_up_and_remarks(chart: Progr
     far = " · ".join(chart.describe_point(3, key))
     assert "Camera 84 cm away" in far
     assert "further away" in far
-    move(chart.face, QPointF(5.0, 300.0))
+    move(chart.mouse_target, QPointF(5.0, 300.0))
     assert chart.current_session == -1
 
 
@@ -80,13 +80,13 @@ def test_arrows_point_at_one_session_after_the_other_and_enter_opens_it(qtbot: Q
         chart.step(1)
     assert chart.current_session == 6
     chart.step(-1)
-    with qtbot.waitSignal(chart.opened) as opened:
-        chart.open_current()
+    with qtbot.waitSignal(chart.session_chosen) as opened:
+        chart.choose_current()
     assert opened.args == ["session-6"]
 
 
 def test_time_is_to_scale_and_can_be_looked_into(qtbot: QtBot, chart: ProgressChart) -> None:
-    times = [point.figures.when for point in chart._progress.points]
+    times = [point.results.when for point in chart._progress.points]
     places = [place(chart, number).x() for number in range(7)]
     share = (places[1] - places[0]) / (places[6] - places[0])
     assert share == pytest.approx((times[1] - times[0]) / (times[6] - times[0]), abs=1e-6)
@@ -97,7 +97,7 @@ def test_time_is_to_scale_and_can_be_looked_into(qtbot: QtBot, chart: ProgressCh
     whole = chart.extent()
     assert end - start == pytest.approx((whole[1] - whole[0]) / 1.25**3)
     assert place(chart, 6).x() > chart.panels()[0][0].box.right()
-    drag(qtbot, chart.face, QPointF(chart.panels()[0][0].box.center().toPoint()), -2000)
+    drag(qtbot, chart.mouse_target, QPointF(chart.panels()[0][0].box.center().toPoint()), -2000)
     assert chart.x_range()[1] == pytest.approx(whole[1])
     chart.show_all()
     assert chart.x_range() == whole
@@ -124,8 +124,8 @@ def test_figures_of_two_sessions_never_stand_on_each_other(
 ) -> None:
     alike = [figures for figures in store.history("linden") if figures.side == "right"]
     first, second = sorted(alike, key=lambda figures: figures.when)[:2]
-    by_hand = HandValue("FLEXION", "active", "right", first.when.date() + timedelta(days=30), (45.0,))
-    two = progress([first, replace(second, when=first.when + apart)])
+    by_hand = ManualValue("FLEXION", "active", "right", first.when.date() + timedelta(days=30), (45.0,))
+    two = compute_progress([first, replace(second, when=first.when + apart)])
     said_at: list[float] = []
     monkeypatch.setattr(chart, "_add_value", lambda *given: said_at.append(given[2]))
     chart.show_progress(replace(two, by_hand=(by_hand,)))
@@ -142,7 +142,7 @@ def test_course_on_paper_has_a_square_for_each_value_by_hand(
 ) -> None:
     alike = [figures for figures in store.history("linden") if figures.side == "right"]
     days = sorted(figures.when.date() for figures in alike)
-    by_hand = tuple(HandValue("FLEXION", "active", "right", day, (45.0,)) for day in (days[0], days[-1]))
+    by_hand = tuple(ManualValue("FLEXION", "active", "right", day, (45.0,)) for day in (days[0], days[-1]))
     squares: list[int] = []
     add_symbols = ProgressChart.add_symbols
 
@@ -154,5 +154,7 @@ def test_course_on_paper_has_a_square_for_each_value_by_hand(
     monkeypatch.setattr(ProgressChart, "add_symbols", count)
     picture = QImage(800, 500, QImage.Format.Format_RGB32)
     with QPainter(picture) as painter:
-        course.paint_chart(painter, paper_style(1.0), QRectF(picture.rect()), replace(progress(alike), by_hand=by_hand))
+        course.paint_progress_chart(
+            painter, paper_style(1.0), QRectF(picture.rect()), replace(compute_progress(alike), by_hand=by_hand)
+        )
     assert sum(squares) == len(by_hand) + 1  # and one that says what they mean

@@ -29,39 +29,39 @@ from pytestqt.qtbot import QtBot
 
 import carpus.app
 import carpus.ui
-from carpus.core.records.set_up import USUAL_SETS
-from carpus.core.words import Words
-from carpus.ui.camera_name_sheet import CameraNameSheet
-from carpus.ui.controls.button import ENTER, Button, takes_enter
+from carpus.core.records.set_up import DEFAULT_SETS
+from carpus.core.words import MessageText
+from carpus.ui.camera_name_sheet import CameraNameDialog
+from carpus.ui.controls.button import ENTER_KEY, Button, is_enter_handler
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.sheet import Dialog
 from carpus.ui.controls.text import Text
-from carpus.ui.correct.results_sheet import ResultsSheet
-from carpus.ui.export.sheet import ExportSheet
-from carpus.ui.live.notes import NoteSheet, PainSheet
-from carpus.ui.markers.guidance import StartAngleSheet
-from carpus.ui.messages.messages import Answer, StopCard
+from carpus.ui.correct.results_sheet import ResultsDialog
+from carpus.ui.export.sheet import ExportDialog
+from carpus.ui.live.notes import NoteDialog, PainDialog
+from carpus.ui.markers.guidance import StartAngleDialog
+from carpus.ui.messages.messages import Answer, MessageDialog
 from carpus.ui.patients.entry import PatientForm
-from carpus.ui.records.erasing import EraseSheet
-from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
-from carpus.ui.records.locking import LockSheet, PinSheet
-from carpus.ui.report.sheets import HomeSheet, LetterSheet
-from carpus.ui.review.hand_picture import HandPictureSheet
-from carpus.ui.review.screen import ReasonSheet
-from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
-from carpus.ui.settings.retest import RetestSheet
-from carpus.ui.setup.set_sheet import SetSheet
+from carpus.ui.records.erasing import DeleteDialog
+from carpus.ui.records.lists import ListedRecord, LogDialog, RecordsDialog
+from carpus.ui.records.locking import LockScreen, PinDialog
+from carpus.ui.report.sheets import HomeDialog, LetterDialog
+from carpus.ui.review.hand_picture import HandImageDialog
+from carpus.ui.review.screen import ExclusionDialog
+from carpus.ui.sessions.sheets import ChoiceDialog, ExcludeDialog
+from carpus.ui.settings.retest import RetestDialog
+from carpus.ui.setup.set_sheet import SetDialog
 from carpus.ui.theme import Theme
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
 from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY
 
 FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
-Opened = tuple[Sheet, str]
+Opened = tuple[Dialog, str]
 """A sheet that is open, and the answer that loses nothing."""
 
 
-def _opened(kind: Callable[..., Sheet], answer: str, *begin: object, **named: object) -> Callable[..., Opened]:
+def _opened(kind: Callable[..., Dialog], answer: str, *begin: object, **named: object) -> Callable[..., Opened]:
     def open_it(host: QWidget, theme: Theme) -> Opened:
         sheet = kind(host, theme)
         sheet.begin(*begin, **named)  # type: ignore[attr-defined]
@@ -72,58 +72,58 @@ def _opened(kind: Callable[..., Sheet], answer: str, *begin: object, **named: ob
 
 def _patient(host: QWidget, theme: Theme) -> Opened:
     sheet = PatientForm(host, theme, FakeStore(), date.today)
-    sheet.begin(None, frozenset())
+    sheet.edit_patient(None, frozenset())
     for choices in (sheet.fields["side"], sheet.fields["dominance"]):
         choices.buttons()[0].click()
     return sheet, "Add patient"
 
 
 def _home(host: QWidget, theme: Theme) -> Opened:
-    sheet = HomeSheet(host, theme)
-    sheet.begin(home_report().report, NOW.date())
+    sheet = HomeDialog(host, theme)
+    sheet.open_form(home_report().report, NOW.date())
     return sheet, "Show the sheet"
 
 
 def _card(host: QWidget, theme: Theme) -> Opened:
-    card = StopCard(host, theme)
-    answers = (Answer("Let them go", lambda: None, "L", risky=True), Answer("Back to the form", lambda: None))
-    card.show_words(Words("Leave without saving?", "", ""), answers, alarm=False)
+    card = MessageDialog(host, theme)
+    answers = (Answer("Let them go", lambda: None, "L", is_risky=True), Answer("Back to the form", lambda: None))
+    card.show_words(MessageText("Leave without saving?", "", ""), answers, is_alarm=False)
     return card, "Back to the form"
 
 
-SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
-    StopCard: _card,
+SHEETS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
+    MessageDialog: _card,
     PatientForm: _patient,
-    CameraNameSheet: _opened(CameraNameSheet, "Go on", "Window"),
-    ResultsSheet: _opened(ResultsSheet, ""),
-    ExportSheet: _opened(ExportSheet, "Choose the folder…"),
-    NoteSheet: _opened(NoteSheet, "Keep note"),
-    PainSheet: _opened(PainSheet, "Close"),
-    StartAngleSheet: _opened(StartAngleSheet, "Use these angles", np.zeros(3)),
-    EraseSheet: _opened(EraseSheet, "Archive instead", ERASED_SESSION, 10, LAST_BACKUP, TODAY),
-    RecordsSheet: _opened(RecordsSheet, "Done", "Archive", "", [ListedRecord("a", "Heron 17", "1 session", True)]),
-    LogSheet: _opened(LogSheet, "Done", []),
-    LockSheet: _opened(LockSheet, "Unlock", "", stored=True),
-    PinSheet: _opened(PinSheet, "Set PIN", is_set=True),
-    HomeSheet: _home,
-    LetterSheet: _opened(LetterSheet, "Show the letter", ["Dr A"], has_name=True),
-    RetestSheet: _opened(RetestSheet, "Leave it as it is", retest_studies(), 0, date(2026, 11, 27)),
-    HandPictureSheet: _opened(HandPictureSheet, "Cancel"),
-    ReasonSheet: _opened(ReasonSheet, "Keep it in", 3),
-    SetAsideSheet: _opened(SetAsideSheet, "Let it count"),
-    ChooseSheet: _opened(ChooseSheet, "Leave it as it is", "To whom?", "", "Move it there", [("a", "Heron 17")]),
-    SetSheet: _opened(SetSheet, "Keep the set", USUAL_SETS, "wrist6"),
+    CameraNameDialog: _opened(CameraNameDialog, "Go on", "Window"),
+    ResultsDialog: _opened(ResultsDialog, ""),
+    ExportDialog: _opened(ExportDialog, "Choose the folder…"),
+    NoteDialog: _opened(NoteDialog, "Keep note"),
+    PainDialog: _opened(PainDialog, "Close"),
+    StartAngleDialog: _opened(StartAngleDialog, "Use these angles", np.zeros(3)),
+    DeleteDialog: _opened(DeleteDialog, "Archive instead", ERASED_SESSION, 10, LAST_BACKUP, TODAY),
+    RecordsDialog: _opened(RecordsDialog, "Done", "Archive", "", [ListedRecord("a", "Heron 17", "1 session", True)]),
+    LogDialog: _opened(LogDialog, "Done", []),
+    LockScreen: _opened(LockScreen, "Unlock", "", stored=True),
+    PinDialog: _opened(PinDialog, "Set PIN", is_set=True),
+    HomeDialog: _home,
+    LetterDialog: _opened(LetterDialog, "Show the letter", ["Dr A"], has_name=True),
+    RetestDialog: _opened(RetestDialog, "Leave it as it is", retest_studies(), 0, date(2026, 11, 27)),
+    HandImageDialog: _opened(HandImageDialog, "Cancel"),
+    ExclusionDialog: _opened(ExclusionDialog, "Keep it in", 3),
+    ExcludeDialog: _opened(ExcludeDialog, "Let it count"),
+    ChoiceDialog: _opened(ChoiceDialog, "Leave it as it is", "To whom?", "", "Move it there", [("a", "Heron 17")]),
+    SetDialog: _opened(SetDialog, "Keep the set", DEFAULT_SETS, "wrist6"),
 }
 """Every sheet of the program, opened with something in it."""
 
 
-def _all_sheets() -> set[type[Sheet]]:
+def _all_sheets() -> set[type[Dialog]]:
     """Every kind that can be opened, of every module of the window."""
     for package in (carpus.ui, carpus.app):
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             if not module.name.endswith("__main__"):
                 importlib.import_module(module.name)
-    found, waiting = set(), [Sheet]
+    found, waiting = set(), [Dialog]
     while waiting:
         for kind in waiting.pop().__subclasses__():
             waiting.append(kind)
@@ -136,7 +136,7 @@ def test_no_sheet_is_forgotten() -> None:
     assert _all_sheets() == set(SHEETS)
 
 
-def _pressed(sheet: Sheet) -> list[str]:
+def _pressed(sheet: Dialog) -> list[str]:
     """What is pressed from now on."""
     said: list[str] = []
     for button in sheet.findChildren(QPushButton):
@@ -146,15 +146,15 @@ def _pressed(sheet: Sheet) -> list[str]:
 
 @pytest.mark.parametrize("kind", SHEETS, ids=lambda kind: kind.__name__)
 def test_enter_is_the_answer_that_says_so_and_loses_nothing(
-    qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Sheet]
+    qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Dialog]
 ) -> None:
     sheet, answer = SHEETS[kind](host, theme)
     focused = host.focusWidget()
     if answer:
-        assert sheet.default.text() == answer
-    assert focused is sheet.default or isinstance(focused, FIELDS) or not takes_enter(focused)
-    marked = [one.text() for one in sheet.findChildren(Button) if one.isVisible() and one.shown_key == ENTER]
-    assert marked == [sheet.default.text()]
+        assert sheet.default_button.text() == answer
+    assert focused is sheet.default_button or isinstance(focused, FIELDS) or not is_enter_handler(focused)
+    marked = [one.text() for one in sheet.findChildren(Button) if one.isVisible() and one.visible_key == ENTER_KEY]
+    assert marked == [sheet.default_button.text()]
     several_lines = isinstance(focused, QPlainTextEdit)  # takes Enter alone for a new line
     with_key = Qt.KeyboardModifier.ControlModifier if several_lines else Qt.KeyboardModifier.NoModifier
     said = _pressed(sheet)
@@ -164,9 +164,9 @@ def test_enter_is_the_answer_that_says_so_and_loses_nothing(
 
 @pytest.mark.parametrize("kind", SHEETS, ids=lambda kind: kind.__name__)
 def test_esc_loses_nothing_typed_without_saying_so(
-    qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Sheet]
+    qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Dialog]
 ) -> None:
-    def esc(sheet: Sheet) -> None:
+    def esc(sheet: Dialog) -> None:
         qtbot.keyClick(host.focusWidget() or sheet, Qt.Key.Key_Escape)
 
     sheet, _ = SHEETS[kind](host, theme)
@@ -188,7 +188,7 @@ def test_esc_loses_nothing_typed_without_saying_so(
             assert sheet.isVisible(), "what was typed since is new"
             esc(sheet)
             assert not sheet.isVisible()
-        sheet.close_sheet()
+        sheet.close_dialog()
 
 
 def test_another_button_with_the_keyboard_takes_enter_and_its_sign(qtbot: QtBot, theme: Theme, host: QWidget) -> None:
@@ -196,7 +196,7 @@ def test_another_button_with_the_keyboard_takes_enter_and_its_sign(qtbot: QtBot,
     other, default = sheet.findChildren(Button)[-2:]
     other.setFocus()
     QApplication.processEvents()
-    assert default.shown_key == "", "the label would lie"
+    assert default.visible_key == "", "the label would lie"
     said = _pressed(sheet)
     qtbot.keyClick(other, Qt.Key.Key_Return)
     assert said == [other.text()]
@@ -206,16 +206,18 @@ def test_another_button_with_the_keyboard_takes_enter_and_its_sign(qtbot: QtBot,
 def test_esc_goes_on_where_nothing_went_wrong(
     qtbot: QtBot, theme: Theme, host: QWidget, alarm: bool, pressed: list[str]
 ) -> None:
-    card, found = StopCard(host, theme), []
+    card, found = MessageDialog(host, theme), []
     answers = [Answer(name, lambda name=name: found.append(name)) for name in ("Open the folder", "Go on")]
-    card.show_words(Words("2 files were written.", "", ""), answers, alarm=alarm)
+    card.show_words(MessageText("2 files were written.", "", ""), answers, is_alarm=alarm)
     qtbot.keyClick(card, Qt.Key.Key_Escape)
     assert found == pressed
 
 
 def test_a_risky_answer_is_never_the_default(theme: Theme, host: QWidget) -> None:
     with pytest.raises(ValueError, match="Erase it"):
-        StopCard(host, theme).show_words(Words("", "", ""), [Answer("Erase it", lambda: None, risky=True)])
+        MessageDialog(host, theme).show_words(
+            MessageText("", "", ""), [Answer("Erase it", lambda: None, is_risky=True)]
+        )
 
 
 def _cards() -> Iterator[tuple[str, list[ast.Call]]]:

@@ -13,83 +13,85 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.records.erasing import EraseSheet, Erasing
+from carpus.ui.records.erasing import DeleteDialog, DeletionController
 from carpus.ui.theme import Theme
 from tests.ui.gallery import ERASED_PATIENT, ERASED_SESSION, LAST_BACKUP, TODAY
 
 
 @pytest.fixture
-def sheet(host: QWidget, theme: Theme) -> EraseSheet:
-    sheet = EraseSheet(host, theme)
-    sheet.begin(ERASED_SESSION, 10, LAST_BACKUP, TODAY)
+def sheet(host: QWidget, theme: Theme) -> DeleteDialog:
+    sheet = DeleteDialog(host, theme)
+    sheet.show_plan(ERASED_SESSION, 10, LAST_BACKUP, TODAY)
     return sheet
 
 
 @pytest.fixture
-def done(sheet: EraseSheet) -> list[str]:
+def done(sheet: DeleteDialog) -> list[str]:
     """What was answered."""
     answers: list[str] = []
-    sheet.erase.connect(lambda: answers.append("erase"))
-    sheet.archive.connect(lambda: answers.append("archive"))
+    sheet.delete_confirmed.connect(lambda: answers.append("erase"))
+    sheet.archive_confirmed.connect(lambda: answers.append("archive"))
     return answers
 
 
-def test_enter_archives(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
-    qtbot.keyClick(sheet.instead, Qt.Key.Key_Return)
+def test_enter_archives(qtbot: QtBot, sheet: DeleteDialog, done: list[str]) -> None:
+    qtbot.keyClick(sheet.archive_button, Qt.Key.Key_Return)
     assert done == ["archive"]
     assert not sheet.isVisible()
 
 
-def test_the_name_typed_as_asked_presses_nothing(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
+def test_the_name_typed_as_asked_presses_nothing(qtbot: QtBot, sheet: DeleteDialog, done: list[str]) -> None:
     """Keys go to whatever has the keyboard, as a person's do: the space of the name is a letter."""
     for letter in "Linden 42":
         focused = sheet.window().focusWidget()
-        assert focused is sheet.line
+        assert focused is sheet.confirm_field
         qtbot.keyClicks(focused, letter)
     assert done == []
     assert sheet.isVisible()
-    assert sheet.for_good.isEnabled()
-    qtbot.keyClick(sheet.line, Qt.Key.Key_Return)
+    assert sheet.delete_button.isEnabled()
+    qtbot.keyClick(sheet.confirm_field, Qt.Key.Key_Return)
     assert done == ["archive"], "Enter is what the button that bears it says"
 
 
-def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
-    assert not sheet.for_good.isEnabled()
-    qtbot.keyClicks(sheet.line, "Linden 4")
-    assert not sheet.for_good.isEnabled()
-    qtbot.keyClicks(sheet.line, "2")
-    assert sheet.for_good.isEnabled()
-    sheet.for_good.setFocus()
-    qtbot.keyClick(sheet.for_good, Qt.Key.Key_Return)
+def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(
+    qtbot: QtBot, sheet: DeleteDialog, done: list[str]
+) -> None:
+    assert not sheet.delete_button.isEnabled()
+    qtbot.keyClicks(sheet.confirm_field, "Linden 4")
+    assert not sheet.delete_button.isEnabled()
+    qtbot.keyClicks(sheet.confirm_field, "2")
+    assert sheet.delete_button.isEnabled()
+    sheet.delete_button.setFocus()
+    qtbot.keyClick(sheet.delete_button, Qt.Key.Key_Return)
     assert done == []
-    sheet.for_good.click()
+    sheet.delete_button.click()
     assert done == ["erase"]
-    sheet.begin(ERASED_SESSION, 10, LAST_BACKUP, TODAY)
-    assert not sheet.for_good.isEnabled(), "the next one is asked anew"
+    sheet.show_plan(ERASED_SESSION, 10, LAST_BACKUP, TODAY)
+    assert not sheet.delete_button.isEnabled(), "the next one is asked anew"
 
 
-def test_esc_does_nothing(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
-    qtbot.keyClick(sheet.instead, Qt.Key.Key_Escape)
+def test_esc_does_nothing(qtbot: QtBot, sheet: DeleteDialog, done: list[str]) -> None:
+    qtbot.keyClick(sheet.archive_button, Qt.Key.Key_Escape)
     assert not sheet.isVisible()
     assert done == []
 
 
-def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: EraseSheet) -> None:
-    assert "38 MB; files: 4" in sheet.goes.text()
-    assert "delete them yourself (1): /home/clinic/Reports/L.pdf" in sheet.stays.text()
-    assert "The patient’s other sessions." in sheet.stays.text()
-    assert "15 Nov" in sheet.stays.text()
-    assert "before that day" in sheet.ends.text()
+def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: DeleteDialog) -> None:
+    assert "38 MB; files: 4" in sheet.deleted_text.text()
+    assert "delete them yourself (1): /home/clinic/Reports/L.pdf" in sheet.kept_text.text()
+    assert "The patient’s other sessions." in sheet.kept_text.text()
+    assert "15 Nov" in sheet.kept_text.text()
+    assert "before that day" in sheet.consequence_text.text()
     many = replace(ERASED_SESSION, made=tuple(Path(str(number)) for number in range(5)))
-    sheet.begin(many, 10, LAST_BACKUP, date(2036, 10, 10))
-    assert sheet.ends.text() == "Carpus cannot bring it back: a restored back-up leaves it out."
-    assert "(5): 0, 1, 2, …" in sheet.stays.text()
-    sheet.begin(ERASED_PATIENT, 0, None, TODAY)
-    assert "notes (412 MB; files: 31)" in sheet.goes.text()
-    assert "real name" in sheet.goes.text()
-    assert "all sessions (9)" in sheet.goes.text()
-    assert "other sessions" not in sheet.stays.text()
-    assert sheet.ends.text() == "Nobody can bring it back."
+    sheet.show_plan(many, 10, LAST_BACKUP, date(2036, 10, 10))
+    assert sheet.consequence_text.text() == "Carpus cannot bring it back: a restored back-up leaves it out."
+    assert "(5): 0, 1, 2, …" in sheet.kept_text.text()
+    sheet.show_plan(ERASED_PATIENT, 0, None, TODAY)
+    assert "notes (412 MB; files: 31)" in sheet.deleted_text.text()
+    assert "real name" in sheet.deleted_text.text()
+    assert "all sessions (9)" in sheet.deleted_text.text()
+    assert "other sessions" not in sheet.kept_text.text()
+    assert sheet.consequence_text.text() == "Nobody can bring it back."
 
 
 @pytest.mark.parametrize(
@@ -117,5 +119,5 @@ def test_what_is_shown_when_it_is_gone_takes_nobody_from_measuring_or_another_pa
         SimpleNamespace(_context=context, _sessions=lambda: lists),
         SimpleNamespace(kind=kind, patient_id="erased"),
     )
-    Erasing._gone(cast("Any", own), cast("Any", plan))
+    DeletionController._refresh_after_removal(cast("Any", own), cast("Any", plan))
     assert ways == ([] if shown is None else [shown])

@@ -23,61 +23,66 @@ LINDEN = Patient("Linden 42", "right", patient_id="linden")
 @pytest.fixture
 def screen(show: Show[ExerciseScreen]) -> ExerciseScreen:
     screen = ExerciseScreen(Theme())
-    screen.begin(LINDEN, None, "right", False)
+    screen.show_patient(LINDEN, None, "right", False)
     return show(screen)
 
 
 def test_a_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen) -> None:
     for typed, degrees in (("37,5", 37.5), ("37.5", 37.5), ("40", 40.0), ("40°", 40.0), (" ", math.nan)):
-        screen.targets[0].clear()
-        qtbot.keyClicks(screen.targets[0], typed)
-        assert screen.primary.isEnabled()
+        screen.target_fields[0].clear()
+        qtbot.keyClicks(screen.target_fields[0], typed)
+        assert screen.primary_button.isEnabled()
         assert screen.set_up().target_positive_deg == pytest.approx(degrees, nan_ok=True)
 
 
 def test_a_target_that_cannot_be_stays_is_marked_and_stops_the_way(qtbot: QtBot, screen: ExerciseScreen) -> None:
     sent: list[object] = []
-    screen.ready.connect(sent.append)
+    screen.set_up_chosen.connect(sent.append)
     for typed in ("-200", "200", "0", "abc", "4o", "1e3", "nan"):
-        screen.targets[1].clear()
-        qtbot.keyClicks(screen.targets[1], typed)
-        assert screen.targets[1].text() == typed
-        assert screen.problem.isVisible()
-        assert "90°" in screen.problem.text()
-        assert not screen.primary.isEnabled()
+        screen.target_fields[1].clear()
+        qtbot.keyClicks(screen.target_fields[1], typed)
+        assert screen.target_fields[1].text() == typed
+        assert screen.problem_label.isVisible()
+        assert "90°" in screen.problem_label.text()
+        assert not screen.primary_button.isEnabled()
         qtbot.keyClick(screen.exercises.current(), Qt.Key.Key_Return)
         assert not sent
-    screen.targets[1].clear()
-    qtbot.keyClicks(screen.targets[1], "35")
-    assert not screen.problem.isVisible()
+    screen.target_fields[1].clear()
+    qtbot.keyClicks(screen.target_fields[1], "35")
+    assert not screen.problem_label.isVisible()
     qtbot.keyClick(screen.exercises.current(), Qt.Key.Key_Return)
     assert sent
 
 
 def test_the_last_targets_come_back_and_never_those_of_another_patient(screen: ExerciseScreen) -> None:
     last = replace(set_up(), target_positive_deg=37.5, target_negative_deg=-20.0)
-    screen.begin(LINDEN, last, "right", False)
-    assert [field.value() for field in screen.targets] == [37.5, -20.0]
-    screen.begin(Patient("Fir 12", "left", patient_id="fir"), None, "left", False)
-    assert all(math.isnan(field.value()) for field in screen.targets)
+    screen.show_patient(LINDEN, last, "right", False)
+    assert [field.value() for field in screen.target_fields] == [37.5, -20.0]
+    screen.show_patient(Patient("Fir 12", "left", patient_id="fir"), None, "left", False)
+    assert all(math.isnan(field.value()) for field in screen.target_fields)
 
 
 def test_of_a_patient_with_two_hands_affected_one_must_be_chosen(qtbot: QtBot, screen: ExerciseScreen) -> None:
-    screen.begin(Patient("Ash 7", "both", patient_id="ash"), None, None, False)
-    assert not screen.primary.isEnabled()
-    assert "hand" in screen.primary.text()
-    qtbot.mouseClick(screen.asked["side"].buttons()[1], Qt.MouseButton.LeftButton)
-    assert screen.primary.isEnabled()
+    screen.show_patient(Patient("Ash 7", "both", patient_id="ash"), None, None, False)
+    assert not screen.primary_button.isEnabled()
+    assert "hand" in screen.primary_button.text()
+    qtbot.mouseClick(screen.form["side"].buttons()[1], Qt.MouseButton.LeftButton)
+    assert screen.primary_button.isEnabled()
     assert screen.set_up().side == "left"
 
 
 def test_enter_goes_on_from_every_field_and_after_the_targets_were_taken(qtbot: QtBot, screen: ExerciseScreen) -> None:
     sent: list[object] = []
-    screen.ready.connect(sent.append)
-    screen.accept.show()
-    qtbot.mouseClick(screen.accept, Qt.MouseButton.LeftButton)
-    assert screen.window().focusWidget() is screen.primary, "where Enter stands"
-    for field in (screen.primary, screen.targets[0], screen.asked["repetitions"], screen.asked["side"].buttons()[0]):
+    screen.set_up_chosen.connect(sent.append)
+    screen.proposal_button.show()
+    qtbot.mouseClick(screen.proposal_button, Qt.MouseButton.LeftButton)
+    assert screen.window().focusWidget() is screen.primary_button, "where Enter stands"
+    for field in (
+        screen.primary_button,
+        screen.target_fields[0],
+        screen.form["repetitions"],
+        screen.form["side"].buttons()[0],
+    ):
         before = len(sent)
         field.setFocus()
         qtbot.keyClick(field, Qt.Key.Key_Return)
@@ -91,9 +96,9 @@ def test_while_a_source_is_opened_the_keyboard_leads_nowhere_else(theme: Theme, 
     for part in (QPushButton("Exercise"), screen):
         column.addWidget(part)
     show(host, active=True)
-    screen.begin(set_up(), "practice")
-    screen.primary.setFocus()
+    screen.show_set_up(set_up(), "practice")
+    screen.primary_button.setFocus()
     screen.show_opening(True, "The simulated patient is being drawn.")
     assert host.focusWidget() is screen
     screen.show_opening(False)
-    assert screen.primary.isEnabled()
+    assert screen.primary_button.isEnabled()

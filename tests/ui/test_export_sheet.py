@@ -12,14 +12,14 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.formats.formats import FORMATS
-from carpus.core.formats.new_output import FOR_PROGRAMS, TableForm
+from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
 from carpus.ui.background import Background
-from carpus.ui.export.flow import Exporting
-from carpus.ui.last_places import LastPlaces
+from carpus.ui.export.flow import ExportController
+from carpus.ui.last_places import RecentLocations
 from carpus.ui.theme import Theme
 from tests.ui.contexts import Told, a_context
 
-Parts = tuple[Exporting, "Stored", Told]
+Parts = tuple[ExportController, "Stored", Told]
 
 
 class Stored:
@@ -27,13 +27,13 @@ class Stored:
 
     def __init__(self) -> None:
         self.calls: list[tuple[Sequence[str], bool]] = []
-        self.forms: list[TableForm] = []
+        self.forms: list[TableDialect] = []
         self.waits = threading.Event()
         self.waits.set()
 
     def export(
         self, session_id: str, folder: str, formats: Sequence[str], progress: Callable[[int, int], None],
-        cancelled: Callable[[], bool], deidentified: bool, form: TableForm,
+        cancelled: Callable[[], bool], deidentified: bool, form: TableDialect,
     ) -> Sequence[str]:  # fmt: skip
         self.calls.append((formats, deidentified))
         self.forms.append(form)
@@ -51,43 +51,45 @@ def parts(
 ) -> Parts:
     stored, told = Stored(), Told()
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
-    exporting = Exporting(a_context(theme, host, told, background, library=stored, places=LastPlaces(tmp_path)))
+    exporting = ExportController(
+        a_context(theme, host, told, background, library=stored, places=RecentLocations(tmp_path))
+    )
     return exporting, stored, told
 
 
 def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, parts: Parts) -> None:
     exporting, stored, told = parts
-    exporting.ask("s1")
-    assert set(exporting.formats.boxes) == set(FORMATS)
-    assert exporting.formats.formats == ["csv"]
-    exporting.formats.boxes["csv"].click()
-    assert not exporting.formats.take.isEnabled(), "nothing to write"
-    exporting.formats.boxes["c3d"].click()
-    exporting.formats.nobody.click()
-    exporting.formats.take.click()
+    exporting.choose_formats("s1")
+    assert set(exporting.dialog.format_ticks) == set(FORMATS)
+    assert exporting.dialog.formats == ["csv"]
+    exporting.dialog.format_ticks["csv"].click()
+    assert not exporting.dialog.folder_button.isEnabled(), "nothing to write"
+    exporting.dialog.format_ticks["c3d"].click()
+    exporting.dialog.deidentify_tick.click()
+    exporting.dialog.folder_button.click()
     qtbot.waitUntil(lambda: bool(told.asked))
     assert stored.calls == [(["c3d"], True)]
-    assert not exporting.formats.isVisible()
+    assert not exporting.dialog.isVisible()
     assert not told.faults
 
 
 def test_tables_have_the_form_of_the_region_that_is_chosen(qtbot: QtBot, parts: Parts) -> None:
     exporting, stored, told = parts
-    choice = exporting.formats.tables_for
-    for words, form in (("1,5", TableForm(";", ",", has_mark=True)), ("programs", FOR_PROGRAMS)):
-        exporting.ask("s1")
+    choice = exporting.dialog.region_choice
+    for words, form in (("1,5", TableDialect(";", ",", has_bom=True)), ("programs", MACHINE_DIALECT)):
+        exporting.choose_formats("s1")
         choice.setCurrentIndex(next(k for k in range(choice.count()) if words in choice.itemText(k)))
         before = len(told.asked)
-        exporting.formats.take.click()
+        exporting.dialog.folder_button.click()
         qtbot.waitUntil(lambda before=before: len(told.asked) > before)
         assert stored.forms[-1] == form
 
 
 def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None:
     exporting, stored, told = parts
-    exporting.ask("s1")
-    exporting.formats.boxes["trc"].click()
-    qtbot.keyClick(exporting.formats.boxes["trc"], Qt.Key.Key_Return)
+    exporting.choose_formats("s1")
+    exporting.dialog.format_ticks["trc"].click()
+    qtbot.keyClick(exporting.dialog.format_ticks["trc"], Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: bool(told.asked))
     assert stored.calls == [(["csv", "trc"], False)]
 
@@ -95,12 +97,12 @@ def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None
 def test_it_shows_how_far_it_is_and_stops(qtbot: QtBot, parts: Parts, background: Background) -> None:
     exporting, stored, told = parts
     stored.waits.clear()
-    exporting.ask("s1")
-    exporting.formats.take.click()
-    qtbot.waitUntil(lambda: exporting.formats.bar.value() == 1)
-    assert exporting.formats.bar.maximum() == 2
-    assert not exporting.formats.take.isVisible()
-    qtbot.keyClick(exporting.formats, Qt.Key.Key_Escape)
-    qtbot.waitUntil(lambda: not exporting.formats.isVisible())
-    assert background.wait()
+    exporting.choose_formats("s1")
+    exporting.dialog.folder_button.click()
+    qtbot.waitUntil(lambda: exporting.dialog.bar.value() == 1)
+    assert exporting.dialog.bar.maximum() == 2
+    assert not exporting.dialog.folder_button.isVisible()
+    qtbot.keyClick(exporting.dialog, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: not exporting.dialog.isVisible())
+    assert background.join()
     assert not told.asked, "nothing was written, so nothing is said to be"

@@ -10,11 +10,11 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
-from carpus.core.records.new_sessions import Recovered
+from carpus.core.records.new_sessions import RecoveredSession
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.words import shorten
 from carpus.ui.fault_words import fault_words
-from carpus.ui.language import speaking
+from carpus.ui.language import use_language
 from carpus.ui.messages.messages import Messages
 from carpus.ui.theme import Theme
 
@@ -24,13 +24,13 @@ def test_a_long_path_is_told_by_its_end(root: str) -> None:
     stroke = "\\" if "\\" in root else "/"
     name = "Blue-Hummingbird-Mountain-42_2026-11-21_154533_WRIST_FE_right.h5"
     words = fault_words(DiskFull(stroke.join((root, "sessions", "Blue-Hummingbird-Mountain-42", name)), "full"))
-    assert max(len(part) for part in words.happened.split("/")) < 48
-    assert "someone" not in words.happened
-    assert "right.h5" in words.happened
+    assert max(len(part) for part in words.summary.split("/")) < 48
+    assert "someone" not in words.summary
+    assert "right.h5" in words.summary
 
 
 def test_what_is_no_path_stays() -> None:
-    assert "take 7" in fault_words(DiskFull("take 7", "1/2 full")).happened
+    assert "take 7" in fault_words(DiskFull("take 7", "1/2 full")).summary
     assert "1/2 full" in fault_words(DiskFull("take 7", "1/2 full")).details
 
 
@@ -48,7 +48,7 @@ def test_a_recovered_practice_session_names_the_patient_in_the_persons_language(
     host = QWidget()
     qtbot.addWidget(host)
     messages = Messages(host, Theme("light"))
-    found = Recovered(PRACTICE_PATIENT, "s1", "Practice patient", datetime(2026, 11, 26, 1, 41), 11.0)
-    with speaking("de"):
-        assert "Probepatient" in messages.recovered_words(found).happened
-        assert "Linde" in messages.recovered_words(replace(found, patient_id="p1", pseudonym="Linde")).happened
+    found = RecoveredSession(PRACTICE_PATIENT, "s1", "Practice patient", datetime(2026, 11, 26, 1, 41), 11.0)
+    with use_language("de"):
+        assert "Probepatient" in messages.recovery_words(found).summary
+        assert "Linde" in messages.recovery_words(replace(found, patient_id="p1", pseudonym="Linde")).summary

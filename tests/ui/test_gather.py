@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from carpus.ui.live.light import Behind, behind_lamp
-from carpus.ui.report.gather import progress_report, session_report
+from carpus.ui.live.light import TrackingLag, lag_light
+from carpus.ui.report.gather import build_progress_report, build_session_report
 from tests.ui.fakes import FakeFeed, FakeSessions
 
 
 def test_the_number_of_a_session_counts_the_sessions_of_its_hand() -> None:
     store = FakeSessions()
-    report = session_report(store.session("session-7"), history=store.history("linden"))
+    report = build_session_report(store.session("session-7"), history=store.history("linden"))
     assert {one.side for one in store.history("linden")} == {"left", "right"}
     assert report.session_number == 7
 
@@ -19,15 +19,15 @@ def test_the_number_of_a_session_counts_the_sessions_of_its_hand() -> None:
 def test_the_report_of_progress_shows_the_other_hand_that_the_screen_shows() -> None:
     history = FakeSessions().history("linden")
     right, (left,) = [one for one in history if one.side == "right"], [one for one in history if one.side == "left"]
-    assert progress_report(right).progress.other_hand is None
-    assert progress_report(right, other_hand=left).progress.other_hand is left
-    assert progress_report(history).progress.other_hand is left
+    assert build_progress_report(right).progress.other_hand is None
+    assert build_progress_report(right, other_hand=left).progress.other_hand is left
+    assert build_progress_report(history).progress.other_hand is left
 
 
 def test_pictures_that_never_came_are_not_told_as_kept() -> None:
-    counters, behind = FakeFeed().counters(), Behind()
-    behind.late_s = 4.0
-    behind.count(replace(counters, missing=380))
-    assert "every picture is kept" in behind_lamp(behind, recording=True).remedy
-    behind.count(replace(counters, missing=383))
-    assert behind_lamp(behind, recording=True).remedy == "3 pictures are missing: close other programs"
+    counters, behind = FakeFeed().counters(), TrackingLag()
+    behind.lag_s = 4.0
+    behind.count_missing(replace(counters, missing=380))
+    assert "every picture is kept" in lag_light(behind, recording=True).remedy
+    behind.count_missing(replace(counters, missing=383))
+    assert lag_light(behind, recording=True).remedy == "3 pictures are missing: close other programs"

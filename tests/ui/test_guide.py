@@ -12,11 +12,11 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import OutputNotWritable
 from carpus.core.hand.protocols import HAND21
-from carpus.ui.hand_drawing import PLACES
+from carpus.ui.hand_drawing import MARKER_POSITIONS
 from carpus.ui.help import guide
 from carpus.ui.help.cards import write_cards
 from carpus.ui.help.screen import HelpScreen
-from carpus.ui.language import LANGUAGES, speaking, texts_of
+from carpus.ui.language import LANGUAGES, load_texts, use_language
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
 from tests.ui.printed import pages_of, words_of
@@ -32,18 +32,18 @@ def test_every_page_is_there_and_none_is_left_over() -> None:
         assert {path.stem for path in (GUIDE / code).glob("*.md")} == set(guide.PAGES)
     assert set(ASKED) <= set(guide.PAGES)
     for page in guide.PAGES:
-        assert guide.title(page)
-        assert set(guide.links(page)) <= set(guide.PAGES)
+        assert guide.page_title(page)
+        assert set(guide.page_links(page)) <= set(guide.PAGES)
 
 
 def test_the_guide_in_each_language_has_the_same_parts() -> None:
     parts = re.compile(r"^(?:#+|-|\d+\.) |\]\([\w.-]+\)", re.MULTILINE)
     said: dict[str, set[str]] = {}
     for code in LANGUAGES:
-        with speaking(code):
+        with use_language(code):
             for page in guide.PAGES:
-                assert parts.findall(guide.source(page)) == parts.findall(_english(page)), (code, page)
-            said[code] = {guide.title(page) for page in guide.PAGES}
+                assert parts.findall(guide.load_page(page)) == parts.findall(_english(page)), (code, page)
+            said[code] = {guide.page_title(page) for page in guide.PAGES}
     assert not said["en"] & said["de"]
     assert not said["en"] & said["it"]
 
@@ -61,7 +61,7 @@ NO_TEXT_OF_THE_WINDOW = {
 
 @pytest.mark.parametrize("code", LANGUAGES)
 def test_what_the_guide_quotes_is_what_the_window_says(code: str) -> None:
-    pairs = texts_of(next(one for one in LANGUAGES if one != "en") if code == "en" else code).items()
+    pairs = load_texts(next(one for one in LANGUAGES if one != "en") if code == "en" else code).items()
     texts = {source if code == "en" else said for (_, source), said in pairs}
     names = re.compile(r"\{[^}]*\}")
     known = [
@@ -81,11 +81,11 @@ def _bare(text: str) -> str:
 
 
 def _english(page: str) -> str:
-    return (GUIDE / guide.FIRST_LANGUAGE / f"{page}.md").read_text("utf-8")
+    return (GUIDE / guide.DEFAULT_LANGUAGE / f"{page}.md").read_text("utf-8")
 
 
 def test_every_picture_is_there_and_none_is_left_over() -> None:
-    shown = {name for page in guide.PAGES for name in guide.pictures(page)}
+    shown = {name for page in guide.PAGES for name in guide.page_pictures(page)}
     assert {path.name for path in (GUIDE / "pictures").iterdir()} == shown
     for name in shown:
         assert QImage(guide.picture_path(name)).width() >= 1000
@@ -94,14 +94,14 @@ def test_every_picture_is_there_and_none_is_left_over() -> None:
 def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(theme: Theme, show: Show[HelpScreen]) -> None:
     screen = show(HelpScreen(theme))
     screen.show_page("camera")
-    assert screen.pages["camera"].isChecked()
-    assert "70 to 80 cm" in screen.text.toPlainText()
-    screen.text.anchorClicked.emit(QUrl("correct"))
+    assert screen.page_buttons["camera"].isChecked()
+    assert "70 to 80 cm" in screen.page_view.toPlainText()
+    screen.page_view.anchorClicked.emit(QUrl("correct"))
     assert screen.page == "correct"
-    picture = screen.text.loadResource(2, QUrl("discs-6.png"))
+    picture = screen.page_view.loadResource(2, QUrl("discs-6.png"))
     assert picture is not None
     screen.show_page(guide.KEYS_PAGE)
-    assert "Shift+F10" in screen.text.toPlainText()
+    assert "Shift+F10" in screen.page_view.toPlainText()
 
 
 def test_a_page_is_html_of_its_words_and_nothing_typed_is_markup(theme: Theme) -> None:
@@ -116,7 +116,7 @@ def test_a_page_is_html_of_its_words_and_nothing_typed_is_markup(theme: Theme) -
 
 
 def test_the_drawing_has_a_place_for_every_disc() -> None:
-    assert set(PLACES) >= set(HAND21.markers)
+    assert set(MARKER_POSITIONS) >= set(HAND21.markers)
 
 
 def test_the_cards_are_two_pages_with_their_words(qtbot: QtBot, tmp_path: Path) -> None:

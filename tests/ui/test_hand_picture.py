@@ -17,14 +17,14 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import OutputNotWritable
-from carpus.core.hand.exercises import exercise_named
-from carpus.core.results.hand_cutout import FLAT, cut_out, drawn_angle
+from carpus.core.hand.exercises import get_exercise
+from carpus.core.results.hand_cutout import BACKGROUND_GREY, angle_overlay, cut_out_hand
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
 from carpus.core.types import SIMULATED, ByteImage, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.review.hand_picture import HandPicture, hand_picture
+from carpus.ui.review.hand_picture import HandImage, build_hand_image
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Reviewing
 from tests.ui.contexts import Told, a_context
@@ -46,10 +46,10 @@ def side() -> Session:
 
 def test_only_what_is_near_the_hand_stays(side: Session) -> None:
     for row in ROWS[::10]:
-        alone = cut_out(room(), side, row)
+        alone = cut_out_hand(room(), side, row)
         left, top = alone.left_px, alone.top_px
         kept = (alone.image == FACE).all(axis=2)
-        assert (alone.image[~kept] == FLAT).all()
+        assert (alone.image[~kept] == BACKGROUND_GREY).all()
         discs = np.round(side.markers.measured_px[row] - (left, top)).astype(int)
         assert kept[discs[:, 1], discs[:, 0]].all(), "the hand is there"
         far = np.argwhere(kept)[:, ::-1] + (left, top)
@@ -59,56 +59,56 @@ def test_only_what_is_near_the_hand_stays(side: Session) -> None:
         assert kept.sum() < 0.5 * room().shape[0] * room().shape[1]
     status = np.array(side.status)
     status[ROWS[0]] = TrackStatus.LOST
-    assert cut_out(room(), replace(side, status=status), ROWS[0]) is None, "a lost hand shows nothing"
+    assert cut_out_hand(room(), replace(side, status=status), ROWS[0]) is None, "a lost hand shows nothing"
 
 
 def test_the_angle_on_the_picture_is_the_one_that_was_measured(side: Session) -> None:
-    exercise = exercise_named("WRIST_RU")
+    exercise = get_exercise("WRIST_RU")
     for row in ROWS[::7]:
-        drawn = drawn_angle(side, row, exercise)
+        drawn = angle_overlay(side, row, exercise)
         zero, hand = drawn.zero - drawn.vertex, drawn.hand - drawn.vertex
         shown = math.degrees(math.atan2(zero[0] * hand[1] - zero[1] * hand[0], float(zero @ hand)))
         assert abs(abs(shown) - abs(math.degrees(side.motion.angles_rad[row][0]))) < 4.0
     bending = session(seconds=20.0, speed_hz=0.16)
-    assert drawn_angle(bending, 60, exercise_named("WRIST_FE")) is None, "towards the camera it would look too small"
+    assert angle_overlay(bending, 60, get_exercise("WRIST_FE")) is None, "towards the camera it would look too small"
 
 
 def test_without_agreement_or_frames_no_picture_is_saved(qtbot: QtBot, review: Reviewing) -> None:
     screen = review(FakeSessions(pictures=False), "session-7")
-    assert screen.picture.save_button.isHidden()
-    screen.ask_hand_picture()
-    assert not screen.hand_picture.isVisible()
+    assert screen.frame_view.save_button.isHidden()
+    screen.open_hand_image_dialog()
+    assert not screen.hand_image_dialog.isVisible()
     screen = review(FakeSessions(), "session-7")
-    wanted: list[HandPicture] = []
-    screen.hand_picture_wanted.connect(wanted.append)
-    screen.go_to_repetition(3)
-    qtbot.mouseClick(screen.picture.save_button, Qt.MouseButton.LeftButton)
-    sheet = screen.hand_picture
+    wanted: list[HandImage] = []
+    screen.hand_image_requested.connect(wanted.append)
+    screen.select_repetition(3)
+    qtbot.mouseClick(screen.frame_view.save_button, Qt.MouseButton.LeftButton)
+    sheet = screen.hand_image_dialog
     assert sheet.isVisible()
-    assert not sheet.take.isEnabled()
+    assert not sheet.accept_button.isEnabled()
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert not wanted
-    screen.ask_hand_picture()
-    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
+    screen.open_hand_image_dialog()
+    qtbot.mouseClick(sheet.consent_check, Qt.MouseButton.LeftButton)
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
-    assert wanted[0].row == screen.picture.row
+    assert wanted[0].row == screen.frame_view.row
     assert wanted[0].words.endswith("°")
-    screen.ask_hand_picture()
-    assert not sheet.agreed.isChecked(), "agreement is given each time"
-    sheet.begin(refused=True)
-    assert not sheet.agreed.isEnabled()
+    screen.open_hand_image_dialog()
+    assert not sheet.consent_check.isChecked(), "agreement is given each time"
+    sheet.open_form(refused=True)
+    assert not sheet.consent_check.isEnabled()
 
 
 def test_words_on_a_picture_say_where_the_angle_is_not_the_patients_own(qtbot: QtBot, review: Reviewing) -> None:
     screen = review(FakeSessions(), "session-7")
-    screen.go_to_repetition(3)
-    row, time_s = screen.picture.row, screen.playing.time_s
-    screen._leave_out(screen.current + 1, PASSIVE, and_after=False)
+    screen.select_repetition(3)
+    row, time_s = screen.frame_view.row, screen.playing.time_s
+    screen._exclude_repetition(screen.current + 1, PASSIVE, and_after=False)
     reviewed = screen.reviewed
-    assert hand_picture(reviewed, row, time_s).words.endswith("°, passive")
+    assert build_hand_image(reviewed, row, time_s).words.endswith("°, passive")
     header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
     simulated = replace(reviewed, session=replace(reviewed.session, header=header))
-    assert hand_picture(simulated, row, time_s).words.endswith("°, passive · Simulated hand")
+    assert build_hand_image(simulated, row, time_s).words.endswith("°, passive · Simulated hand")
 
 
 def test_a_saved_picture_shows_the_hand_alone_is_told_and_noted(
@@ -132,17 +132,17 @@ def test_a_saved_picture_shows_the_hand_alone_is_told_and_noted(
     told = Told()
     flow = ReviewFlow(a_context(theme, host, told, background, library=Pictures(), places=places))
     qtbot.addWidget(flow.screen)
-    flow.save_hand_picture(HandPicture(side, ROWS[0], exercise_named("WRIST_RU"), "24°"))
+    flow.save_hand_image(HandImage(side, ROWS[0], get_exercise("WRIST_RU"), "24°"))
     qtbot.waitUntil(lambda: bool(made))
     assert re.search(r"_\d{4}-\d\d-\d\d_\d\d-\d\d_wrist-ru_right_30.png$", str(asked[0][2]))
     assert made == [(str(tmp_path / "x.png"), [side.header.session_id])]
     assert told.asked
     picture = cv2.imread(str(tmp_path / "x.png"))
-    assert (picture == FLAT).all(axis=2).mean() > 0.2, "room is cut away"
+    assert (picture == BACKGROUND_GREY).all(axis=2).mean() > 0.2, "room is cut away"
     assert max(picture.shape) > 320, "a small hand is shown larger"
     assert (tmp_path / "x.png").stat().st_mode & 0o077 == 0
     (tmp_path / "x.png").unlink()
-    flow.save_hand_picture(HandPicture(side, ROWS[1], exercise_named("WRIST_RU"), ""))
+    flow.save_hand_image(HandImage(side, ROWS[1], get_exercise("WRIST_RU"), ""))
     qtbot.waitUntil(lambda: bool(told.faults))
     assert isinstance(told.faults[0], OutputNotWritable)
     assert not list(tmp_path.iterdir())

@@ -15,22 +15,22 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core import so3
-from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
+from carpus.core.agreement.limits_file import LIMITS_FILE, save_limits
 from carpus.core.errors import SessionUnreadable, SettingsInvalid
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.measures.repetitions import Uncounted
+from carpus.core.measures.repetitions import NoRepetitionReason
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import recover
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measure import measure_values
-from carpus.core.results.progress import progress
-from carpus.core.results.seen import joint_curves, session_curves
+from carpus.core.records.new_sessions import recover_sessions
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.measure import summarise_values
+from carpus.core.results.progress import compute_progress
+from carpus.core.results.seen import joint_curves, wrist_curves
 from carpus.core.types import TrackedFrame
 from carpus.ui.background import Background
 from carpus.ui.controls.text import StateText, Text
-from carpus.ui.figures import figure_of, spread_labels
+from carpus.ui.figures import find_finger_angle, spread_labels
 from carpus.ui.live.number_card import speed_words
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.plot.course import place_panels
@@ -39,17 +39,17 @@ from carpus.ui.plot.session import HandPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import PatientCard, Preferences
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.report.gather import session_report
-from carpus.ui.report.screen import suggested_name
-from carpus.ui.settings.limits import limit_lines
+from carpus.ui.report.gather import build_session_report
+from carpus.ui.report.screen import default_file_name
+from carpus.ui.settings.limits import limit_rows
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
-from carpus.ui.verdicts import change_since_first, difference, limit_words, no_change_words, verdict_word
-from carpus.ui.words.fingers import compared_figures, finger_table, limits_words, main_figure
-from carpus.ui.words.progress import before_after
+from carpus.ui.verdicts import change_since_first, difference_words, error_limit_words, no_change_words, verdict_word
+from carpus.ui.words.fingers import finger_table, limitation_words, main_angles, main_result_words
+from carpus.ui.words.progress import value_pair
 from carpus.ui.words.ranges import range_table, repetition_words
-from carpus.ui.words.session import method, other_lines, since_words
-from carpus.ui.words.table import cell_words
+from carpus.ui.words.session import change_sentence, method_words, speed_pain_lines
+from carpus.ui.words.table import cell_text
 from tests.moments import with_moment
 from tests.results.days import with_ranges
 from tests.sources import SOURCES, modules, nodes
@@ -65,9 +65,9 @@ def test_method_where_no_angle_is_known_says_nothing_of_its_sd(of_hand: bool) ->
     made = hand_session(lost=[(0.0, 99.0)]) if of_hand else session(lost=[(0.0, 99.0)])
     figures = figures_once(made)
     assert math.isnan(figures.quality.angle_sd_deg)
-    assert "known to about" not in method(figures, 6, compared=False)
+    assert "known to about" not in method_words(figures, 6, compared=False)
     sure = replace(figures, quality=replace(figures.quality, angle_sd_deg=1.0))
-    assert "known to about ±" in method(sure, 6, compared=False)
+    assert "known to about ±" in method_words(sure, 6, compared=False)
 
 
 def said(widget: QWidget) -> str:
@@ -75,7 +75,7 @@ def said(widget: QWidget) -> str:
     return " ".join(text.text() for kind in (Text, StateText) for text in widget.findChildren(kind))
 
 
-def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: object) -> SessionFigures:
+def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: object) -> SessionResults:
     """A wrist that bends between two angles of flexion and never comes back to neutral."""
     made = session(**header)  # type: ignore[arg-type]
     angles = made.motion.angles_rad.copy()
@@ -90,7 +90,7 @@ def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: obje
 def test_the_card_says_that_a_recording_counts_once_where_one_was_tracked_again(theme: Theme, earlier: int) -> None:
     row = replace(FakeStore().rows[5], session_count=6, result_count=6 + earlier)
     card = PatientCardView(theme, NOW.date)
-    card.show_card(PatientCard(row, has_sessions=True), camera_ready=True)
+    card.show_card(PatientCard(row, has_sessions=True), is_camera_ready=True)
     assert (ONCE in said(card)) is (earlier > 0)
     if earlier:
         assert str(earlier) in said(card).split(ONCE)[1]
@@ -99,7 +99,7 @@ def test_the_card_says_that_a_recording_counts_once_where_one_was_tracked_again(
 class TrackedAgain(FakeSessions):
     """Sessions of which one recording has two earlier results."""
 
-    def history(self, patient_id: str) -> list[SessionFigures]:
+    def history(self, patient_id: str) -> list[SessionResults]:
         return [replace(f, earlier_results=2) if n == 1 else f for n, f in enumerate(super().history(patient_id))]
 
 
@@ -109,14 +109,14 @@ def test_progress_and_report_say_it_too(
 ) -> None:
     store = kind()
     screen = ProgressScreen(theme, background, store)
-    screen.begin("linden")
-    qtbot.waitUntil(lambda: not background.busy)
+    screen.load_patient("linden")
+    qtbot.waitUntil(lambda: not background.is_busy)
     again = kind is TrackedAgain
     assert (ONCE in said(screen)) is again
     history = store.history("linden")
     key = history[1].session_id
-    report = session_report(store.session(key), history=history)
-    assert (ONCE in method(report.figures, 6, compared=False)) is again
+    report = build_session_report(store.session(key), history=history)
+    assert (ONCE in method_words(report.results, 6, compared=False)) is again
 
 
 def test_while_sessions_are_read_nothing_of_the_patient_before_is_shown_or_can_be_made(
@@ -125,40 +125,40 @@ def test_while_sessions_are_read_nothing_of_the_patient_before_is_shown_or_can_b
     store = FakeSessions()
     screen = ProgressScreen(theme, background, store)
     acts = (screen.report_button, screen.picture_button, screen.table_button)
-    screen.begin("linden")
-    qtbot.waitUntil(lambda: not background.busy)
+    screen.load_patient("linden")
+    qtbot.waitUntil(lambda: not background.is_busy)
     assert screen.progress.points
     assert all(button.isEnabled() for button in acts)
 
-    screen.begin("linden")
-    screen.begin("nobody")  # asked for before the answer to the first
+    screen.load_patient("linden")
+    screen.load_patient("nobody")  # asked for before the answer to the first
     shown: list[int] = []
     monkeypatch.setattr(screen.chart, "show_progress", lambda course: shown.append(len(course.points)))
     screen._background.run(lambda: None, lambda _: None, lambda _: None)
-    qtbot.waitUntil(lambda: not background.busy)
+    qtbot.waitUntil(lambda: not background.is_busy)
     assert len(shown) == 1, "the answer to the first is of another patient by now"
     monkeypatch.undo()
-    screen.begin("linden")
-    qtbot.waitUntil(lambda: not background.busy)
+    screen.load_patient("linden")
+    qtbot.waitUntil(lambda: not background.is_busy)
 
-    def gone(_: str) -> list[SessionFigures]:
+    def gone(_: str) -> list[SessionResults]:
         raise SessionUnreadable("session-1", "")
 
     monkeypatch.setattr(store, "history", gone)
-    screen.begin("birch")
-    assert screen.answer.text() == "Reading the sessions…"
+    screen.load_patient("birch")
+    assert screen.answer_text.text() == "Reading the sessions…"
     for read in (False, True):
         if read:
-            qtbot.waitUntil(lambda: not background.busy)
+            qtbot.waitUntil(lambda: not background.is_busy)
         assert not screen.progress.points
         assert not any(button.isEnabled() for button in acts)
-    assert screen.answer.text() == "The sessions cannot be read."
+    assert screen.answer_text.text() == "The sessions cannot be read."
 
 
 def test_earlier_results_that_were_read_are_counted_as_replaced() -> None:
     newest = figures_once(session())
     older = replace(newest, session_id="older", created=(newest.created or NOW) - timedelta(days=1))
-    assert progress([newest, older]).earlier_results == 1
+    assert compute_progress([newest, older]).earlier_results == 1
 
 
 # --- the forearm ------------------------------------------------------------------------------------------
@@ -179,7 +179,7 @@ def test_the_lamp_judges_the_forearm_by_the_point_that_the_wrist_turns_about(mov
     history, seen = History(WRIST6), []
     for frame in turning(FakeFeed(seconds=20.0).frames[:500], moved_mm):
         history.append([frame])
-        seen.append(history.forearm_moved())
+        seen.append(history.has_forearm_moved())
     away = np.linalg.norm(history.path_mm(), axis=1)
     assert np.nanmax(away) > 15.0, "the disc itself leaves the ball"
     assert not any(seen[:420])
@@ -189,36 +189,36 @@ def test_the_lamp_judges_the_forearm_by_the_point_that_the_wrist_turns_about(mov
 # --- what lacks -------------------------------------------------------------------------------------------
 def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme: Theme) -> None:
     before = not_reaching((30.0, 60.0), when=NOW - timedelta(days=20), session_id="before")
-    course = progress([before, not_reaching((10.0, 60.0), session_id="after")])
-    item = next(item for item in course.comparisons if item.after.what == "extension")
+    course = compute_progress([before, not_reaching((10.0, 60.0), session_id="after")])
+    item = next(item for item in course.comparisons if item.after.quantity == "extension")
     assert item.verdict == "improved"
-    assert before_after(item).count("lacks") == 2
+    assert value_pair(item).count("lacks") == 2
     panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, 1) if key[1] == "extension")
     assert panel.scale.low < item.before.mean + 5.0
     card = PatientCardView(theme, NOW.date)
     row = replace(item.after, mean=-20.0)
-    card.show_card(PatientCard(FakeStore().rows[5], ((row, None),), has_sessions=True), camera_ready=True)
+    card.show_card(PatientCard(FakeStore().rows[5], ((row, None),), has_sessions=True), is_camera_ready=True)
     assert "lacks 20°" in said(card)
 
 
 # --- whose figures ----------------------------------------------------------------------------------------
 def test_the_footnote_names_the_sd_that_is_printed() -> None:
     many = figures_once(session())
-    assert "spread between repetitions" in method(many, 6, compared=False)
-    assert "tracker’s own" not in method(many, 6, compared=False)
+    assert "spread between repetitions" in method_words(many, 6, compared=False)
+    assert "tracker’s own" not in method_words(many, 6, compared=False)
     single = with_ranges(many, lambda row: {"sd": math.nan, "values": row.values[:1]})
-    assert "tracker’s own" in method(single, 6, compared=False)
-    assert "spread between repetitions" not in method(single, 6, compared=False)
-    mixed = with_ranges(many, lambda row: {} if row.what == "arc" else {"sd": math.nan, "values": row.values[:1]})
-    assert "of fewer than 3 the tracker’s own" in method(mixed, 6, compared=False)
+    assert "tracker’s own" in method_words(single, 6, compared=False)
+    assert "spread between repetitions" not in method_words(single, 6, compared=False)
+    mixed = with_ranges(many, lambda row: {} if row.quantity == "arc" else {"sd": math.nan, "values": row.values[:1]})
+    assert "of fewer than 3 the tracker’s own" in method_words(mixed, 6, compared=False)
 
 
 def test_an_error_that_all_changes_share_is_said_once_and_else_with_each() -> None:
     made = figures_once(session())
     before = with_ranges(replace(made, session_id="before"), lambda row: {"mean": row.mean - 40.0})
-    assert since_words(made, before, "then").count("(error ") == 3, "an arc has two ends"
-    ends = replace(made, measures=tuple(row for row in made.measures if row.what != "arc"))
-    said = since_words(ends, before, "then")
+    assert change_sentence(made, before, "then").count("(error ") == 3, "an arc has two ends"
+    ends = replace(made, measures=tuple(row for row in made.measures if row.quantity != "arc"))
+    said = change_sentence(ends, before, "then")
     assert said.endswith("(error 10°).")
     assert said.count("40° better") == 2
     assert said.count("(error ") == 1
@@ -227,17 +227,17 @@ def test_an_error_that_all_changes_share_is_said_once_and_else_with_each() -> No
 def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_larger(
     theme: Theme, background: Background, qtbot: QtBot
 ) -> None:
-    words = limit_words()
+    words = error_limit_words()
     assert "experts’ choice" in words
     assert "not published" in words
     assert "√2" in words
-    assert words in method(figures_once(session()), 6, compared=True)
+    assert words in method_words(figures_once(session()), 6, compared=True)
     screen = ProgressScreen(theme, background, FakeSessions())
-    screen.begin("linden")
-    qtbot.waitUntil(lambda: not background.busy)
+    screen.load_patient("linden")
+    qtbot.waitUntil(lambda: not background.is_busy)
     assert words in said(screen)
     assert words in said(SettingsScreen(theme, Preferences()))
-    limits = dict(limit_lines())
+    limits = dict(limit_rows())
     assert limits["Flexion, extension"] == "10°"
     assert limits["Flexion and extension, whole arc"] == "14°"
     assert limits["Total active motion (TAM)"] == "22°"
@@ -248,16 +248,16 @@ def test_the_middle_finger_spreads_radially_and_ulnarly() -> None:
     assert spread_labels(20.0, 2)[0][1] == "Out 20°"
     made = hand_session()
     figures = figures_once(made)
-    plot = HandPlot(session_curves(made), figures.exercise, (), joints=joint_curves(made), finger=3)
+    plot = HandPlot(wrist_curves(made), figures.exercise, (), joints=joint_curves(made), finger=3)
     assert "Radial 20°" in [text for _, text in plot.panels(BOX, 8.0)[1][0].scale.labels]
 
 
 @pytest.mark.parametrize("exercise", ["THUMB_OPP", "FIST_HOOK"])
 def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None:
     figures = figures_once(hand_session(exercise=exercise))
-    assert "TAM" not in " ".join(map(cell_words, finger_table(figures, None).heads)) + limits_words(figures) + method(
-        figures, 21, compared=True
-    )
+    assert "TAM" not in " ".join(map(cell_text, finger_table(figures, None).heads)) + limitation_words(
+        figures
+    ) + method_words(figures, 21, compared=True)
 
 
 @pytest.mark.parametrize(
@@ -268,10 +268,10 @@ def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None
         ("too_quick", "each was quicker than 0.4 s"),
     ],
 )  # fmt: skip
-def test_why_no_repetition_was_counted_is_said(uncounted: Uncounted, words: str) -> None:
-    made = replace(figures_once(session()), repetitions=(), uncounted=uncounted)
+def test_why_no_repetition_was_counted_is_said(uncounted: NoRepetitionReason, words: str) -> None:
+    made = replace(figures_once(session()), repetitions=(), no_repetitions_reason=uncounted)
     assert repetition_words(made) == f"one range over the whole recording; no repetitions: {words}"
-    free = replace(figures_once(session(exercise="FREE")), uncounted=None)
+    free = replace(figures_once(session(exercise="FREE")), no_repetitions_reason=None)
     assert repetition_words(free) == "one range over the whole recording; no repetitions"
 
 
@@ -279,18 +279,18 @@ def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is
     made = figures_once(session())
     assert repetition_words(replace(made, unseen_s=6.2)).endswith("6 s not seen and not counted")
     assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
-    lost = measure_values("speed", made.main_angle, "peak speed", "deg/s", (math.nan,), unknown="too_slow")
+    lost = summarise_values("speed", made.main_angle, "peak speed", "deg/s", (math.nan,), unknown_reason="too_slow")
     slow = replace(made, measures=tuple(lost if row.key == lost.key else row for row in made.measures))
     assert next(row for row in range_table(slow, None, None).rows if row[0] == "Peak speed")[1] == ("too slow to judge")
-    assert dict(other_lines(slow))["Peak speed, mean ± sd"] == "too slow to judge"
-    assert "too slow" not in dict(other_lines(made))["Peak speed, mean ± sd"]
+    assert dict(speed_pain_lines(slow))["Peak speed, mean ± sd"] == "too slow to judge"
+    assert "too slow" not in dict(speed_pain_lines(made))["Peak speed, mean ± sd"]
 
 
 # --- what is not beyond the error ------------------------------------------------------------------------
 @SOURCES
 def test_no_change_is_never_claimed() -> None:
     assert verdict_word("no_change") == change_since_first("no_change", 2.0) == no_change_words() == "no change proven"
-    assert difference(0.2) == "0°"
+    assert difference_words(0.2) == "0°"
     said = []
     for path in modules("ui", "app", "core"):
         for node in nodes(path):
@@ -308,20 +308,20 @@ def test_a_still_hand_has_no_speed(speed: float, words: str) -> None:
 
 def test_the_list_s_figure_is_of_the_joint_that_is_trained_and_says_at_least() -> None:
     figures = figures_once(hand_session())
-    trained = figure_of(figures.exercise.joint).finger
-    rows = {figure.finger: figures.find(figure.joint, "arc") for figure in compared_figures(figures)}
+    trained = find_finger_angle(figures.exercise.joint).finger
+    rows = {figure.finger: figures.find(figure.joint, "arc") for figure in main_angles(figures)}
     row = rows[trained]
-    words = main_figure(figures)
-    assert words.startswith(next(one.long_name for one in compared_figures(figures) if one.finger == trained))
-    assert ("≥" in words) == row.at_least
-    assert exercise_named(figures.exercise.id).joint == figures.exercise.joint
+    words = main_result_words(figures)
+    assert words.startswith(next(one.long_name for one in main_angles(figures) if one.finger == trained))
+    assert ("≥" in words) == row.is_lower_bound
+    assert get_exercise(figures.exercise.id).joint == figures.exercise.joint
 
 
 def test_two_sessions_of_one_day_have_names_of_their_own() -> None:
-    fist = session_report(hand_session())
-    wrist = replace(fist, figures=replace(fist.figures, exercise=exercise_named("WRIST_FE")))
-    later = replace(fist, figures=replace(fist.figures, when=fist.figures.when + timedelta(hours=1)))
-    assert len({suggested_name(one) for one in (fist, wrist, later)}) == 3
+    fist = build_session_report(hand_session())
+    wrist = replace(fist, figures=replace(fist.results, exercise=get_exercise("WRIST_FE")))
+    later = replace(fist, figures=replace(fist.results, when=fist.results.when + timedelta(hours=1)))
+    assert len({default_file_name(one) for one in (fist, wrist, later)}) == 3
 
 
 # --- the clinic's own error limits -----------------------------------------------------------------------
@@ -330,11 +330,11 @@ STUDY = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", 12, 24, 2, (ARC, 
 
 
 def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
-    words = limit_words(STUDY)
+    words = error_limit_words(STUDY)
     assert "measured by this clinic on 27 Nov 2026 with 12 people" in words
-    assert words in method(figures_once(session(), None, ErrorLimits((STUDY,))), 6, compared=True)
+    assert words in method_words(figures_once(session(), None, ErrorLimits((STUDY,))), 6, compared=True)
     few = replace(STUDY, limits=(replace(ARC, people=9),))
-    assert limit_words() in method(figures_once(session(), None, ErrorLimits((few,))), 6, compared=True)
+    assert error_limit_words() in method_words(figures_once(session(), None, ErrorLimits((few,))), 6, compared=True)
     shown = said(SettingsScreen(theme, Preferences(), ErrorLimits((STUDY,))))
     for piece in (
         "On 27 Nov 2026 with 12 people in 24 sessions",
@@ -351,7 +351,7 @@ def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
 @pytest.mark.parametrize("text", ["", "{}", None])
 def test_the_window_reads_them_from_the_data_folder_and_tells_a_damaged_file(tmp_path: Path, text: str | None) -> None:
     if text is None:
-        store_limits(tmp_path, [STUDY])
+        save_limits(tmp_path, [STUDY])
     else:
         (tmp_path / LIMITS_FILE).write_text(text, encoding="utf-8")
     library = Library(tmp_path)
@@ -359,5 +359,5 @@ def test_the_window_reads_them_from_the_data_folder_and_tells_a_damaged_file(tmp
         assert library.error_limits.study("wrist6", "WRIST_FE", "zyx") == STUDY
     else:
         assert library.error_limits == ErrorLimits(), "the default limits hold"
-        assert [type(fault) for fault in recover(library)[1]] == [SettingsInvalid]
+        assert [type(fault) for fault in recover_sessions(library)[1]] == [SettingsInvalid]
     library.close()

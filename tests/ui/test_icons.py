@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QImage, QPainter
 
-from carpus.ui.icons import paint_icon, paint_mark, paint_state
+from carpus.ui.icons import paint_icon, paint_logo, paint_state
 
 ROOT = Path(__file__).parents[2]
 ICONS = sorted(path.stem for path in (ROOT / "resources" / "icons").glob("*.svg"))
@@ -49,7 +49,7 @@ def test_state_icons_differ_in_shape_not_only_in_colour() -> None:
 
 
 def test_the_mark_fills_its_box() -> None:
-    pixels = inked(lambda painter: paint_mark(painter, QRectF(0, 0, 48, 48), QColor("#000000")))
+    pixels = inked(lambda painter: paint_logo(painter, QRectF(0, 0, 48, 48), QColor("#000000")))
     rows, columns = np.nonzero(pixels[..., 3] > 128)
     assert rows.max() - rows.min() > 32
     assert columns.max() - columns.min() > 32

@@ -10,13 +10,13 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.by_hand.screen import ByHandScreen
+from carpus.ui.by_hand.screen import ManualMeasurementsScreen
 from carpus.ui.controls.field import Combo, number_field
 from carpus.ui.controls.layouts import ScrollArea
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.records.locking import LockSheet
+from carpus.ui.records.locking import LockScreen
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from tests.ui import pseudo
@@ -43,7 +43,7 @@ def test_curves_of_every_finger_are_wide_and_no_choice_is_cut(gallery: Gallery) 
     gallery.settle()
     screen = gallery.shown(ProgressScreen)
     assert min(panel.box.width() for panel, _ in screen.chart.panels()) >= LEAST_PLOT_PX
-    for box in (screen.exercise, screen.followed):
+    for box in (screen.exercise_choice, screen.measure_choice):
         assert box.width() >= box.sizeHint().width()
     assert is_whole(screen._side)
 
@@ -59,7 +59,7 @@ def test_tables_are_read_whole_and_no_finger_loses_the_end_of_its_name(gallery: 
     has_whole(review.card.tables, review)
     shown = [button for button in review.charts.finger.buttons() if button.isVisible()]
     assert len(shown) == 6
-    assert [button.shown_text for button in shown] == [button.text() for button in shown]
+    assert [button.visible_text for button in shown] == [button.text() for button in shown]
 
 
 def test_tables_are_as_high_on_a_window_of_another_size_before_as_on_one_that_was_so(gallery: Gallery) -> None:
@@ -83,7 +83,7 @@ def test_what_must_be_recalled_of_a_patient_has_room_below_a_strip(gallery: Gall
     gallery.patients_recovered()
     gallery.settle()
     screen = gallery.shown(PatientsScreen)
-    assert screen.card._recall.height() >= screen.card._why.geometry().bottom()
+    assert screen.card._summary.height() >= screen.card._diagnosis_card.geometry().bottom()
     assert screen.card.height() >= screen.card.minimumSizeHint().height()
 
 
@@ -94,14 +94,14 @@ def test_checks_are_read_whole_and_the_guide_gives_way(gallery: Gallery, state: 
     screen.bubble.show_bubble("check")
     gallery.settle()
     assert screen.bubble.isVisible() is is_guided
-    for _, *texts in screen.guidance.panel._lines:
+    for _, *texts in screen.guidance.verdict_panel._lines:
         assert all(text.height() >= text.minimumSizeHint().height() for text in texts)
 
 
 def test_the_lock_stands_below_its_bar(gallery: Gallery) -> None:
     gallery.locked()
     sheet = gallery.over[-1]
-    assert isinstance(sheet, LockSheet)
+    assert isinstance(sheet, LockScreen)
     above, below = sheet.card.y() - sheet._bar.height(), sheet.height() - sheet.card.geometry().bottom()
     assert above >= below // 2
 
@@ -131,7 +131,7 @@ def turned(field: QWidget) -> bool:
 
 def test_the_wheel_chooses_nothing_in_a_list_of_choices(qtbot: QtBot) -> None:
     choice = Combo()
-    choice.offer([(1, "one"), (2, "two")])
+    choice.set_choices([(1, "one"), (2, "two")])
     qtbot.addWidget(choice)
     choice.show()
     choice.setFocus()
@@ -140,12 +140,12 @@ def test_the_wheel_chooses_nothing_in_a_list_of_choices(qtbot: QtBot) -> None:
 
 
 def test_the_wheel_changes_no_number_and_no_day(qtbot: QtBot, theme: Theme) -> None:
-    number, record = number_field(theme, 20), ByHandScreen(theme, lambda: TODAY)
+    number, record = number_field(theme, 20), ManualMeasurementsScreen(theme, lambda: TODAY)
     number.setValue(7)
-    for field in (number, record.day):
+    for field in (number, record.day_field):
         qtbot.addWidget(field)
         field.show()
         field.setFocus()
         assert not turned(field)
     assert number.value() == 7
-    assert record.day.date().toPython() == TODAY
+    assert record.day_field.date().toPython() == TODAY

@@ -49,7 +49,7 @@ TRANSLATED: list[dict[str, set[str]]] = []
 """Of each language but English what stands for a text, on whichever screen."""
 for _file in sorted((Path(__file__).parents[2] / "resources" / "translations").glob("*.ts")):
     TRANSLATED.append({})
-    for (_, _text), _said in language.texts_in(_file.read_bytes()).items():
+    for (_, _text), _said in language.parse_texts(_file.read_bytes()).items():
         TRANSLATED[-1].setdefault(_text, set()).add(_said)
 PICTURES: dict[tuple[tuple[int, int], float], QSize] = {}
 """Size of the picture on the markers screen."""
@@ -77,13 +77,13 @@ def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> No
     if state in MAIN and state.startswith(SIGNED):
         order.append(LOW)
     for size, scale in order:
-        gallery.shell.sign.show_lines([SIGN] if (size, scale) == LOW else [])
+        gallery.shell.banner.show_lines([SIGN] if (size, scale) == LOW else [])
         gallery.theme.choose(text_scale=scale)
         gallery.shell.resize(*size)
         gallery.settle()
         assert gallery.shell.size().toTuple() == size
         found[size, scale] = complaints(gallery.shell)
-        screen = gallery.shell.stage.currentWidget()
+        screen = gallery.shell.screen_stack.currentWidget()
         if isinstance(screen, MarkersScreen):  # whatever is said beside it, it stays where it is under the cursor
             assert screen.picture.size() == PICTURES.setdefault((size, scale), screen.picture.size())
         if isinstance(screen, ReviewScreen):  # fitted once more, its tables stay as high as they are
@@ -91,7 +91,7 @@ def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> No
             screen._fit()
             gallery.settle()
             assert screen.card.tables.height() == fitted_px
-    gallery.shell.sign.show_lines([])
+    gallery.shell.banner.show_lines([])
     gallery.show(QWidget())
     gallery.shell.resize(1280, 800)
     assert not any(found.values()), found

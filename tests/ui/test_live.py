@@ -16,21 +16,21 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import find_repetitions
-from carpus.core.measures.signals import even_signal
+from carpus.core.measures.signals import resample_evenly
 from carpus.core.pipeline.live_values import StartMode
 from carpus.core.types import Detections, TrackedFrame, TrackStatus
 from carpus.ui.live import recording as live_recording
-from carpus.ui.live.controls import HEIGHT_PX, LightView
-from carpus.ui.live.counting import RunningCount
-from carpus.ui.live.doubt import Doubt, SteadyDoubt, doubt_lamp, doubt_of
-from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
+from carpus.ui.live.controls import HEIGHT_PX, StatusLightView
+from carpus.ui.live.counting import RepetitionCounter
+from carpus.ui.live.doubt import MarkerDoubt, SteadyDoubt, find_doubt, question_light
+from carpus.ui.live.light import StatusLight, SteadyLight, wrist_light
 from carpus.ui.live.number_card import NumberCard, Reading
-from carpus.ui.live.recording import COUNT_S, STILL_DEG, STILL_S, Beginning
-from carpus.ui.picture.overlay import axis_pixels, ellipse, within
-from carpus.ui.plot.history import KEPT_S, History
+from carpus.ui.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
+from carpus.ui.picture.overlay import axis_pixels, clamp_to_box, covariance_ellipse
+from carpus.ui.plot.history import BUFFER_S, History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
@@ -43,14 +43,14 @@ MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
 def test_the_number_is_that_of_the_picture_shown_and_f4_changes_between_angles_and_speeds(live: Live) -> None:
     tried = live(FakeFeed(), 5.0)
-    shown = math.degrees(float(tried.feed.newest().tracked.moment.angles_rad[1]))
+    shown = math.degrees(float(tried.feed.current_view().tracked.kinematics.angles_rad[1]))
     assert tried.reading().value_deg == pytest.approx(shown)
-    assert tried.screen.number.movement() == ("Flexion" if shown > 0 else "Extension")
-    assert tried.screen.controls.light.lamp.rank == "good"
+    assert tried.screen.number_card.movement_name() == ("Flexion" if shown > 0 else "Extension")
+    assert tried.screen.controls.light_view.status_light.rank == "good"
     curves = tried.screen.curves
     for panels in (2, 3):
         tried.press(Qt.Key.Key_F4)
-        assert (len(curves.panels()), curves.shows_speeds) == (panels, panels == 2)
+        assert (len(curves.panels()), curves.is_showing_speeds) == (panels, panels == 2)
 
 
 def test_what_each_key_does_while_a_recording_runs(qtbot: QtBot, live: Live) -> None:
@@ -64,26 +64,28 @@ def test_what_each_key_does_while_a_recording_runs(qtbot: QtBot, live: Live) -> 
     tried.run(3.0)
     tried.press(Qt.Key.Key_F7)
     tried.run(2.0)
-    assert recording.recorded_s == pytest.approx(4.0, abs=0.4), "a pause is not recorded time"
+    assert recording.duration_s == pytest.approx(4.0, abs=0.4), "a pause is not recorded time"
     tried.press(Qt.Key.Key_F5)
-    assert screen.note_sheet.isVisible()
-    qtbot.keyClicks(screen.note_sheet.line, "strap loose")
-    qtbot.keyClick(screen.note_sheet.line, Qt.Key.Key_Return)
+    assert screen.note_dialog.isVisible()
+    qtbot.keyClicks(screen.note_dialog.line, "strap loose")
+    qtbot.keyClick(screen.note_dialog.line, Qt.Key.Key_Return)
     tried.press(Qt.Key.Key_F6)
-    qtbot.keyClick(screen.pain_sheet.buttons[0], Qt.Key.Key_3)
+    qtbot.keyClick(screen.pain_dialog.buttons[0], Qt.Key.Key_3)
     assert tried.feed.noted == [("note", "strap loose"), ("pain", "3")]
-    assert not screen.pain_sheet.isVisible()
-    height_px = screen.number.height()
+    assert not screen.pain_dialog.isVisible()
+    height_px = screen.number_card.height()
     tried.press(Qt.Key.Key_F11)  # the figure and the light alone; keys go on working
-    qtbot.waitUntil(lambda: screen.number.height() > 2 * height_px)
+    qtbot.waitUntil(lambda: screen.number_card.height() > 2 * height_px)
     tried.run(0.5)
-    assert screen.controls.light.isVisible()
-    assert not any(part.isVisible() for part in (screen.picture, screen.curves, screen.path, screen.controls.note))
+    assert screen.controls.light_view.isVisible()
+    assert not any(
+        part.isVisible() for part in (screen.picture, screen.curves, screen.path_view, screen.controls.note_button)
+    )
     tried.press(Qt.Key.Key_F5)
-    assert screen.note_sheet.isVisible()
-    screen.note_sheet.close_sheet()
+    assert screen.note_dialog.isVisible()
+    screen.note_dialog.close_dialog()
     tried.press(Qt.Key.Key_F11)
-    qtbot.waitUntil(lambda: screen.number.height() == height_px)
+    qtbot.waitUntil(lambda: screen.number_card.height() == height_px)
     assert screen.picture.isVisible()
     with qtbot.waitSignal(recording.stopped) as stopped:
         tried.press(Qt.Key.Key_Space)
@@ -95,13 +97,13 @@ def test_repetitions_and_best_are_counted_from_recorded_frames_only(live: Live) 
     tried = live(FakeFeed(seconds=32.0), 6.0)
     tried.record()
     tried.run(24.0)
-    count, feed = tried.screen.recording.count, tried.feed
-    assert count.count() in (3, 4)
+    count, feed = tried.screen.recording.counter, tried.feed
+    assert count.update_count() in (3, 4)
     assert 1 <= len(feed.told) <= count.repetitions, "each that is counted is told to the network, at its end"
     assert {kind for kind, _ in feed.told} == {"repetition"}
     assert all(count._times[0] < at_s <= count._times[-1] for _, at_s in feed.told)
     since = [one for one in feed.frames[: feed.place + 1] if one.timestamp_s >= count._times[0] - 1e-9]
-    recorded_deg = np.degrees([one.moment.angles_rad[1] for one in since])
+    recorded_deg = np.degrees([one.kinematics.angles_rad[1] for one in since])
     reading = tried.reading()
     best_deg = reading.best_positive_deg, reading.best_negative_deg
     assert best_deg == pytest.approx((recorded_deg.max(), recorded_deg.min()))
@@ -112,14 +114,14 @@ def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(live:
     tried.feed.step(90)
     tried.feed.first_recorded = 80
     tried.record()
-    tried.screen.tick()
-    assert tried.screen.recording.recorded_s == pytest.approx(10 / 30, abs=0.05)
+    tried.screen.draw()
+    assert tried.screen.recording.duration_s == pytest.approx(10 / 30, abs=0.05)
 
 
 def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, live: Live) -> None:
     tried = live(FakeFeed(), 1.0)
     tried.measuring.fault = DiskFull("disk")
-    with qtbot.waitSignal(tried.screen.told) as told:
+    with qtbot.waitSignal(tried.screen.event_received) as told:
         tried.press(Qt.Key.Key_Space)
     assert isinstance(told.args[0], DiskFull)
     assert tried.screen.recording.state == "off"
@@ -128,8 +130,8 @@ def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qt
 def test_lost_frames_show_no_number_and_a_red_light(live: Live) -> None:
     tried = live(FakeFeed(lost=[(3.0, 20.0)]), 5.0)
     assert math.isnan(tried.reading().value_deg)
-    assert tried.screen.controls.light.lamp.rank == "bad"
-    assert tried.screen.history.angle(1).gaps_s()
+    assert tried.screen.controls.light_view.status_light.rank == "bad"
+    assert tried.screen.history.angle_series(1).gaps_s()
 
 
 def test_predicted_frames_are_marked_and_do_not_count_as_best(live: Live) -> None:
@@ -137,9 +139,9 @@ def test_predicted_frames_are_marked_and_do_not_count_as_best(live: Live) -> Non
     tried.record()
     tried.run(6.0)
     reading = tried.reading()
-    assert reading.predicted
+    assert reading.is_predicted
     assert math.isnan(reading.best_positive_deg)
-    assert tried.screen.controls.light.lamp.rank == "warn"
+    assert tried.screen.controls.light_view.status_light.rank == "warn"
 
 
 def test_a_lost_camera_leaves_no_old_picture_and_no_old_number_and_nothing_offers_to_go_on(live: Live) -> None:
@@ -147,16 +149,16 @@ def test_a_lost_camera_leaves_no_old_picture_and_no_old_number_and_nothing_offer
     tried.record()
     screen = tried.screen
     screen.set_camera_lost(True)
-    screen.tick()
+    screen.draw()
     assert math.isnan(tried.reading().value_deg)
     assert screen.picture.image is None
-    assert screen.controls.light.lamp.state == "No picture"
+    assert screen.controls.light_view.status_light.state == "No picture"
     assert screen.recording.state == "paused"
-    assert (screen.controls.pause.isEnabled(), screen.controls.pause.text()) == (False, "Pause")
+    assert (screen.controls.pause_button.isEnabled(), screen.controls.pause_button.text()) == (False, "Pause")
     screen.recording.toggle_pause()
-    assert not tried.feed.paused
+    assert not tried.feed.is_paused
     screen.set_camera_lost(False)
-    assert screen.controls.pause.isEnabled()
+    assert screen.controls.pause_button.isEnabled()
 
 
 def test_a_new_picture_is_drawn_at_once_but_drawing_never_takes_all_the_time(live: Live) -> None:
@@ -167,8 +169,8 @@ def test_a_new_picture_is_drawn_at_once_but_drawing_never_takes_all_the_time(liv
         (1000.0, 4e6, False),  # drawing takes so long that tracking would have no time left
     ):
         tried.feed.step(2)
-        tried.screen._ticked_at_s, tried.screen._drawing_ms = time.monotonic() - since_s, drawing_ms
-        tried.screen.look()
+        tried.screen._drawn_at_s, tried.screen._drawing_ms = time.monotonic() - since_s, drawing_ms
+        tried.screen.draw_if_due()
         assert (tried.screen.history.last_index == tried.feed.place) == drawn
 
 
@@ -177,19 +179,19 @@ def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(live: Live, t
     theme.choose(text_scale=1.5)
     tried.run(1.0)
     screen = tried.screen
-    shown = [part.isVisible() for part in (screen.path, screen.number, screen.controls.light)]
+    shown = [part.isVisible() for part in (screen.path_view, screen.number_card, screen.controls.light_view)]
     assert shown == [False, True, True]
 
 
 @pytest.mark.parametrize(("width", "scale"), [(620, 1.0), (430, 1.5)])
 def test_the_light_is_read_whole_however_narrow_it_is(
-    theme: Theme, show: Show[LightView], width: int, scale: float
+    theme: Theme, show: Show[StatusLightView], width: int, scale: float
 ) -> None:
     theme.choose(text_scale=scale)
-    light = show(LightView(theme))
-    light.show_lamp(Lamp("warn", "Mittelfinger-Grundgelenk verdeckt", "Drehen Sie den Handrücken zur Kamera"))
+    light = show(StatusLightView(theme))
+    light.show_light(StatusLight("warn", "Mittelfinger-Grundgelenk verdeckt", "Drehen Sie den Handrücken zur Kamera"))
     room = QRectF(106, 4, width - 118, theme.px(HEIGHT_PX) - 8)
-    (_, _, state), (_, _, remedy) = light._placed(room)
+    (_, _, state), (_, _, remedy) = light._place_lines(room)
     assert room.contains(state)
     assert room.contains(remedy)
     assert not state.intersects(remedy)
@@ -198,18 +200,18 @@ def test_the_light_is_read_whole_however_narrow_it_is(
 def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Live) -> None:
     screen = live(FakeFeed()).screen
     kept: list[int] = []
-    screen.pain_sheet.kept.connect(kept.append)
+    screen.pain_dialog.pain_entered.connect(kept.append)
     for typed, score in (("10", 10), ("7", 7), ("13", 3), ("0", 0)):
-        screen.pain_sheet.begin()
+        screen.pain_dialog.open_pain()
         for digit in typed:
             qtbot.keyClick(screen.focusWidget(), digit)
         assert kept[-1] == score
-    screen.pain_sheet.begin()
+    screen.pain_dialog.open_pain()
     qtbot.keyClick(screen.focusWidget(), "1")
     qtbot.waitUntil(lambda: kept[-1] == 1)
-    screen.pain_sheet.begin()
+    screen.pain_dialog.open_pain()
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Escape)
-    assert not screen.pain_sheet.isVisible()
+    assert not screen.pain_dialog.isVisible()
     assert kept == [10, 7, 3, 0, 1]
 
 
@@ -218,7 +220,7 @@ def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme) -> None:
     qtbot.addWidget(card)
     for value_deg, word in ((0.4, "Straight"), (-0.4, "Straight"), (0.6, "Flexion"), (-0.6, "Extension")):
         card.show_reading(Reading(angle=1, value_deg=value_deg, sd_deg=1.0))
-        assert card.movement() == word
+        assert card.movement_name() == word
 
 
 @pytest.mark.parametrize("stored", [False, True])
@@ -227,21 +229,21 @@ def test_one_key_starts_and_stops_on_every_source_and_a_hasty_end_asks(
 ) -> None:
     tried = live(FakeFeed())
     feed, recording = tried.feed, tried.screen.recording
-    tried.measuring.starts_with_recording = stored
+    tried.measuring.is_playback = stored
     asked: list[bool] = []
-    recording.hasty.connect(lambda: asked.append(True))
+    recording.early_stop_requested.connect(lambda: asked.append(True))
     clock_s = [100.0]
     monkeypatch.setattr(live_recording.time, "monotonic", lambda: clock_s[0])
     tried.press(Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: feed.recording and not recording.under_way)
+    qtbot.waitUntil(lambda: feed.is_recording and not recording.is_busy)
     clock_s[0] += 2.9
     tried.press(Qt.Key.Key_Space)
     assert asked == [True]
-    assert feed.recording
-    assert not recording.under_way
+    assert feed.is_recording
+    assert not recording.is_busy
     clock_s[0] += 0.2
     tried.press(Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: not feed.recording)
+    qtbot.waitUntil(lambda: not feed.is_recording)
     assert asked == [True]
 
 
@@ -254,16 +256,16 @@ def test_a_spot_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden
     beside = hidden.marker_predicted_px[3] + [0.0, 15.0]
     pixel = np.vstack((measured[np.isfinite(measured[:, 0])], beside))
     spots = Detections(pixel, *(np.ones((4, len(pixel)))))
-    doubt = doubt_of(replace(hidden, detections=spots), MARKERS, camera)
-    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", True, True)
-    np.testing.assert_allclose(doubt.spot_px, beside)
-    assert doubt_lamp(doubt).state == "Another blue spot is here"
-    assert "middle knuckle" in doubt_lamp(doubt).remedy
+    doubt = find_doubt(replace(hidden, detections=spots), MARKERS, camera)
+    assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", True, True)
+    np.testing.assert_allclose(doubt.other_px, beside)
+    assert question_light(doubt).state == "Another blue spot is here"
+    assert "middle knuckle" in question_light(doubt).remedy
     far = replace(spots, pixel=np.vstack((spots.pixel[:-1], beside + 80.0)))
-    assert doubt_of(replace(hidden, detections=far), MARKERS, camera) is None
+    assert find_doubt(replace(hidden, detections=far), MARKERS, camera) is None
     questioned = replace(frame, doubted=np.arange(6) == 3, status=TrackStatus.DOUBTFUL)
-    doubt = doubt_of(replace(questioned, detections=Detections.none()), MARKERS, camera)
-    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", False, False)
+    doubt = find_doubt(replace(questioned, detections=Detections.none()), MARKERS, camera)
+    assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", False, False)
 
 
 def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBot, live: Live) -> None:
@@ -273,47 +275,49 @@ def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBo
     screen, measuring = tried.screen, tried.measuring
     tried.record()
     tried.run(1.5)
-    parts = (screen.picture, screen.path, screen.number, screen.curves, screen.controls.light)
+    parts = (screen.picture, screen.path_view, screen.number_card, screen.curves, screen.controls.light_view)
     places = [widget.geometry() for widget in parts]
     assert screen.question.isHidden()
-    angle = screen.number.reading.angle
+    angle = screen.number_card.reading.angle
     for _ in range(12):  # whatever the rhythm in which values are shown
         tried.run(0.1)
         if screen.question.isVisible():
             break
     assert screen.question.words.text() == "Is this blue spot the middle knuckle?"
     assert [button.text() for button in screen.question.buttons.values() if button.isVisible()] == ["Yes", "No"]
-    assert screen.controls.light.lamp == Lamp("warn", "Another blue spot is here", "Is it the middle knuckle?")
+    assert screen.controls.light_view.status_light == StatusLight(
+        "warn", "Another blue spot is here", "Is it the middle knuckle?"
+    )
     tried.press(Qt.Key.Key_F2)
     assert not measuring.answers, "a key that was meant for something else a moment ago"
     tried.run(0.6)
     tried.press(Qt.Key.Key_F2)
-    shown = feed.newest()
+    shown = feed.current_view()
     (answer,) = measuring.answers
-    assert (answer.marker, answer.not_px) == ("MCP3", ())
-    told = feed.frames[answer.index]
-    np.testing.assert_allclose(answer.place_px or (), told.detections.pixel[-1])
-    assert shown.tracked.index - answer.index <= 6, "of a picture shown a moment ago"
+    assert (answer.marker, answer.rejected_px) == ("MCP3", ())
+    told = feed.frames[answer.frame_index]
+    np.testing.assert_allclose(answer.pixel or (), told.detections.pixel[-1])
+    assert shown.tracked.index - answer.frame_index <= 6, "of a picture shown a moment ago"
     assert screen.question.isHidden()
-    assert feed.recording
-    assert screen.number.reading.angle == angle
+    assert feed.is_recording
+    assert screen.number_card.reading.angle == angle
     assert [widget.geometry() for widget in parts] == places, "nothing jumps"
     tried.run(1.2)
     qtbot.mouseClick(screen.question.buttons["none"], Qt.MouseButton.LeftButton)
-    assert measuring.answers[-1].place_px is None
-    assert len(measuring.answers[-1].not_px) == 1
+    assert measuring.answers[-1].pixel is None
+    assert len(measuring.answers[-1].rejected_px) == 1
     feed.frames[feed.place + 1 :] = feed.frames[:10]
     tried.press(Qt.Key.Key_F2)
-    assert screen.number.reading.angle != angle, "without a question the key does what it did"
+    assert screen.number_card.reading.angle != angle, "without a question the key does what it did"
 
 
 def test_a_question_stands_only_after_it_has_lasted() -> None:
     steady, unknown = SteadyDoubt(), np.full(2, np.nan)
-    doubt = Doubt("MCP3", unknown, np.array([1.0, 2.0]))
-    shown = [steady.show(doubt if 0.1 <= t < 0.3 or t >= 1.0 else None, t) is not None for t in np.arange(0, 2, 0.05)]
+    doubt = MarkerDoubt("MCP3", unknown, np.array([1.0, 2.0]))
+    shown = [steady.update(doubt if 0.1 <= t < 0.3 or t >= 1.0 else None, t) is not None for t in np.arange(0, 2, 0.05)]
     assert not any(shown[:25])
     assert all(shown[27:])
-    gone = [steady.show(None, t) is not None for t in np.arange(2, 2.6, 0.05)]
+    gone = [steady.update(None, t) is not None for t in np.arange(2, 2.6, 0.05)]
     assert gone[:5] == [True] * 5
     assert not gone[-1]
 
@@ -324,29 +328,29 @@ def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_
     feed, screen = tried.feed, tried.screen
     shown: list[object] = []
     feed.ahead_s, feed.dropped = 4.0, 3  # dropped before it was recorded
-    screen._show_slow()
+    screen._show_counters()
     tried.run(0.5)
     screen._show_values()
-    late = Lamp("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
-    assert screen.controls.light.lamp == late
-    assert (math.isnan(screen.glance().value_deg), screen.glance().late) == (True, True)
-    newest = feed.newest_frame()
-    feed.newest_frame = lambda: newest  # type: ignore[method-assign]
+    late = StatusLight("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
+    assert screen.controls.light_view.status_light == late
+    assert (math.isnan(screen.exercise_snapshot().value_deg), screen.exercise_snapshot().is_late) == (True, True)
+    newest = feed.current_frame()
+    feed.current_frame = lambda: newest  # type: ignore[method-assign]
     screen.picture.show_frame = shown.append  # type: ignore[method-assign, assignment]
-    screen.tick()
+    screen.draw()
     assert shown[-1] is newest.color_rgb
-    del feed.newest_frame
+    del feed.current_frame
     del screen.picture.show_frame
     feed.dropped = 8
-    screen._show_slow()
-    screen.tick()
+    screen._show_counters()
+    screen.draw()
     screen._show_values()
-    assert screen.controls.light.lamp.rank == "warn"
-    assert screen.controls.light.lamp.remedy.startswith("5 pictures are missing")
+    assert screen.controls.light_view.status_light.rank == "warn"
+    assert screen.controls.light_view.status_light.remedy.startswith("5 pictures are missing")
     feed.ahead_s = 0.0
     tried.run(0.5)
     screen._show_values()
-    assert "late" not in screen.controls.light.lamp.state
+    assert "late" not in screen.controls.light_view.status_light.state
 
 
 def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, live: Live) -> None:
@@ -359,19 +363,19 @@ def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, live: Live) -> Non
     with qtbot.waitSignal(screen.recording.stopped):
         screen.recording.stop()
         screen._show_values()
-        assert screen.controls.main.text() == "Catching up: 12 s left"
-        assert screen.catching_up.isVisible()
-        assert not screen.controls.note.isEnabled()
-        assert not screen.controls.pause.isEnabled()
+        assert screen.controls.main_button.text() == "Catching up: 12 s left"
+        assert screen.catch_up_bar.isVisible()
+        assert not screen.controls.note_button.isEnabled()
+        assert not screen.controls.pause_button.isEnabled()
         feed.waiting = 300
         screen._show_values()
-        assert screen.controls.main.text() == "Catching up: 3 s left"
-        assert (screen.catching_up.value(), screen.catching_up.maximum()) == (900, 1200)
+        assert screen.controls.main_button.text() == "Catching up: 3 s left"
+        assert (screen.catch_up_bar.value(), screen.catch_up_bar.maximum()) == (900, 1200)
         feed.waiting = 0
         screen._show_values()
-        assert screen.controls.main.text() == "Storing…"
+        assert screen.controls.main_button.text() == "Storing…"
         caught_up.set()
-    assert not screen.catching_up.isVisible()
+    assert not screen.catch_up_bar.isVisible()
 
 
 # --- pieces -----------------------------------------------------------------------------------------------
@@ -380,8 +384,8 @@ def test_history_keeps_ten_seconds_whatever_comes() -> None:
     history = History(WRIST6)
     history.append(feed.frames)
     history.append(feed.frames)
-    series = history.angle(0)
-    assert series.time_s[-1] - series.time_s[0] <= KEPT_S
+    series = history.angle_series(0)
+    assert series.time_s[-1] - series.time_s[0] <= BUFFER_S
     assert np.all(np.diff(series.time_s) > 0)
 
 
@@ -393,31 +397,31 @@ def test_the_arm_is_said_to_have_moved_only_outside_the_ball() -> None:
     for distance_m, moved in ((0.0149, False), (0.0151, True)):
         step = np.array([0.0, 0.0, distance_m])
         there = with_moment(frames[0], position_m=step)
-        history.append([replace(there, index=history.last_index + 1, timestamp_s=history.now_s + 0.03)])
-        assert history.forearm_moved() is moved
+        history.append([replace(there, index=history.last_index + 1, timestamp_s=history.end_s + 0.03)])
+        assert history.has_forearm_moved() is moved
 
 
 def test_the_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_does_at_once() -> None:
-    good, warn = Lamp("good", "a", ""), Lamp("warn", "b", "")
+    good, warn = StatusLight("good", "a", ""), StatusLight("warn", "b", "")
     for before, wanted, delay_s in ((good, warn, 0.3), (warn, good, 0.5)):
         light = SteadyLight()
-        light.show(before, 0.0)
+        light.update(before, 0.0)
         for at_s, shown in ((1.0, before), (1.0 + delay_s - 0.05, before), (1.0 + delay_s, wanted)):
-            assert light.show(wanted, at_s) == shown
+            assert light.update(wanted, at_s) == shown
     light = SteadyLight()
-    light.show(good, 0.0)
+    light.update(good, 0.0)
     for step in range(40):
-        assert light.show(warn if step % 4 == 0 else good, 1.0 + 0.05 * step) == good
-    assert light.show(Lamp("bad", "c", ""), 4.0).rank == "bad"
+        assert light.update(warn if step % 4 == 0 else good, 1.0 + 0.05 * step) == good
+    assert light.update(StatusLight("bad", "c", ""), 4.0).rank == "bad"
 
 
 def test_the_light_names_the_one_hidden_marker_and_its_remedy() -> None:
     frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
-    lamp = lamp_for(frame, MARKERS, False)
+    lamp = wrist_light(frame, MARKERS, False)
     assert lamp.state == "Thumb base hidden"
     assert lamp.remedy == "Turn the thumb side up"
-    assert lamp_for(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
-    assert lamp_for(FakeFeed().frames[10], MARKERS, True).state == "Arm moved"
+    assert wrist_light(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
+    assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Arm moved"
 
 
 def test_curves_scroll_on_fixed_scales(qtbot: QtBot, theme: Theme) -> None:
@@ -449,7 +453,7 @@ def test_the_ellipse_is_two_standard_deviations_of_any_covariance() -> None:
     for _ in range(20):
         root = rng.normal(0, 6, (2, 2))
         covariance = root @ root.T + 9 * np.eye(2)
-        longer, shorter, turn_deg = ellipse(covariance)
+        longer, shorter, turn_deg = covariance_ellipse(covariance)
         turn = math.radians(turn_deg)
         axes = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
         rebuilt = axes @ np.diag([(longer / 2) ** 2, (shorter / 2) ** 2]) @ axes.T
@@ -458,52 +462,52 @@ def test_the_ellipse_is_two_standard_deviations_of_any_covariance() -> None:
 
 def test_a_letter_outside_the_picture_moves_to_the_nearest_place_inside() -> None:
     box = QRectF(16, 16, 100, 50)
-    assert within(QPointF(40, 40), box) == QPointF(40, 40)
-    assert within(QPointF(200, 40), box) == QPointF(116, 40)
-    assert within(QPointF(0, 500), box) == QPointF(16, 66)
+    assert clamp_to_box(QPointF(40, 40), box) == QPointF(40, 40)
+    assert clamp_to_box(QPointF(200, 40), box) == QPointF(116, 40)
+    assert clamp_to_box(QPointF(0, 500), box) == QPointF(16, 66)
 
 
 # --- begun with no hand at the keyboard: over a still hand, counted down, taken back by one key ----------
 FPS = 30.0
 
 
-def begun(beginning: Beginning, angle_deg, until_s: float, from_s: float = 0.0) -> float:  # type: ignore[no-untyped-def]
+def begun(beginning: StartTrigger, angle_deg, until_s: float, from_s: float = 0.0) -> float:  # type: ignore[no-untyped-def]
     """When it says that the recording begins; NaN for never."""
     for number in range(round(from_s * FPS), round(until_s * FPS)):
         now_s = number / FPS
         value = angle_deg(now_s)
-        if beginning.take(None if value is None else np.array([value, 1.0, math.nan]), now_s):
+        if beginning.update(None if value is None else np.array([value, 1.0, math.nan]), now_s):
             return now_s
     return math.nan
 
 
 def test_a_hand_begins_only_once_it_lies_still_and_is_counted_down() -> None:
-    beginning = Beginning()
+    beginning = StartTrigger()
     assert math.isnan(begun(beginning, lambda _: 0.0, 60.0)), "nobody asked for it"
     noise = np.random.default_rng(7).normal(0.0, 0.5, 2000)
-    beginning.wait()
+    beginning.start_waiting()
     at_s = begun(beginning, lambda t: 30.0 * math.sin(t) if t < 10.0 else 20.0 + noise[round(t * FPS)], 60.0)
-    assert at_s == pytest.approx(10.0 + STILL_S + COUNT_S, abs=0.5)
-    assert (beginning.waits, beginning.counts, beginning.left_s(at_s)) == (False, False, 0)
+    assert at_s == pytest.approx(10.0 + STILL_S + COUNTDOWN_S, abs=0.5)
+    assert (beginning.is_waiting, beginning.is_counting, beginning.remaining_s(at_s)) == (False, False, 0)
 
 
 @pytest.mark.parametrize("what", ["moves", "lost"])
 def test_a_hand_that_moves_or_goes_while_it_is_counted_waits_again(what: str) -> None:
-    beginning = Beginning()
-    beginning.wait()
+    beginning = StartTrigger()
+    beginning.start_waiting()
     assert math.isnan(begun(beginning, lambda _: 0.0, STILL_S + 1.0))
-    assert beginning.left_s(STILL_S + 1.0) == 3 - 1
+    assert beginning.remaining_s(STILL_S + 1.0) == 3 - 1
     disturbed = 4.0 * STILL_DEG if what == "moves" else None
     assert math.isnan(begun(beginning, lambda _: disturbed, STILL_S + 1.2, STILL_S + 1.0))
-    assert (beginning.waits, beginning.counts) == (True, False)
-    assert begun(beginning, lambda _: 0.0, 60.0, STILL_S + 1.2) >= 2.0 * STILL_S + COUNT_S
+    assert (beginning.is_waiting, beginning.is_counting) == (True, False)
+    assert begun(beginning, lambda _: 0.0, 60.0, STILL_S + 1.2) >= 2.0 * STILL_S + COUNTDOWN_S
 
 
 def test_after_the_key_it_is_counted_whatever_the_hand_does() -> None:
-    beginning = Beginning()
-    beginning.count(5.0)
-    assert [beginning.left_s(time_s) for time_s in (5.0, 6.5, 7.9)] == [3, 2, 1]
-    assert begun(beginning, lambda t: 40.0 * math.sin(3.0 * t), 60.0, 5.0) == pytest.approx(5.0 + COUNT_S, abs=0.05)
+    beginning = StartTrigger()
+    beginning.start_countdown(5.0)
+    assert [beginning.remaining_s(time_s) for time_s in (5.0, 6.5, 7.9)] == [3, 2, 1]
+    assert begun(beginning, lambda t: 40.0 * math.sin(3.0 * t), 60.0, 5.0) == pytest.approx(5.0 + COUNTDOWN_S, abs=0.05)
 
 
 def waiting(live: Live, mode: StartMode) -> TriedLive:
@@ -519,37 +523,40 @@ def test_the_key_and_a_pedal_count_down_and_take_back(qtbot: QtBot, live: Live) 
     tried.run(1.0)
     for counts, takes_back in ((Qt.Key.Key_Space, Qt.Key.Key_PageDown), (Qt.Key.Key_PageDown, Qt.Key.Key_Space)):
         tried.press(counts)
-        assert screen.controls.main.text() == "Starts in 3: not yet"
+        assert screen.controls.main_button.text() == "Starts in 3: not yet"
         tried.run(1.5)
-        assert (screen.controls.main.text(), screen.glance().starts_s) == ("Starts in 2: not yet", 2)
+        assert (screen.controls.main_button.text(), screen.exercise_snapshot().countdown_s) == (
+            "Starts in 2: not yet",
+            2,
+        )
         tried.press(takes_back)
         tried.run(4.0)
-        assert (screen.controls.main.text(), feed.recording) == ("Record", False)
+        assert (screen.controls.main_button.text(), feed.is_recording) == ("Record", False)
     tried.press(Qt.Key.Key_Space)
-    tried.run(COUNT_S + 0.2)
-    qtbot.waitUntil(lambda: feed.recording)
+    tried.run(COUNTDOWN_S + 0.2)
+    qtbot.waitUntil(lambda: feed.is_recording)
 
 
 def test_over_a_still_hand_a_recording_begins_by_itself_but_in_no_rest(qtbot: QtBot, live: Live) -> None:
     tried = waiting(live, "still")
     screen, feed = tried.screen, tried.feed
-    screen.recording.rest(on=True)
+    screen.recording.set_resting(resting=True)
     tried.run(6.0)
-    assert not screen.recording.beginning.waits
-    screen.recording.rest(on=False)
+    assert not screen.recording.start_trigger.is_waiting
+    screen.recording.set_resting(resting=False)
     tried.run(1.0)
-    assert "Starts by itself when the hand lies still" in screen.controls.light.lamp.remedy
-    tried.run(STILL_S + COUNT_S)
-    qtbot.waitUntil(lambda: feed.recording and screen.recording.count is not None)
-    assert screen.controls.main.text() == "Stop and review"
+    assert "Starts by itself when the hand lies still" in screen.controls.light_view.status_light.remedy
+    tried.run(STILL_S + COUNTDOWN_S)
+    qtbot.waitUntil(lambda: feed.is_recording and screen.recording.counter is not None)
+    assert screen.controls.main_button.text() == "Stop and review"
 
 
 def test_a_stored_recording_is_played_at_once(qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(FakeMeasuring, "starts_with_recording", True)
+    monkeypatch.setattr(FakeMeasuring, "is_playback", True)
     tried = waiting(live, "countdown")
     tried.run(1.0)
     tried.press(Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: tried.feed.recording)
+    qtbot.waitUntil(lambda: tried.feed.is_recording)
 
 
 # --- the live count: whenever it is asked for, what the measures find in all that was recorded -----------
@@ -598,28 +605,28 @@ def test_counted_piece_by_piece_is_counted_as_a_whole(
     for start in hidden:
         seen[start : start + 12] = False
     frames = bending(time_s, angle_deg, seen)
-    running, end, most = RunningCount(exercise_named("WRIST_FE")), 0, 0
+    running, end, most = RepetitionCounter(get_exercise("WRIST_FE")), 0, 0
     for length in lengths:
         running.append(frames[end : end + length])
         end += length
-        whole = even_signal(time_s[:end], np.radians(angle_deg[:end]), seen[:end])
+        whole = resample_evenly(time_s[:end], np.radians(angle_deg[:end]), seen[:end])
         expected = len(find_repetitions(whole).repetitions) if len(whole.time_s) else 0
         most = max(most, expected)  # what was counted is never unmade
         if end > 2:
-            assert running.count() == most
+            assert running.update_count() == most
 
 
 def test_what_somebody_else_moved_neither_counts_nor_is_a_best() -> None:
     time_s = np.arange(0.0, 30.0, 1.0 / RATE_HZ)
     frames = bending(time_s, np.where(time_s < 15.0, 30.0, 60.0) * np.sin(2.0 * np.pi * 0.4 * time_s))
-    half, running = len(frames) // 2, RunningCount(exercise_named("WRIST_FE"))
+    half, running = len(frames) // 2, RepetitionCounter(get_exercise("WRIST_FE"))
     running.append(frames[:half])
-    by_itself = running.count()
-    running.say_way(frames[half - 1].timestamp_s, passive=True)
+    by_itself = running.update_count()
+    running.set_passive(frames[half - 1].timestamp_s, passive=True)
     running.append(frames[half:-60])
-    assert running.count() <= by_itself + 1, "the one that had begun"
+    assert running.update_count() <= by_itself + 1, "the one that had begun"
     assert running.best_positive_deg < 31.0
-    running.say_way(frames[-60].timestamp_s, passive=False)
+    running.set_passive(frames[-60].timestamp_s, passive=False)
     running.append(frames[-60:])
     assert running.best_positive_deg > 31.0, "by itself again"
 
@@ -631,6 +638,6 @@ def test_frames_just_after_a_hand_came_back_give_no_best() -> None:
     angle_deg[80] = 30.0
     frames = bending(3.0 + number / RATE_HZ, angle_deg, (number < 40) | (number >= 60))
     for shown, best_deg in ((frames, 30.0), (frames[:3], 20.0)):  # the first frames of a recording count
-        running = RunningCount(exercise_named("WRIST_FE"))
+        running = RepetitionCounter(get_exercise("WRIST_FE"))
         running.append(shown)
         assert abs(running.best_positive_deg - best_deg) < 1e-9

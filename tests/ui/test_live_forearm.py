@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import WRIST6
-from carpus.ui.live.counting import RunningCount
+from carpus.ui.live.counting import RepetitionCounter
 from carpus.ui.plot.history import History
 from tests.ui.fakes import simulated, tracked_frames
 
@@ -15,23 +15,23 @@ from tests.ui.fakes import simulated, tracked_frames
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_live_values_and_bests_of_the_forearm_count_from_thumb_up(side: str) -> None:
     frames = tracked_frames(simulated("palm_up", 12.0, 0.25, side))
-    stored_deg = np.degrees([frame.moment.angles_rad[2] for frame in frames])
-    exercise = exercise_named("FOREARM_PS")
-    history, count = History(WRIST6), RunningCount(exercise)
+    stored_deg = np.degrees([frame.kinematics.angles_rad[2] for frame in frames])
+    exercise = get_exercise("FOREARM_PS")
+    history, count = History(WRIST6), RepetitionCounter(exercise)
     history.clear(WRIST6, exercise)
     for frame in frames:
         history.append([frame])
         count.append([frame])
     assert history.angles_deg[2] == pytest.approx(stored_deg[-1] - 90.0)
-    assert history.angle(2).value[-1] == pytest.approx(stored_deg[-1] - 90.0)
+    assert history.angle_series(2).value[-1] == pytest.approx(stored_deg[-1] - 90.0)
     assert count.best_positive_deg == pytest.approx(stored_deg.max() - 90.0, abs=0.5)
     assert count.best_negative_deg == pytest.approx(stored_deg.min() - 90.0, abs=0.5)
-    assert count.count() >= 2
+    assert count.update_count() >= 2
 
 
 def test_beside_another_movement_the_live_rotation_counts_from_the_start() -> None:
     frames = tracked_frames(simulated("palm_up", 2.0, 0.25, "right"))
     history = History(WRIST6)
-    history.clear(WRIST6, exercise_named("WRIST_FE"), np.radians([0.0, 0.0, 20.0]))
+    history.clear(WRIST6, get_exercise("WRIST_FE"), np.radians([0.0, 0.0, 20.0]))
     history.append(frames)
-    assert history.angles_deg[2] == pytest.approx(np.degrees(frames[-1].moment.angles_rad[2]) - 20.0)
+    assert history.angles_deg[2] == pytest.approx(np.degrees(frames[-1].kinematics.angles_rad[2]) - 20.0)

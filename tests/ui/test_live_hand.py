@@ -11,19 +11,19 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Session
 from carpus.core.types import TrackedFrame, TrackStatus
-from carpus.ui.figures import FIGURES, Figure, figure_of
-from carpus.ui.joint_figures import figures_of
-from carpus.ui.live.counting import RunningCount
-from carpus.ui.live.light import hand_lamp, map_words
+from carpus.ui.figures import FINGER_ANGLES, FingerAngle, find_finger_angle
+from carpus.ui.joint_figures import estimate_finger_angles
+from carpus.ui.live.counting import RepetitionCounter
+from carpus.ui.live.light import hand_light, hand_map_words
 from carpus.ui.live.number_card import NumberCard, Reading
 from carpus.ui.picture.skeleton import side_points_m
-from carpus.ui.plot.finger_curves import cell_word
+from carpus.ui.plot.finger_curves import angle_suffix
 from carpus.ui.plot.history import History
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
@@ -65,9 +65,9 @@ def frame_at(time_s: float) -> TrackedFrame:
 def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_middle_finger() -> None:
     frame = frame_at(CLOSED_S)
     names = joint_angle_names()
-    angle = dict(zip(names, np.degrees(frame.moment.joint_angles_rad), strict=True))
-    _, value, sd, _, _ = figures_of(HAND21, [frame])
-    shown = dict(zip((figure.joint for figure in FIGURES), value[0], strict=True))
+    angle = dict(zip(names, np.degrees(frame.kinematics.joint_angles_rad), strict=True))
+    _, value, sd, _, _ = estimate_finger_angles(HAND21, [frame])
+    shown = dict(zip((figure.joint for figure in FINGER_ANGLES), value[0], strict=True))
     for name in ("MCP1_flexion", "IP1_flexion", "CMC1_abduction", "CMC1_extension", "MCP4_flexion", "PIP5_flexion"):
         assert shown[name] == pytest.approx(angle[name])
     assert shown["MCP2_abduction"] == pytest.approx(angle["MCP2_abduction"])
@@ -75,8 +75,8 @@ def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_mi
     assert shown["DIP3_flexion"] == pytest.approx(angle["PIP3_flexion"] * 2 / 3)
     assert shown["TAM3"] == pytest.approx(angle["MCP3_flexion"] + 5 / 3 * angle["PIP3_flexion"])
     assert shown["TAM1"] == pytest.approx(angle["MCP1_flexion"] + angle["IP1_flexion"])
-    sds = dict(zip(names, np.degrees(frame.moment.joint_angles_sd_rad), strict=True))
-    column = FIGURES.index(figure_of("TAM3"))
+    sds = dict(zip(names, np.degrees(frame.kinematics.joint_angles_sd_rad), strict=True))
+    column = FINGER_ANGLES.index(find_finger_angle("TAM3"))
     assert sd[0, column] == pytest.approx(math.hypot(sds["MCP3_flexion"], 5 / 3 * sds["PIP3_flexion"]))
 
 
@@ -91,22 +91,22 @@ def test_with_free_end_joints_nothing_is_inferred() -> None:
     )
     history = History(HAND21)
     history.append([frame])
-    end = FIGURES.index(Figure(4, "end"))
-    assert history.figure_value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
-    assert not history.inferred(end)
+    end = FINGER_ANGLES.index(FingerAngle(4, "end"))
+    assert history.angle_value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
+    assert not history.is_inferred(end)
 
 
 def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> None:
     hidden = [(0.0, 9.0, name) for name in ("DIP4", "TIP4", "MCP1")]
     history = History(HAND21)
     history.append(feed_of(hidden).frames[:90])
-    measured = {figure: history.figure_value(k)[2] for k, figure in enumerate(FIGURES)}
-    wrong = {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
-    wrong |= {Figure(1, row) for row in ("middle", "spread", "knuckle", "tam")}
+    measured = {figure: history.angle_value(k)[2] for k, figure in enumerate(FINGER_ANGLES)}
+    wrong = {FingerAngle(4, "middle"), FingerAngle(4, "end"), FingerAngle(4, "tam")}
+    wrong |= {FingerAngle(1, row) for row in ("middle", "spread", "knuckle", "tam")}
     assert {figure for figure, on in measured.items() if not on} == wrong
-    assert history.block().series(FIGURES.index(Figure(4, "middle"))).predicted.all()
-    assert history.inferred(FIGURES.index(Figure(2, "end")))  # coupled: it follows the middle joint
-    seen = history.seen()
+    assert history.angle_block().series(FINGER_ANGLES.index(FingerAngle(4, "middle"))).predicted.all()
+    assert history.is_inferred(FINGER_ANGLES.index(FingerAngle(2, "end")))  # coupled: it follows the middle joint
+    seen = history.marker_visibility()
     assert {name for name, state in seen.items() if state == "hidden"} == {"DIP4", "TIP4", "MCP1"}
 
 
@@ -118,19 +118,19 @@ def test_a_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s
     ]
     history = History(HAND21)
     history.append([*frames[:31], *frames[32:]])
-    block = history.block()
+    block = history.angle_block()
     assert 1.0 / np.median(np.diff(block.time_s)) == pytest.approx(points_s)
-    series = block.series(FIGURES.index(Figure(4, "middle")))
+    series = block.series(FINGER_ANGLES.index(FingerAngle(4, "middle")))
     assert series.gaps_s() == []
     last = frames[-1]
     history.append([replace(last, index=last.index + 19, timestamp_s=last.timestamp_s + 19 * every / 30.0)])
-    assert len(history.block().series(0).gaps_s()) == 1
+    assert len(history.angle_block().series(0).gaps_s()) == 1
 
 
 def test_the_band_of_a_hidden_joint_grows() -> None:
     history = History(HAND21)
     history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])
-    sd = history.block().series(FIGURES.index(Figure(2, "middle"))).sd
+    sd = history.angle_block().series(FINGER_ANGLES.index(FingerAngle(2, "middle"))).sd
     assert sd[-1] > 3.0 * sd[0]
     assert np.all(np.diff(sd[len(sd) // 2 :]) >= 0.0)
 
@@ -146,29 +146,31 @@ def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: L
     reading, screen = tried.reading(), tried.screen
     assert math.isnan(reading.value_deg)
     assert reading.best_positive_deg < 10.0  # by then the finger is bent by 75 degrees
-    screen.recording.count.best_negative_deg = -4.0
-    assert math.isnan(screen.readings.now(screen.number.reading).best_negative_deg), "no mark for a finger laid flat"
-    assert screen.number.reading.best_at_least
-    assert "no value" not in screen.number.movement()
+    screen.recording.counter.best_negative_deg = -4.0
+    assert math.isnan(screen.readings.current_reading(screen.number_card.reading).best_negative_deg), (
+        "no mark for a finger laid flat"
+    )
+    assert screen.number_card.reading.is_best_lower_bound
+    assert "no value" not in screen.number_card.movement_name()
 
 
 def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
     tried = live(feed_of(), CLOSED_S)
     feed, screen = tried.feed, tried.screen
-    assert screen.number.movement() == "Middle finger, knuckle"
-    assert screen.number.reading.target_positive_deg == 90.0
-    spot = screen.fingers.cell(Figure(4, "knuckle")).center().toPoint()
-    qtbot.mouseClick(screen.fingers.face, Qt.MouseButton.LeftButton, pos=spot)
-    assert screen.number.movement() == "Ring finger, knuckle"
-    assert math.isnan(screen.number.reading.target_positive_deg)  # the target is the trained joint's
-    angle = feed.frames[feed.place].moment.joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
-    assert screen.number.reading.value_deg == pytest.approx(math.degrees(angle))
-    screen.choose(screen.number.reading.with_next_angle())
-    screen.choose(screen.number.reading.with_next_finger())
-    assert screen.number.movement() == "Little finger, middle joint"
+    assert screen.number_card.movement_name() == "Middle finger, knuckle"
+    assert screen.number_card.reading.target_positive_deg == 90.0
+    spot = screen.finger_curves.cell(FingerAngle(4, "knuckle")).center().toPoint()
+    qtbot.mouseClick(screen.finger_curves.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
+    assert screen.number_card.movement_name() == "Ring finger, knuckle"
+    assert math.isnan(screen.number_card.reading.target_positive_deg)  # the target is the trained joint's
+    angle = feed.frames[feed.place].kinematics.joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
+    assert screen.number_card.reading.value_deg == pytest.approx(math.degrees(angle))
+    screen.show_angle(screen.number_card.reading.with_next_angle())
+    screen.show_angle(screen.number_card.reading.with_next_finger())
+    assert screen.number_card.movement_name() == "Little finger, middle joint"
     for _ in range(3):
-        screen.choose(screen.number.reading.with_next_angle())
-    assert screen.number.movement() == "Little finger, total active motion (TAM)"
+        screen.show_angle(screen.number_card.reading.with_next_angle())
+    assert screen.number_card.movement_name() == "Little finger, total active motion (TAM)"
 
 
 def test_spreading_says_its_side_and_the_thumbs_lift_runs_from_the_palms_plane(qtbot: QtBot, theme: Theme) -> None:
@@ -179,27 +181,29 @@ def test_spreading_says_its_side_and_the_thumbs_lift_runs_from_the_palms_plane(q
         (-2.0, "Ring finger, spread, in"),
         (0.2, "Ring finger, spread"),
     ):
-        card.show_reading(Reading(figure=Figure(4, "spread"), value_deg=value, sd_deg=1.0))
-        assert card.movement() == words
-        assert cell_word(Figure(4, "spread"), value) == words.removeprefix("Ring finger, spread").removeprefix(", ")
-    lift = Figure(1, "middle")
+        card.show_reading(Reading(figure=FingerAngle(4, "spread"), value_deg=value, sd_deg=1.0))
+        assert card.movement_name() == words
+        assert angle_suffix(FingerAngle(4, "spread"), value) == words.removeprefix("Ring finger, spread").removeprefix(
+            ", "
+        )
+    lift = FingerAngle(1, "middle")
     assert lift.joint == "CMC1_abduction"
-    assert (lift.range_deg, lift.end_names) == ((0.0, 60.0), ("In the palm’s plane", "Lifted 60°"))
-    assert cell_word(lift, 20.0) == "lift"
+    assert (lift.range_deg, lift.range_end_names) == ((0.0, 60.0), ("In the palm’s plane", "Lifted 60°"))
+    assert angle_suffix(lift, 20.0) == "lift"
 
 
 def test_a_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
     tried = live(feed_of(lost=[(1.0, 9.0)]), 2.0)
     assert math.isnan(tried.reading().value_deg)
-    assert all(math.isnan(value) for value, _, _ in tried.screen.fingers._values.values())
-    assert tried.screen.controls.light.lamp.rank == "bad"
+    assert all(math.isnan(value) for value, _, _ in tried.screen.finger_curves._values.values())
+    assert tried.screen.controls.light_view.status_light.rank == "bad"
 
 
 def test_the_wrist_keeps_its_own_screen(live: Live) -> None:
     screen = live(feed_of()).screen
-    parts = (screen.fingers, screen.hand_map, screen.curves, screen.path)
+    parts = (screen.finger_curves, screen.hand_map, screen.curves, screen.path_view)
     assert [part.isVisible() for part in parts] == [True, True, False, False]
-    screen.begin(FakeMeasuring(FakeFeed(seconds=8.0)), set_up())
+    screen.open_source(FakeMeasuring(FakeFeed(seconds=8.0)), set_up())
     screen._timer.stop()
     assert [part.isVisible() for part in parts] == [False, False, True, True]
 
@@ -218,19 +222,19 @@ def test_the_wrist_keeps_its_own_screen(live: Live) -> None:
 )
 def test_the_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], state: str, remedy: str) -> None:
     frame = feed_of([(0.0, 9.0, name) for name in hidden]).frames[20]
-    lamp = hand_lamp(frame, {name: "hidden" if name in hidden else "seen" for name in MARKERS})
+    lamp = hand_light(frame, {name: "hidden" if name in hidden else "seen" for name in MARKERS})
     assert (lamp.state, lamp.remedy) == (state, remedy)
     assert lamp.rank == ("warn" if hidden else "good")
 
 
 def test_the_map_says_it_in_one_sentence() -> None:
     seen = dict.fromkeys(MARKERS, "seen")
-    assert map_words(seen) == "All markers seen, every joint is measured."  # type: ignore[arg-type]
-    assert "follow the middle joints" in map_words(seen, infers_ends=True)  # type: ignore[arg-type]
-    assert "every joint is measured" not in map_words(seen, infers_ends=True)  # type: ignore[arg-type]
-    sentence = map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
+    assert hand_map_words(seen) == "All markers seen, every joint is measured."  # type: ignore[arg-type]
+    assert "follow the middle joints" in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
+    assert "every joint is measured" not in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
+    sentence = hand_map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
     assert sentence == "Ring tip hidden: raise the hand. Hidden joints do not count."
-    assert "now and then" in map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
+    assert "now and then" in hand_map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
 
 
 def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> None:
@@ -245,38 +249,38 @@ def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> Non
 
 def test_a_predicted_frame_supports_no_joint() -> None:
     frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
-    assert not figures_of(HAND21, [frame])[3].any()
+    assert not estimate_finger_angles(HAND21, [frame])[3].any()
 
 
 @pytest.mark.parametrize("exercise", ["FIST_COMPOSITE", "FIST_HOOK"])
 def test_what_is_counted_live_is_what_the_review_counts_though_the_joint_hides(exercise: str) -> None:
-    chosen = exercise_named(exercise)
+    chosen = get_exercise(exercise)
     session = hand_session(exercise=exercise, motion="hook" if exercise == "FIST_HOOK" else "fist")
-    count = RunningCount(chosen)
+    count = RepetitionCounter(chosen)
     count.append(frames_of(session))
-    found = session_figures(session, RepetitionChoices({}))
-    assert count.count() == len(found.repetitions) >= 5
+    found = compute_session_results(session, RepetitionChoices({}))
+    assert count.update_count() == len(found.repetitions) >= 5
     row = found.find(chosen.joint, "flexion")
     assert count.best_positive_deg == pytest.approx(row.best, abs=3.0)
-    assert count.best_at_least == row.at_least
+    assert count.is_best_lower_bound == row.is_lower_bound
 
 
 def test_light_map_cells_and_large_number_say_the_same_at_every_moment(live: Live) -> None:
     tried = live(feed_of([(0.5, 0.6, "PIP4"), (1.0, 2.0, "TIP2"), (1.5, 3.0, "PIP3"), (2.2, 2.5, "MCP1")]))
     screen = tried.screen
-    screen.choose(Reading(figure=Figure(3, "knuckle")))
+    screen.show_angle(Reading(figure=FingerAngle(3, "knuckle")))
     ranks = set()
     for _ in range(round(15 * 4.0)):
         tried.run(1 / 15)
         reading = tried.reading()
-        seen = screen.hand_map.seen
+        seen = screen.hand_map.visibility
         hidden = {name for name, state in seen.items() if state == "hidden"}
-        lamp = screen.controls.light.lamp
+        lamp = screen.controls.light_view.status_light
         ranks.add(lamp.rank)
         assert (lamp.rank == "good") == (set(seen.values()) == {"seen"})
-        for k, figure in enumerate(FIGURES):
-            if figure.row == "knuckle" and figure.finger > 1:
+        for k, figure in enumerate(FINGER_ANGLES):
+            if figure.kind == "knuckle" and figure.finger > 1:
                 of_it = hidden & {f"MCP{figure.finger}", f"PIP{figure.finger}"}
-                assert screen.history.figure_value(k)[2] != bool(of_it)
+                assert screen.history.angle_value(k)[2] != bool(of_it)
         assert math.isfinite(reading.value_deg) != bool(hidden & {"MCP3", "PIP3"})
     assert ranks == {"good", "warn"}

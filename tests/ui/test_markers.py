@@ -13,18 +13,18 @@ from pytestqt.qtbot import QtBot
 from carpus.core.calibration.result import CalibrationFinding, Clicks
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.ui.background import Background
-from carpus.ui.language import speaking
-from carpus.ui.markers.clicking import Clicking
-from carpus.ui.markers.picture import MarkerPicture
+from carpus.ui.language import use_language
+from carpus.ui.markers.clicking import LabelState
+from carpus.ui.markers.picture import MarkerFrameView
 from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.ports import Judged, ProposedMarker
+from carpus.ui.ports import CalibrationAssessment, LabelProposal
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCalibrator
 from tests.ui.geometry import painted_texts
 
 
-def walk(qtbot: QtBot, picture: MarkerPicture, pixel: np.ndarray) -> None:
+def walk(qtbot: QtBot, picture: MarkerFrameView, pixel: np.ndarray) -> None:
     """Lead the cursor to a place by the arrow keys, by tens with Shift."""
     assert picture.cursor_px is not None
     arrows = ((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down))
@@ -42,18 +42,18 @@ class Marking:
     def __init__(self, qtbot: QtBot, screen: MarkersScreen) -> None:
         self.screen, self._qtbot = screen, qtbot
         self.started: list[bool] = []
-        screen.naming.started.connect(lambda: self.started.append(True))
+        screen.labelling.started.connect(lambda: self.started.append(True))
 
     @property
-    def clicking(self) -> Clicking:
-        return self.screen.clicking
+    def clicking(self) -> LabelState:
+        return self.screen.labels
 
     def begin(self, *findings: CalibrationFinding, is_live: bool = False) -> FakeCalibrator:
         """Six discs that a person names: nothing is proposed."""
         self.calibrator = FakeCalibrator(is_live=is_live)
         self.calibrator.findings = findings
-        self.screen.begin(self.calibrator)
-        self._qtbot.waitUntil(lambda: not self.screen.naming._background.busy)
+        self.screen.open_calibrator(self.calibrator)
+        self._qtbot.waitUntil(lambda: not self.screen.labelling._background.is_busy)
         return self.calibrator
 
     def propose(
@@ -62,8 +62,8 @@ class Marking:
         """Discs that are proposed with their names."""
         self.calibrator = FakeCalibrator("fist" if protocol == "hand21" else "flexion", protocol=protocol)
         self.calibrator.doubtful, self.calibrator.not_found = doubtful, not_found
-        self.screen.begin(self.calibrator)
-        self._qtbot.waitUntil(lambda: self.clicking is not None and bool(self.clicking.proposed))
+        self.screen.open_calibrator(self.calibrator)
+        self._qtbot.waitUntil(lambda: self.clicking is not None and bool(self.clicking.proposals))
         return self.calibrator
 
     def disc_px(self, name: str) -> np.ndarray:
@@ -91,7 +91,7 @@ class Marking:
     def judge(self) -> Clicks:
         """Wait for the verdict; what was judged."""
         self._qtbot.waitUntil(
-            lambda: self.clicking is not None and self.clicking.complete and self.screen.primary.isEnabled()
+            lambda: self.clicking is not None and self.clicking.is_complete and self.screen.primary_button.isEnabled()
         )
         return self.calibrator.judged[-1]
 
@@ -119,7 +119,7 @@ def test_clicks_snap_to_the_discs_in_the_order_of_the_protocol(marking: Marking)
     judged = marking.judge_all()
     np.testing.assert_allclose(judged.pixel, calibrator.disc_px)
     assert judged.protocol.markers == WRIST6.markers
-    assert not marking.screen.guidance.straight.isVisible(), "a wrist is not asked for its fingers"
+    assert not marking.screen.guidance.straight_fingers.isVisible(), "a wrist is not asked for its fingers"
     marking.enter()
     assert marking.started
     assert calibrator.begun is not None
@@ -144,25 +144,28 @@ def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking
     marking.click(*discs_px[:3])
     assert marking.clicking.current == WRIST6.markers[3]
     marking.press(Qt.Key.Key_Backspace)
-    assert (marking.clicking.current, set(marking.clicking.pixel)) == (WRIST6.markers[2], set(WRIST6.markers[:2]))
-    assert "index knuckle" in marking.screen.guidance.title.text(), "it is asked for again"
+    assert (marking.clicking.current, set(marking.clicking.confirmed_px)) == (
+        WRIST6.markers[2],
+        set(WRIST6.markers[:2]),
+    )
+    assert "index knuckle" in marking.screen.guidance.title_label.text(), "it is asked for again"
     for _ in range(2):
         marking.press(Qt.Key.Key_Backspace)
     assert marking.clicking.current == "WRIST"
     marking.press(Qt.Key.Key_Tab)
     marking.click(discs_px[1])
-    assert list(marking.clicking.pixel) == ["CMC1"], "Tab chooses which is clicked next"
+    assert list(marking.clicking.confirmed_px) == ["CMC1"], "Tab chooses which is clicked next"
     assert marking.clicking.missing[0] == "WRIST"
     marking.press(Qt.Key.Key_Backspace)
     marking.clicking.current = "WRIST"
     marking.click(discs_px[1])
-    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], discs_px[1])
+    np.testing.assert_allclose(marking.clicking.confirmed_px["WRIST"], discs_px[1])
     marking.drag(discs_px[1], discs_px[0])
-    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], discs_px[0])
+    np.testing.assert_allclose(marking.clicking.confirmed_px["WRIST"], discs_px[0])
     marking.screen.picture.set_cursor(discs_px[0])
     for _ in range(3):
         marking.press(Qt.Key.Key_Space)
-        assert (set(marking.clicking.pixel), marking.clicking.current) == ({"WRIST"}, "CMC1")
+        assert (set(marking.clicking.confirmed_px), marking.clicking.current) == ({"WRIST"}, "CMC1")
         assert marking.screen.picture.no_marker_words == "Already the wrist"
 
 
@@ -174,15 +177,15 @@ def test_the_cursor_of_the_last_picture_is_forgotten(qtbot: QtBot, marking: Mark
     marking.begin()
     assert picture.cursor_px is None
     marking.press(Qt.Key.Key_Space)
-    assert not marking.clicking.pixel
+    assert not marking.clicking.confirmed_px
 
 
 def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, marking: Marking) -> None:
     marking.begin()
     marking.judge_all()
-    marking.screen.end()
+    marking.screen.close_calibrator()
     following = marking.begin()
-    assert marking.clicking is None or not marking.clicking.pixel
+    assert marking.clicking is None or not marking.clicking.confirmed_px
     qtbot.wait(50)
     assert not following.judged
 
@@ -193,21 +196,21 @@ def test_what_is_still_worked_out_of_one_picture_measures_no_other(
     calibrator, asked, worked_out = FakeCalibrator(is_live=True), threading.Event(), threading.Event()
     calibrator.not_found = ()
 
-    def judge(clicks: Clicks, angles: np.ndarray) -> Judged:
+    def judge(clicks: Clicks, angles: np.ndarray) -> CalibrationAssessment:
         asked.set()
         worked_out.wait(60.0)
-        return FakeCalibrator().judge(clicks, angles)
+        return FakeCalibrator().assess(clicks, angles)
 
     monkeypatch.setattr(calibrator, "judge", judge)
-    screen.begin(calibrator)
+    screen.open_calibrator(calibrator)
     screen.accept()
-    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed))
-    screen.primary.click()
+    qtbot.waitUntil(lambda: screen.labels is not None and bool(screen.labels.proposals))
+    screen.primary_button.click()
     qtbot.waitUntil(asked.is_set)
     screen.preview()
     worked_out.set()
-    qtbot.waitUntil(lambda: not screen.naming._background.busy)
-    assert screen.naming.work == "aiming"
+    qtbot.waitUntil(lambda: not screen.labelling._background.is_busy)
+    assert screen.labelling.stage == "aiming"
     assert calibrator.begun is None
 
 
@@ -215,7 +218,7 @@ def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, markin
     marking.begin()
     screen = marking.screen
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))
-    assert not screen.clicking.pixel
+    assert not screen.labels.confirmed_px
     assert "No blue marker" in screen.picture.no_marker_words
     with painted_texts(screen) as painted:
         screen.grab()
@@ -228,8 +231,8 @@ def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, markin
 def test_swapped_markers_are_exchanged_by_enter_and_judged_again(marking: Marking) -> None:
     calibrator = marking.begin(CalibrationFinding("swapped", ("MCP2", "MCP3")))
     marking.judge_all()
-    assert marking.screen.guidance.panel.states()[0] == "bad"
-    assert marking.screen.picture.wrong == {"MCP2", "MCP3"}
+    assert marking.screen.guidance.verdict_panel.states()[0] == "bad"
+    assert marking.screen.picture.wrong_labels == {"MCP2", "MCP3"}
     calibrator.findings = ()
     marking.enter()
     np.testing.assert_allclose(marking.judge().pixel[2:4], calibrator.disc_px[[3, 2]])
@@ -240,10 +243,10 @@ def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: M
     marking.begin(CalibrationFinding("shifted", WRIST6.markers))
     marking.judge_all()
     screen = marking.screen
-    assert screen.guidance.panel.states()[0] == "bad"
-    assert screen.guidance.step.text() == "Cannot start yet"
-    assert not screen.second.isVisible()
-    screen.start_doubtful()
+    assert screen.guidance.verdict_panel.states()[0] == "bad"
+    assert screen.guidance.step_label.text() == "Cannot start yet"
+    assert not screen.second_button.isVisible()
+    screen.start_anyway()
     marking.enter()
     assert not marking.started
     assert marking.clicking.missing == WRIST6.markers
@@ -252,12 +255,12 @@ def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: M
 def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, marking: Marking) -> None:
     calibrator = marking.begin(TILT)
     marking.judge_all()
-    assert marking.screen.second.isVisible()
+    assert marking.screen.second_button.isVisible()
     for _ in range(3):
         marking.enter()
     assert not marking.started
-    assert marking.clicking.complete, "Enter wipes no name"
-    qtbot.mouseClick(marking.screen.second, Qt.MouseButton.LeftButton)
+    assert marking.clicking.is_complete, "Enter wipes no name"
+    qtbot.mouseClick(marking.screen.second_button, Qt.MouseButton.LeftButton)
     assert marking.started
     assert calibrator.begun is not None
 
@@ -265,23 +268,23 @@ def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, mark
 def test_what_blocks_cannot_be_started_at_all(qtbot: QtBot, marking: Marking) -> None:
     calibrator = marking.begin(CalibrationFinding("no_depth", ("CMC1",), blocks=True))
     marking.judge_all()
-    assert not marking.screen.second.isVisible()
-    qtbot.mouseClick(marking.screen.primary, Qt.MouseButton.LeftButton)
+    assert not marking.screen.second_button.isVisible()
+    qtbot.mouseClick(marking.screen.primary_button, Qt.MouseButton.LeftButton)
     assert calibrator.begun is None
     assert marking.clicking.missing == ("CMC1",)
 
 
 def test_a_given_start_angle_reaches_the_calibration_with_its_sign(qtbot: QtBot, marking: Marking) -> None:
     calibrator, screen = marking.begin(), marking.screen
-    qtbot.mouseClick(screen.start_angle, Qt.MouseButton.LeftButton)
-    direction, value = screen.angle_sheet.fields[1]
+    qtbot.mouseClick(screen.start_angle_button, Qt.MouseButton.LeftButton)
+    direction, value = screen.angle_dialog.fields[1]
     direction.buttons()[1].click()
     value.setValue(20)
-    screen.angle_sheet.kept.emit(screen.angle_sheet.angles_rad())
-    screen.angle_sheet.close_sheet()
+    screen.angle_dialog.angles_entered.emit(screen.angle_dialog.angles_rad())
+    screen.angle_dialog.close_dialog()
     marking.judge_all()
     np.testing.assert_allclose(calibrator.angles[-1], [0.0, math.radians(-20.0), 0.0])
-    assert "Extension 20°" in screen.start_angle.text()
+    assert "Extension 20°" in screen.start_angle_button.text()
 
 
 def test_a_live_camera_shows_pictures_until_one_is_taken(qtbot: QtBot, marking: Marking) -> None:
@@ -289,23 +292,23 @@ def test_a_live_camera_shows_pictures_until_one_is_taken(qtbot: QtBot, marking: 
     assert marking.clicking is None
     marking.press(Qt.Key.Key_Space)
     assert marking.clicking is not None
-    qtbot.mouseClick(marking.screen.new_picture, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(marking.screen.new_frame_button, Qt.MouseButton.LeftButton)
     assert marking.clicking is None
 
 
 def test_undo_walks_back_through_any_order() -> None:
-    clicking = Clicking(WRIST6, "right")
+    clicking = LabelState(WRIST6, "right")
     for name in ("MCP4", "WRIST", "MCP2"):
         clicking.current = name
-        clicking.place(np.zeros(2), 9.0)
+        clicking.set_label(np.zeros(2), 9.0)
     assert [clicking.undo() for _ in range(4)] == ["MCP2", "WRIST", "MCP4", ""]
 
 
 # --- names proposed by the program ------------------------------------------------------------------------
 def test_enter_takes_all_proposed_names_and_enter_starts(marking: Marking) -> None:
     calibrator = marking.propose()
-    assert "21 of 21 found" in [cells[2].text() for cells in marking.screen.guidance.panel._lines]
-    assert marking.screen.guidance.panel.states()[0] == "open", "what is proposed is not said to be done"
+    assert "21 of 21 found" in [cells[2].text() for cells in marking.screen.guidance.verdict_panel._lines]
+    assert marking.screen.guidance.verdict_panel.states()[0] == "open", "what is proposed is not said to be done"
     assert not calibrator.judged
     marking.press(Qt.Key.Key_Return)
     np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
@@ -315,9 +318,9 @@ def test_enter_takes_all_proposed_names_and_enter_starts(marking: Marking) -> No
 
 def test_doubtful_names_are_said_in_words_and_one_click_settles_each(marking: Marking) -> None:
     marking.propose(doubtful=("TIP4", "DIP4"))
-    assert "Ring finger end joint, ring tip" in marking.screen.guidance.place.text()
+    assert "Ring finger end joint, ring tip" in marking.screen.guidance.instruction_label.text()
     marking.click(marking.disc_px("DIP4"), marking.disc_px("TIP4"))
-    assert set(marking.clicking.pixel) == {"DIP4", "TIP4"}
+    assert set(marking.clicking.confirmed_px) == {"DIP4", "TIP4"}
     assert not marking.clicking.doubtful
 
 
@@ -325,18 +328,18 @@ def test_a_wrong_proposal_is_dragged_to_its_disc_and_names_change_places(marking
     marking.propose()
     clicking, tip, other = marking.clicking, marking.disc_px("TIP2"), marking.disc_px("TIP3")
     marking.drag(tip, other)
-    np.testing.assert_allclose(clicking.pixel["TIP2"], other)
+    np.testing.assert_allclose(clicking.confirmed_px["TIP2"], other)
     clicking.current = "TIP3"
-    clicking.place(tip, 10.0)
-    assert {"TIP2", "TIP3"} <= set(clicking.pixel)
+    clicking.set_label(tip, 10.0)
+    assert {"TIP2", "TIP3"} <= set(clicking.confirmed_px)
     clicking.current = "TIP2"
-    clicking.place(tip, 10.0)  # onto a disc that has a name: the two change places
-    np.testing.assert_allclose(clicking.pixel["TIP3"], other)
+    clicking.set_label(tip, 10.0)  # onto a disc that has a name: the two change places
+    np.testing.assert_allclose(clicking.confirmed_px["TIP3"], other)
 
 
 def test_a_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
     calibrator = marking.propose(not_found=("TIP1",))
-    assert "thumb tip" in marking.screen.guidance.title.text()
+    assert "thumb tip" in marking.screen.guidance.title_label.text()
     marking.press(Qt.Key.Key_Return)
     assert marking.clicking.missing == ("TIP1",)
     marking.click(marking.disc_px("TIP1"))
@@ -345,13 +348,13 @@ def test_a_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
 
 def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(marking: Marking) -> None:
     calibrator, screen = marking.propose("wrist6"), marking.screen
-    assert not screen.has_names, "proposals come back by themselves: only what a person named is missed"
-    assert screen.primary.text() == "Names are right"
-    assert screen.primary.shown_key == "Enter"
+    assert not screen.has_labels, "proposals come back by themselves: only what a person named is missed"
+    assert screen.primary_button.text() == "Names are right"
+    assert screen.primary_button.visible_key == "Enter"
     marking.press(Qt.Key.Key_Return)
-    assert screen.has_names
+    assert screen.has_labels
     np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
-    assert screen.primary.text() == "Start measuring"
+    assert screen.primary_button.text() == "Start measuring"
 
 
 @pytest.mark.parametrize("scale", [1.0, 1.5])
@@ -360,16 +363,16 @@ def test_no_name_covers_a_disc_that_is_to_be_clicked(
 ) -> None:
     theme.choose(text_scale=scale)
     calibrator = FakeCalibrator()
-    screen.begin(calibrator)
+    screen.open_calibrator(calibrator)
     picture = screen.picture
     qtbot.waitUntil(lambda: picture.width() > 400)
     discs = [picture.to_screen(*map(float, pixel)) for pixel in calibrator.disc_px]
     for named in (0, 1, 3, 6):
         rings = []
         for name, pixel, at in zip(calibrator.protocol.markers[:named], calibrator.disc_px, discs, strict=False):
-            screen.clicking.pixel[name], screen.clicking.widths_px[name] = pixel, 10.0
+            screen.labels.confirmed_px[name], screen.labels.widths_px[name] = pixel, 10.0
             rings.append((name, at, 13.0))
-        plates = picture.name_plates(rings, "")
+        plates = picture.label_plates(rings, "")
         assert [one.name for one in plates] == list(calibrator.protocol.markers[:named]), "every name has its place"
         for one in plates:
             assert not any(one.plate.adjusted(-8, -8, 8, 8).contains(at) for at in discs), one.name
@@ -381,24 +384,24 @@ def test_where_the_names_are_long_a_knuckle_has_its_fingers_name(
 ) -> None:
     theme.choose(text_scale=1.5)
     calibrator = FakeCalibrator()
-    screen.begin(calibrator)
+    screen.open_calibrator(calibrator)
     picture = screen.picture
     qtbot.waitUntil(lambda: picture.width() > 400)
     picture.resize(560, 452)
-    picture.discs_px = np.empty((0, 2))
+    picture.blobs_px = np.empty((0, 2))
     # the hand as the simulated camera shows it enlarged, from wrist and thumb to the little finger
     at = [(280, 361), (242, 335), (225, 189), (271, 185), (311, 193), (341, 211)]
     rings = [(name, QPointF(*one), 17.0) for name, one in zip(calibrator.protocol.markers, at, strict=True)]
-    with speaking("de"):
-        plates = picture.name_plates(rings, "")
+    with use_language("de"):
+        plates = picture.label_plates(rings, "")
     assert [one.name for one in plates] == list(calibrator.protocol.markers), "every name has its place"
     assert plates[-1].words == "Kleinfinger"
 
 
 def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, marking: Marking) -> None:
     calibrator = marking.propose()
-    qtbot.mouseClick(marking.screen.second, Qt.MouseButton.LeftButton)
-    assert not marking.clicking.proposed
+    qtbot.mouseClick(marking.screen.second_button, Qt.MouseButton.LeftButton)
+    assert not marking.clicking.proposals
     np.testing.assert_allclose(marking.judge_all(off_px=1.0).pixel, calibrator.disc_px)
 
 
@@ -406,18 +409,18 @@ def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(marking: 
     calibrator, screen = marking.begin(TILT, is_live=True), marking.screen
     marking.press(Qt.Key.Key_Space)
     marking.judge_all()
-    assert screen.primary.text() == "New picture"
-    assert screen.click_all.isVisible()
+    assert screen.primary_button.text() == "New picture"
+    assert screen.click_again_button.isVisible()
     marking.enter()
-    assert screen.clicking is None
+    assert screen.labels is None
     calibrator.findings = (CalibrationFinding("misnamed", ("MCP4",)),)
     marking.press(Qt.Key.Key_Space)
     marking.judge_all()
-    assert screen.primary.text() == "Correct names"
-    assert screen.picture.wrong == {"MCP4"}
+    assert screen.primary_button.text() == "Correct names"
+    assert screen.picture.wrong_labels == {"MCP4"}
     marking.enter()
     assert screen.picture.hasFocus()
-    assert screen.clicking.complete
+    assert screen.labels.complete
 
 
 def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot, marking: Marking) -> None:
@@ -436,45 +439,45 @@ def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot,
 def test_enter_never_takes_a_doubtful_name_unseen(marking: Marking) -> None:
     marking.propose(doubtful=("TIP4", "DIP4"))
     screen = marking.screen
-    assert screen.primary.text() != "Names are right"
+    assert screen.primary_button.text() != "Names are right"
     for name in ("DIP4", "TIP4"):
         np.testing.assert_allclose(screen.picture.cursor_px, marking.disc_px(name))  # in the loupe
         marking.press(Qt.Key.Key_Return)
-        np.testing.assert_allclose(marking.clicking.pixel[name], marking.disc_px(name))
-        assert len(marking.clicking.pixel) <= 2
-    assert screen.primary.text() == "Names are right"
-    assert not screen.take_rest.isVisible()
+        np.testing.assert_allclose(marking.clicking.confirmed_px[name], marking.disc_px(name))
+        assert len(marking.clicking.confirmed_px) <= 2
+    assert screen.primary_button.text() == "Names are right"
+    assert not screen.accept_all_button.isVisible()
 
 
 def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> None:
-    clicking = Clicking(HAND21, "right")
+    clicking = LabelState(HAND21, "right")
     places = {name: np.array([20.0 * i, 0.0]) for i, name in enumerate(HAND21.markers)}
-    clicking.propose({name: ProposedMarker(at, 9.0, True) for name, at in places.items()})
+    clicking.set_proposals({name: LabelProposal(at, 9.0, True) for name, at in places.items()})
     clicking.current = "TIP3"
-    assert clicking.place(places["TIP4"], 9.0), "the two change places"
-    np.testing.assert_allclose(clicking.pixel["TIP3"], places["TIP4"])
-    np.testing.assert_allclose(clicking.proposed["TIP4"].pixel, places["TIP3"])
-    clicking.take_all()
+    assert clicking.set_label(places["TIP4"], 9.0), "the two change places"
+    np.testing.assert_allclose(clicking.confirmed_px["TIP3"], places["TIP4"])
+    np.testing.assert_allclose(clicking.proposals["TIP4"].pixel, places["TIP3"])
+    clicking.accept_all()
     clicking.current = "TIP2"
-    clicking.place(places["PIP2"], 9.0)
-    np.testing.assert_allclose(clicking.pixel["PIP2"], places["TIP2"])
-    assert clicking.complete
-    clicking = Clicking(HAND21, "right")
-    clicking.propose({"WRIST": ProposedMarker(places["WRIST"], 9.0, True)})
-    assert not clicking.place(places["WRIST"], 9.0), "one that was nowhere takes the disc: names are asked for anew"
+    clicking.set_label(places["PIP2"], 9.0)
+    np.testing.assert_allclose(clicking.confirmed_px["PIP2"], places["TIP2"])
+    assert clicking.is_complete
+    clicking = LabelState(HAND21, "right")
+    clicking.set_proposals({"WRIST": LabelProposal(places["WRIST"], 9.0, True)})
+    assert not clicking.set_label(places["WRIST"], 9.0), "one that was nowhere takes the disc: names are asked for anew"
 
 
 def test_names_that_are_proposed_leave_the_marker_that_a_person_has_gone_to() -> None:
-    clicking = Clicking(HAND21, "right")
-    proposed = {"WRIST": ProposedMarker(np.array([20.0, 0.0]), 9.0, True)}
-    clicking.propose(proposed)
+    clicking = LabelState(HAND21, "right")
+    proposed = {"WRIST": LabelProposal(np.array([20.0, 0.0]), 9.0, True)}
+    clicking.set_proposals(proposed)
     assert clicking.current == HAND21.markers[1], "the first that has no name"
     clicking.step(3)
     gone_to = clicking.current
-    clicking.propose(proposed)
+    clicking.set_proposals(proposed)
     assert clicking.current == gone_to
-    clicking.place(np.array([90.0, 0.0]), 9.0)
-    clicking.propose(proposed)
+    clicking.set_label(np.array([90.0, 0.0]), 9.0)
+    clicking.set_proposals(proposed)
     assert clicking.current == HAND21.markers[1]
 
 
@@ -490,21 +493,21 @@ def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: Qt
     calibrator = marking.begin(CalibrationFinding("other_spot", ("MCP3",), spot_px=spot))
     marking.judge_all()
     screen = marking.screen
-    assert screen.guidance.step.text().startswith("Doubtful")
-    assert screen.picture.spots == [(spot, "MCP3")]
-    assert "Take that spot" in screen.primary.text()
+    assert screen.guidance.step_label.text().startswith("Doubtful")
+    assert screen.picture.questioned_blobs == [(spot, "MCP3")]
+    assert "Take that spot" in screen.primary_button.text()
     calibrator.findings = ()
-    qtbot.keyClick(screen.primary, Qt.Key.Key_Return)
+    qtbot.keyClick(screen.primary_button, Qt.Key.Key_Return)
     assert tuple(marking.judge().pixel[3]) == spot
-    assert screen.picture.spots == []
+    assert screen.picture.questioned_blobs == []
 
 
 def test_a_picture_without_discs_says_so(screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch) -> None:
     calibrator = FakeCalibrator()
     for seen, said in ((0, True), (6, False)):
-        monkeypatch.setattr(calibrator, "discs_seen", lambda seen=seen: seen)
-        screen.begin(calibrator) if said else screen.hold()
-        assert ("No blue disc" in screen.guidance.title.text()) is said
+        monkeypatch.setattr(calibrator, "count_candidates", lambda seen=seen: seen)
+        screen.open_calibrator(calibrator) if said else screen.freeze_frame()
+        assert ("No blue disc" in screen.guidance.title_label.text()) is said
 
 
 def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, marking: Marking) -> None:
@@ -512,8 +515,8 @@ def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot
     marking.enter()
     qtbot.waitUntil(lambda: marking.started == [True])
     calibrator.findings = (TILT,)
-    marking.screen.begin(calibrator)
-    qtbot.waitUntil(lambda: marking.clicking is not None and bool(marking.clicking.proposed))
+    marking.screen.open_calibrator(calibrator)
+    qtbot.waitUntil(lambda: marking.clicking is not None and bool(marking.clicking.proposals))
     marking.enter()
     marking.judge()
     assert marking.started == [True], "what is doubtful is looked at first"
@@ -521,9 +524,9 @@ def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot
 
 def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, marking: Marking) -> None:
     calibrator, screen = marking.propose(), marking.screen
-    straight = screen.guidance.straight
+    straight = screen.guidance.straight_fingers
     assert not straight.isVisible()
-    screen.naming.take_all()
+    screen.labelling.accept_all()
     assert marking.judge().straight_fingers == (True,) * 5
     assert straight.isVisible()
     qtbot.mouseClick(straight.buttons[3], Qt.MouseButton.LeftButton)

@@ -12,21 +12,21 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QFontMetricsF
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.motion_curves import motion_curves
-from carpus.core.results.seen import session_curves
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.motion_curves import compute_motion_curves
+from carpus.core.results.seen import wrist_curves
 from carpus.ui.controls.text import Text
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.motion import MotionPlot
 from carpus.ui.plot.style import screen_style
-from carpus.ui.plot.ways import LEAST_SPAN_MM, WaysChart, finger_ways, is_titled, side_by_side, wrist_way
+from carpus.ui.plot.ways import MIN_SPAN_MM, PathsChart, finger_paths, has_title, plane_panels, wrist_path
 from carpus.ui.ports import PatientCard
 from carpus.ui.report.gather import write_session_report
 from carpus.ui.review.charts import WRIST
 from carpus.ui.theme import Theme
-from carpus.ui.words.fingers import finger_table, main_figure
-from carpus.ui.words.further import further_table, main_words
+from carpus.ui.words.fingers import finger_table, main_result_words
+from carpus.ui.words.further import task_summary, task_table
 from carpus.ui.words.table import Cell
 from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
@@ -39,19 +39,19 @@ BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 # --- ways -------------------------------------------------------------------------------------------------
 @pytest.fixture
 def panels(theme: Theme) -> list[Panel]:
-    return side_by_side(screen_style(theme), BOX, 12.0)
+    return plane_panels(screen_style(theme), BOX, 12.0)
 
 
 def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(qtbot: QtBot, theme: Theme) -> None:
-    curves = motion_curves(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    curves = compute_motion_curves(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     chart = shown(qtbot, theme)
-    for plot in (wrist_way(curves), finger_ways(curves, 0), finger_ways(curves, 1), finger_ways(curves, 3)):
+    for plot in (wrist_path(curves), finger_paths(curves, 0), finger_paths(curves, 1), finger_paths(curves, 3)):
         chart.show_plot(plot)
         scales = set()
         for item in chart._planes:
             panel = item.plot.local_panel
-            for way in plot.ways:
-                x, y = item._places(panel, way.place_mm)
+            for way in plot.paths:
+                x, y = item._project_positions(panel, way.position_mm)
                 room = panel.box.adjusted(-1, -1, 1, 1)
                 assert all(room.contains(float(end(x)), float(end(y))) for end in (np.nanmin, np.nanmax))
             scales.add(round(plot.per_mm(panel.box), 9))
@@ -60,8 +60,8 @@ def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(qtbot: QtBot, 
         assert plot.bar_mm(box) * scales.pop() <= 0.31 * box.width()
 
 
-def shown(qtbot: QtBot, theme: Theme) -> WaysChart:
-    chart = WaysChart(theme)
+def shown(qtbot: QtBot, theme: Theme) -> PathsChart:
+    chart = PathsChart(theme)
     qtbot.addWidget(chart)
     chart.resize(720, 300)
     chart.show()
@@ -70,35 +70,39 @@ def shown(qtbot: QtBot, theme: Theme) -> WaysChart:
 
 def test_a_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> None:
     style = screen_style(theme)
-    line = QFontMetricsF(style.label).height() + 4 * style.unit
+    line = QFontMetricsF(style.label_font).height() + 4 * style.unit
     seen = set()
     for height in range(60, 320):
         box = QRectF(0.0, 0.3, 700.0, float(height))
-        panel = side_by_side(style, box, 14.0)[0]
-        seen.add(is_titled(style, panel))
-        assert panel.box.bottom() + (line if is_titled(style, panel) else 0.0) <= box.bottom() + 1.0, height
+        panel = plane_panels(style, box, 14.0)[0]
+        seen.add(has_title(style, panel))
+        assert panel.box.bottom() + (line if has_title(style, panel) else 0.0) <= box.bottom() + 1.0, height
     assert seen == {True, False}
 
 
 def test_a_still_hand_is_not_blown_up(panels: list[Panel]) -> None:
-    plot = wrist_way(motion_curves(hand_session(exercise="THUMB_OPP", motion="opposition")))
-    assert float((plot.high_mm - plot.low_mm).max()) < LEAST_SPAN_MM
-    assert plot.per_mm(panels[0].box) * LEAST_SPAN_MM <= panels[0].box.width() + 1e-9
+    plot = wrist_path(compute_motion_curves(hand_session(exercise="THUMB_OPP", motion="opposition")))
+    assert float((plot.high_mm - plot.low_mm).max()) < MIN_SPAN_MM
+    assert plot.per_mm(panels[0].box) * MIN_SPAN_MM <= panels[0].box.width() + 1e-9
 
 
 def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(qtbot: QtBot, theme: Theme) -> None:
     chart = shown(qtbot, theme)
     for side, thumb_left in (("right", True), ("left", False)):
-        plot = finger_ways(motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)), 0)
+        plot = finger_paths(
+            compute_motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)), 0
+        )
         chart.show_plot(plot)
         item = chart._planes[0]
-        x = [float(np.nanmean(item._places(item.plot.local_panel, way.place_mm)[0])) for way in plot.ways]
+        x = [
+            float(np.nanmean(item._project_positions(item.plot.local_panel, way.position_mm)[0])) for way in plot.paths
+        ]
         assert (x[0] < x[4]) is thumb_left
 
 
 def test_a_way_and_the_hand_s_axes_are_really_drawn(qtbot: QtBot, theme: Theme) -> None:
     chart = shown(qtbot, theme)
-    chart.show_plot(wrist_way(motion_curves(session())))
+    chart.show_plot(wrist_path(compute_motion_curves(session())))
     chart.set_time(20.0)
     picture, box = chart.grab().toImage(), chart.panels()[0].box.toRect()
     rows, columns = range(box.top(), box.bottom()), range(box.left(), box.right())
@@ -109,18 +113,18 @@ def test_a_way_and_the_hand_s_axes_are_really_drawn(qtbot: QtBot, theme: Theme) 
 # --- curves -----------------------------------------------------------------------------------------------
 def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
     made = session()
-    figures, curves, motion = figures_once(made), session_curves(made), motion_curves(made)
+    figures, curves, motion = figures_once(made), wrist_curves(made), compute_motion_curves(made)
     row = 600
     time_s = float(motion.time_s[row])
     plot = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="place")
-    values = [value.value_deg for key in (0, 1, 2) for value in plot.values(key, time_s)]
-    there = np.concatenate((motion.position_mm[row], motion.velocity_mm_s[row], motion.turning_deg_s[row]))
+    values = [value.value_deg for key in (0, 1, 2) for value in plot.read_values(key, time_s)]
+    there = np.concatenate((motion.position_mm[row], motion.velocity_mm_s[row], motion.angular_velocity_deg_s[row]))
     assert np.allclose(values, there)
     assert [plot.unit(key) for key in (0, 1, 2)] == ["mm", "mm_s", "deg_s"]
     zyz = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="zyz")
-    beta = zyz.values(1, time_s)[0]
+    beta = zyz.read_values(1, time_s)[0]
     assert (beta.value_deg, beta.sd_deg) == (motion.zyz_deg[row, 1], motion.zyz_sd_deg[row, 1])
-    assert math.isclose(zyz.values(2, time_s)[1].value_deg, float(motion.zyz_sum_deg[row]))
+    assert math.isclose(zyz.read_values(2, time_s)[1].value_deg, float(motion.zyz_sum_deg[row]))
     for key in (0, 1, 2):  # nothing leaves its axis
         scale = plot.panels(BOX, 8.0)[key][0].scale
         assert np.nanmax(np.abs(plot.quantity(key))) <= scale.high
@@ -131,7 +135,7 @@ def test_the_review_shows_path_speeds_and_zyz_in_turn(review: Reviewing) -> None
     screen = review(FakeSessions(), "session-7")
     assert screen.charts.curves.isVisible()
     screen.player.next_view()
-    assert screen.charts.ways.isVisible()
+    assert screen.charts.paths.isVisible()
     assert not screen.charts.curves.isVisible()
     screen.player.next_view()
     assert isinstance(screen.charts.curves._plot, MotionPlot)
@@ -149,45 +153,45 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(review: Re
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
     screen = review(store, "hand-7")
-    names = {cell.text for row in screen.card.tables.further.rows for cell in row}
+    names = {cell.text for row in screen.card.tables.task_table.rows for cell in row}
     for name in ("Movement time, out", "Peak speed, back", "Way / straight line, out", "Widest opening, thumb–index"):
         assert name in names
-    assert screen.card.tables.further.isVisibleTo(screen)
+    assert screen.card.tables.task_table.isVisibleTo(screen)
     screen.player.view.setCurrentIndex(screen.player.view.findData("path"))
     for finger, joints in ((0, 5), (1, 4), (3, 4), (WRIST, 1)):
         screen.charts.finger.choose(finger)
         screen._refresh()
-        assert len(screen.charts.ways._plot.ways) == joints
+        assert len(screen.charts.paths._plot.paths) == joints
 
 
 # --- words ------------------------------------------------------------------------------------------------
 def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     before = figures_once(hand_session(NOW - timedelta(days=7), 0.9, "REACH_GRASP", "hand-6", "reach_grasp"))
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    rows = further_table(figures, before).rows
+    rows = task_table(figures, before).rows
     assert [row[::3] for row in rows[:2]] == [
         ("Movement time, out", "Movement time, back"), ("Peak speed, out", "Peak speed, back"),
     ]  # fmt: skip
     assert all(all(row) for row in rows[:2])
     assert str(rows[0][1]).endswith("s")
-    assert main_words(figures).startswith("Out in 1.")
+    assert task_summary(figures).startswith("Out in 1.")
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
-    assert main_words(touched) == "The thumb touched 4 of 4 finger tips"
-    assert main_words(figures_once(hand_session())) == ""
+    assert task_summary(touched) == "The thumb touched 4 of 4 finger tips"
+    assert task_summary(figures_once(hand_session())) == ""
 
 
 def test_list_and_card_say_of_a_reach_what_it_is_about(theme: Theme) -> None:
     reach = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    assert main_figure(reach).startswith("Out in 1.")
+    assert main_result_words(reach).startswith("Out in 1.")
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
-    assert main_figure(touched) == "Touched 4 of 4"
-    assert "°" in main_figure(figures_once(hand_session()))
-    card, said = PatientCardView(theme, NOW.date), main_words(reach)
-    card.show_card(PatientCard(FakeStore().rows[0], about=said), camera_ready=True)
+    assert main_result_words(touched) == "Touched 4 of 4"
+    assert "°" in main_result_words(figures_once(hand_session()))
+    card, said = PatientCardView(theme, NOW.date), task_summary(reach)
+    card.show_card(PatientCard(FakeStore().rows[0], task_summary=said), is_camera_ready=True)
     assert said in [text.text() for text in card.findChildren(Text) if text.isVisibleTo(card)]
 
 
-def shares_of(figures: SessionFigures, other: SessionFigures | None = None) -> list[Cell]:
+def shares_of(figures: SessionResults, other: SessionResults | None = None) -> list[Cell]:
     cells = [row[6] for row in finger_table(figures, None, other).rows]
     return [cell for cell in cells if isinstance(cell, Cell)]
 
@@ -199,13 +203,13 @@ def test_totals_are_graded_beside_their_share() -> None:
     assert all(share.text.endswith("%") for share in shares)
     index = whole.find("TAM2", "arc")
     assert shares[1].text.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean / 260.0:.0f}"
-    assert shares[1].below in ("good", "fair")
+    assert shares[1].subtext in ("good", "fair")
     hidden = shares_of(figures_once(hand_session()))
     assert hidden[1].text.startswith("≥")
-    assert hidden[1].below == "not graded"
+    assert hidden[1].subtext == "not graded"
     other = figures_once(hand_session(side="left", hides_beyond_deg=999.0))
     assert finger_table(whole, None, other).heads[6] == "Of other hand"
-    assert shares_of(whole, other)[1].below in ("excellent", "good")
+    assert shares_of(whole, other)[1].subtext in ("excellent", "good")
 
 
 # --- paper ------------------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, QRectF, QSizeF
 
-from carpus.ui.picture.name_places import place_for
+from carpus.ui.picture.name_places import place_label
 
 INSIDE = QRectF(4, 4, 632, 364)
 RADIUS = 13.0
@@ -29,7 +29,7 @@ def test_a_plate_is_its_own_rings_or_has_a_line() -> None:
         placed = 0
         for number, at in enumerate(points):
             others = [other for one, other in enumerate(points) if one != number]
-            found = place_for(QSizeF(125.0, 26.0), at, RADIUS, taken, others, INSIDE)
+            found = place_label(QSizeF(125.0, 26.0), at, RADIUS, taken, others, INSIDE)
             if found is None:
                 continue
             plate, line = found
@@ -53,10 +53,10 @@ def test_four_knuckles_in_a_row_all_get_their_names() -> None:
     taken = [QRectF(at.x() - RADIUS, at.y() - RADIUS, 2 * RADIUS, 2 * RADIUS) for at in points]
     for number, at in enumerate(points):
         others = [other for one, other in enumerate(points) if one != number]
-        found = place_for(QSizeF(130.0, 26.0), at, RADIUS, taken, others, INSIDE)
+        found = place_label(QSizeF(130.0, 26.0), at, RADIUS, taken, others, INSIDE)
         assert found is not None, number
         taken.append(found[0])
 
 
 def test_where_there_is_no_room_there_is_no_name() -> None:
-    assert place_for(QSizeF(130, 26), QPointF(50, 50), RADIUS, [INSIDE], [], INSIDE) is None
+    assert place_label(QSizeF(130, 26), QPointF(50, 50), RADIUS, [INSIDE], [], INSIDE) is None

@@ -14,27 +14,27 @@ from PySide6.QtPrintSupport import QPrinter
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.of_file import form_of
-from carpus.core.errors import ChangedMeanwhile
-from carpus.core.records.of_clinic import keep_form, read_form
+from carpus.app.of_file import read_report_form
+from carpus.core.errors import ConcurrentChange
+from carpus.core.records.of_clinic import read_form, save_form
 from carpus.core.records.store import Store
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.background import Background
-from carpus.ui.language import speaking
+from carpus.ui.language import use_language
 from carpus.ui.patient.words import task_words
-from carpus.ui.report.gather import session_report, write_session_report
-from carpus.ui.report.home_page import own_way
+from carpus.ui.report.gather import build_session_report, write_session_report
+from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.pages import pages_of as pages_of_report
-from carpus.ui.report.panel import filled
+from carpus.ui.report.pages import layout_pages as pages_of_report
+from carpus.ui.report.panel import fill_sentence
 from carpus.ui.report.pdf import write_report
-from carpus.ui.report.screen import SIZES, ReportScreen, print_on, printer_for, suggested_name
+from carpus.ui.report.screen import PAGE_SIZES, ReportScreen, default_file_name, make_printer, print_pages
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.sheets import HomeSheet
-from carpus.ui.settings.report_card import LogoRefused, logo_png
+from carpus.ui.report.sheets import HomeDialog
+from carpus.ui.settings.report_card import LogoError, logo_png
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
-from carpus.ui.words.session import warnings
+from carpus.ui.words.session import warning_lines
 from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
@@ -52,7 +52,7 @@ def picture(path: Path, side: int = 200) -> Path:
 
 def report(**look: object) -> SessionReport:
     store = FakeSessions()
-    return session_report(store.session("session-7"), history=store.history("linden"), **look)  # type: ignore[arg-type]
+    return build_session_report(store.session("session-7"), history=store.history("linden"), **look)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("paper", PAPERS)
@@ -79,19 +79,19 @@ def test_nothing_is_cut_on_either_paper_whatever_stands_on_it(paper: Paper, tmp_
 def test_a_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
     made = report(form=ReportForm(paper="a4"), comment="Splint.")
     pages = pages_of_report(made)
-    printer = printer_for(made, len(pages))
+    printer = make_printer(made, len(pages))
     printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
     printer.setOutputFileName(str(tmp_path / "p.pdf"))
-    printer.setPageSize(QPageSize(SIZES[printed]))
-    print_on(printer, pages)
+    printer.setPageSize(QPageSize(PAGE_SIZES[printed]))
+    print_pages(printer, pages)
     assert pages_of(tmp_path / "p.pdf") == 2
     assert reach_of(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
     assert "as measured live" in words_of(tmp_path / "p.pdf")
 
 
 def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
-    made = report(form=ReportForm(left_out=frozenset(SECTIONS)))
-    doubtful = replace(made, figures=replace(made.figures, simulated=True))
+    made = report(form=ReportForm(excluded_sections=frozenset(SECTIONS)))
+    doubtful = replace(made, figures=replace(made.results, simulated=True))
     words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
     sure = "How sure are these figures?"
     for kept in (LEGAL_SENTENCE, "Simulated hand", sure, "Method: 6 markers", "known to about", "Carpus 1"):
@@ -106,14 +106,14 @@ def test_the_form_is_kept_with_its_logo_and_a_second_person_s_change_is_told(tmp
         assert read_form(store, "letter") == usual
         logo = logo_png(picture(tmp_path / "own.jpg"))
         form = ReportForm(Letterhead("Clinic", ("Here",), logo), "letter", frozenset({"bars"}), ("All {arc}.",))
-        keep_form(store, form, usual)
+        save_form(store, form, usual)
         (tmp_path / "own.jpg").unlink()
         assert read_form(store) == form
-        with pytest.raises(ChangedMeanwhile):
-            keep_form(store, usual, usual)
-        keep_form(store, usual, form)
-    assert form_of(tmp_path) == usual
-    assert form_of(tmp_path / "nowhere") == ReportForm()
+        with pytest.raises(ConcurrentChange):
+            save_form(store, usual, usual)
+        save_form(store, usual, form)
+    assert read_report_form(tmp_path) == usual
+    assert read_report_form(tmp_path / "nowhere") == ReportForm()
 
 
 DRAWING = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><rect width="99" height="99"/></svg>'
@@ -131,7 +131,7 @@ def test_what_is_no_picture_not_there_too_small_or_of_too_many_pixels_is_no_logo
             (tmp_path / name).write_bytes(content)
             refused[name] = "Choose a PNG or JPEG"
     for name, said in refused.items():
-        with pytest.raises(LogoRefused, match=said):
+        with pytest.raises(LogoError, match=said):
             logo_png(tmp_path / name)
 
 
@@ -139,20 +139,20 @@ def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured
     made = report()
     assert re.fullmatch(
         r"\d+° ± \d+° and not measured, {other}",
-        filled("{flexion} and {radial}, {other}", made).replace("\u202f", " ").replace("\xa0", " "),
+        fill_sentence("{flexion} and {radial}, {other}", made).replace("\u202f", " ").replace("\xa0", " "),
     )
-    assert "13 Nov" in filled("{change}", made)
-    assert filled("{change}", replace(made, previous=None)) == "Not measured."
+    assert "13 Nov" in fill_sentence("{change}", made)
+    assert fill_sentence("{change}", replace(made, previous=None)) == "Not measured."
 
 
 def test_the_report_of_an_older_result_says_that_a_newer_one_counts() -> None:
     store = FakeSessions()
     session = store.session("session-7")
-    made = session_report(session).figures
+    made = build_session_report(session).results
     newer = replace(made, session_id="newer", created=made.when + timedelta(days=1))
     said = "An older result: there is a newer one of the same recording."
     for history, is_older in (((), False), ((newer,), True), ((made, replace(newer, recording_id="another")), False)):
-        assert (said in warnings(session_report(session, history=history).figures)) is is_older
+        assert (said in warning_lines(build_session_report(session, history=history).results)) is is_older
 
 
 @pytest.mark.parametrize(("language", "hand"), [("en", False), ("de", False), ("de", True)])
@@ -161,8 +161,10 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
     stored = store.session("hand-7" if hand else "session-7")
     head = Letterhead("W" * 60, ("Y" * 80,) * 4, logo_png(picture(tmp_path / "logo.png")))
     form = ReportForm(head, "letter")
-    made = session_report(stored, history=store.history("linden"), form=form, language=language, therapist="M. R.")
-    made = replace(made, figures=replace(made.figures, simulated=True, recovered=True, not_counted=True))
+    made = build_session_report(
+        stored, history=store.history("linden"), form=form, language=language, therapist="M. R."
+    )
+    made = replace(made, figures=replace(made.results, simulated=True, recovered=True, not_counted=True))
     for comment in (
         ("Short, and kept.", LONG) if language == "de" else ("Short, and kept.",)
     ):  # it has the longest words
@@ -173,7 +175,7 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
         assert pages_of(path) == 1
         words = words_of(path)
         assert f"Real Name ({made.pseudonym})" in words
-        assert f"Carpus {made.figures.software_version}" in words
+        assert f"Carpus {made.results.software_version}" in words
         assert ("Short, and kept." in words) == (comment != LONG)
         assert "Line 3 of" not in words
         _, _, right, foot = reach_of(path)
@@ -190,7 +192,7 @@ def test_the_sheet_for_home_is_one_page_in_the_patients_language(
     path = write_report(home_report(language, "left", names), tmp_path / "home.pdf")
     assert pages_of(path) == 1
     words = words_of(path)
-    with speaking(language):
+    with use_language(language):
         said = [task_words(name) for name in names]
     assert all(one in words for one in said)
     told = {"en": "More than half of the way is done.", "de": "Mehr als die Hälfte", "it": "Più di metà"}[language]
@@ -207,81 +209,81 @@ def test_the_sheet_for_home_has_no_bad_news() -> None:
     store = FakeSessions()
     history, goals = store.history("linden"), {("WRIST_FE", "right"): (60.0, -50.0)}
     last = next(one for one in history if one.session_id == "session-7")
-    way = own_way(last, history, goals)  # type: ignore[arg-type]
-    assert way.further
+    way = build_home_progress(last, history, goals)  # type: ignore[arg-type]
+    assert way.has_improved
     assert way.goal_deg == 60.0
     assert len(way.days) == len(way.values_deg) >= 2
-    assert own_way(last, [last], {}) is None, "one session is no way"
+    assert build_home_progress(last, [last], {}) is None, "one session is no way"
     fair = [one for one in history if one.when.date() in way.days[1:-1]]
     fallen = [with_ranges(one, lambda row: {"mean": 2.0 * row.mean}) for one in fair]
     first = next(one for one in history if one.when.date() == way.days[0])
     as_at_first = replace(last, measures=first.measures)
-    held = own_way(as_at_first, [first], {})
-    assert not held.further
-    assert own_way(as_at_first, [first, *fallen], {}) is None, "what was reached in between is not held"
+    held = build_home_progress(as_at_first, [first], {})
+    assert not held.has_improved
+    assert build_home_progress(as_at_first, [first, *fallen], {}) is None, "what was reached in between is not held"
     worse = with_ranges(last, lambda row: {"mean": 0.3 * row.mean})
-    assert own_way(worse, history, {}) is None
+    assert build_home_progress(worse, history, {}) is None
 
 
 def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     qtbot: QtBot, theme: Theme, host: QWidget, tmp_path: Path
 ) -> None:
-    sheet, asked = HomeSheet(host, theme), []
-    sheet.wanted.connect(asked.append)
-    sheet.begin(report(), date(2026, 11, 20))
+    sheet, asked = HomeDialog(host, theme), []
+    sheet.requested.connect(asked.append)
+    sheet.open_form(report(), date(2026, 11, 20))
     for name in ("FIST_COMPOSITE", "THUMB_OPP"):
-        sheet.ticks[name].click()
-    assert not sheet.ticks["FIST_HOOK"].isEnabled(), "there is room for three"
+        sheet.exercise_checks[name].click()
+    assert not sheet.exercise_checks["FIST_HOOK"].isEnabled(), "there is room for three"
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert [task.exercise.id for task in asked[0].tasks] == ["WRIST_FE", "FIST_COMPOSITE", "THUMB_OPP"]
     assert asked[0].again is None, "nobody chose a day"
-    sheet.asked["times"].setValue(42)
-    sheet.begin(report(), date(2026, 11, 20))
-    assert sheet.asked["times"].value() == 10, "what the last patient was told is nobody else's"
+    sheet.form["times"].setValue(42)
+    sheet.open_form(report(), date(2026, 11, 20))
+    assert sheet.form["times"].value() == 10, "what the last patient was told is nobody else's"
     for typed, asked_for in (("31.2.2027", "Day, month, year"), ("1.11.2026", "over"), ("soon", "Day, month, year")):
-        sheet.day.setEditText(typed)
-        assert asked_for in sheet.take.text()
-        assert not sheet.take.isEnabled(), typed
-    sheet.day.setEditText("3.2.2027")
-    sheet.asked["note"].setText("n" * 170)
-    assert (sheet.take.text(), len(sheet.asked["note"].text())) == ("Line: 10 letters too many", 170)
-    sheet.asked["note"].setText("Bring the splint")
-    sheet.asked["language"].choose("it")
-    sheet.take.click()
+        sheet.appointment.setEditText(typed)
+        assert asked_for in sheet.accept_button.text()
+        assert not sheet.accept_button.isEnabled(), typed
+    sheet.appointment.setEditText("3.2.2027")
+    sheet.form["note"].setText("n" * 170)
+    assert (sheet.accept_button.text(), len(sheet.form["note"].text())) == ("Line: 10 letters too many", 170)
+    sheet.form["note"].setText("Bring the splint")
+    sheet.form["language"].choose("it")
+    sheet.accept_button.click()
     plan = asked[-1].plan
     assert (plan.again, plan.note, plan.language) == (date(2027, 2, 3), "Bring the splint", "it")
-    sheet.begin(report(), date(2026, 12, 20), plan)
-    sheet.take.click()
+    sheet.open_form(report(), date(2026, 12, 20), plan)
+    sheet.accept_button.click()
     assert asked[-1].plan == replace(plan, made=date(2026, 12, 20)), "until that day has come"
-    sheet.begin(report(), date(2027, 2, 3), plan)
-    assert (sheet.asked["note"].text(), sheet.asked["language"].value()) == ("", "it")
-    sheet.day.setCurrentIndex(0)
-    sheet.take.click()
+    sheet.open_form(report(), date(2027, 2, 3), plan)
+    assert (sheet.form["note"].text(), sheet.form["language"].value()) == ("", "it")
+    sheet.appointment.setCurrentIndex(0)
+    sheet.accept_button.click()
     assert asked[-1].again is None
-    sheet.begin(report(), date(2026, 11, 20))
-    assert (sheet.asked["note"].text(), sheet.asked["language"].value()) == ("", "en"), "the language is the patient's"
-    sheet.close_sheet()
+    sheet.open_form(report(), date(2026, 11, 20))
+    assert (sheet.form["note"].text(), sheet.form["language"].value()) == ("", "en"), "the language is the patient's"
+    sheet.close_dialog()
     background = Background()
     screen = ReportScreen(theme, background)
     qtbot.addWidget(screen)
     wanted = []
-    screen.home_wanted.connect(wanted.append)
-    screen.begin(asked[0].report, "")
+    screen.home_sheet_requested.connect(wanted.append)
+    screen.show_report(asked[0].report, "")
     screen.show()
     before = screen.save_button.geometry()
     with qtbot.waitSignal(screen.saved):
         screen.save(str(tmp_path / "report"))
-    qtbot.waitUntil(screen.where.isVisible)
+    qtbot.waitUntil(screen.path_text.isVisible)
     assert screen.save_button.geometry() == before, "what was pressed stays where it was"
     screen.home_button.click()
     assert wanted == [asked[0].report]
-    screen.begin(asked[0], "")
-    assert screen.state.text() == "Not saved yet"
-    assert suggested_name(asked[0]).endswith("_wrist-fe_home.pdf")
+    screen.show_report(asked[0], "")
+    assert screen.save_state.text() == "Not saved yet"
+    assert default_file_name(asked[0]).endswith("_wrist-fe_home.pdf")
     screen.back_button.click()
-    assert screen.shown == asked[0].report
-    assert (screen.state.text(), screen.where.text()) == ("Saved", str(tmp_path / "report.pdf"))
-    assert not screen.to_report(), "from the report itself Esc leads on"
+    assert screen.report == asked[0].report
+    assert (screen.save_state.text(), screen.path_text.text()) == ("Saved", str(tmp_path / "report.pdf"))
+    assert not screen.show_parent_report(), "from the report itself Esc leads on"
 
 
 def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:
@@ -294,25 +296,25 @@ def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:
 def test_the_comment_beside_the_preview_is_told_once_it_is_written(theme: Theme) -> None:
     screen = ReportScreen(theme, Background())
     told: list[tuple[str, str]] = []
-    screen.panel.comment_kept.connect(lambda session, text: told.append((session, text)))
-    screen.begin(report(), "")
+    screen.panel.comment_saved.connect(lambda session, text: told.append((session, text)))
+    screen.show_report(report(), "")
     screen.panel.comment.setPlainText("Before.")
     screen.panel.comment.moveCursor(screen.panel.comment.textCursor().MoveOperation.End)
-    screen.panel.sentence.setEditText("Flexion {radial}.")
-    screen.panel.insert.click()
-    screen.panel.keep_comment()
-    screen.panel.keep_comment()
+    screen.panel.sentence_box.setEditText("Flexion {radial}.")
+    screen.panel.insert_button.click()
+    screen.panel.save_comment()
+    screen.panel.save_comment()
     assert [text for _, text in told] == ["Before. Flexion not measured."]
-    screen.panel.ticks["bars"].setChecked(False)
-    shown = screen.shown
+    screen.panel.section_checks["bars"].setChecked(False)
+    shown = screen.report
     assert isinstance(shown, SessionReport)
     assert shown.comment == "Before. Flexion not measured."
-    assert shown.form.left_out == {"bars", "diagnosis"}
+    assert shown.form.excluded_sections == {"bars", "diagnosis"}
 
 
 def test_a_diagnosis_is_printed_only_where_the_clinic_wants_it(tmp_path: Path) -> None:
     """With the weeks that had passed on the day of the session."""
-    day = report().figures.when.date() - timedelta(weeks=13)
+    day = report().results.when.date() - timedelta(weeks=13)
     own = replace(report(), diagnosis="Wrist fracture, plate", onset="operation", onset_day=day)
     asked = replace(own, form=replace(own.form, left_out=frozenset()))
     for one, printed in ((own, False), (asked, True)):

@@ -10,14 +10,14 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.exercises import EXERCISES, exercise_named
+from carpus.core.hand.exercises import EXERCISES, get_exercise
 from carpus.ui.background import Background
 from carpus.ui.live.screen import LiveScreen
-from carpus.ui.patient.figure import arc_of, figure_at
-from carpus.ui.patient.guide import LOST_AFTER_S, Glance, Guide, GuideScene
+from carpus.ui.patient.figure import build_pose, find_arc
+from carpus.ui.patient.guide import LOST_AFTER_S, ExerciseGuide, ExerciseSnapshot, GuideScene
 from carpus.ui.patient.view import PatientView
-from carpus.ui.patient.viewing import PatientViewing, PatientWindow
-from carpus.ui.patient.words import Said, said
+from carpus.ui.patient.viewing import PatientViewController, PatientWindow
+from carpus.ui.patient.words import PatientWords, patient_words
 from carpus.ui.theme import Theme
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import set_up
@@ -26,12 +26,12 @@ NONE = math.nan
 
 
 def walk(
-    guide: Guide, values_deg: list[float], *, sure: bool = True, seen: bool = True, from_s: float = 0.0
+    guide: ExerciseGuide, values_deg: list[float], *, sure: bool = True, seen: bool = True, from_s: float = 0.0
 ) -> list[GuideScene]:
     """One look every tenth of a second."""
     state = {"sure": sure, "hand_seen": seen, "state": "recording", "asked": 10}
     return [
-        guide.take(Glance(from_s + 0.1 * number, value, **state))  # type: ignore[arg-type]
+        guide.update(ExerciseSnapshot(from_s + 0.1 * number, value, **state))  # type: ignore[arg-type]
         for number, value in enumerate(values_deg)
     ]
 
@@ -49,38 +49,38 @@ def phases(scenes: list[GuideScene]) -> list[tuple[str, int]]:
     """Each phase once, with its aim."""
     found: list[tuple[str, int]] = []
     for scene in scenes:
-        if not found or found[-1] != (scene.phase, scene.aim):
-            found.append((scene.phase, scene.aim))
+        if not found or found[-1] != (scene.phase, scene.direction):
+            found.append((scene.phase, scene.direction))
     return found
 
 
 def test_a_goal_reached_is_held_then_comes_the_way_back_and_the_other_side() -> None:
-    guide = Guide(exercise_named("WRIST_FE"), 60.0, -40.0)
+    guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, -40.0)
     scenes = walk(guide, [*[0.0] * 4, *ramp(0, 62), *[62.0] * 14, *ramp(62, -42), *[-42.0] * 14, *ramp(-42, 30)])
     assert phases(scenes) == [
         ("lost", 1), ("out", 1), ("there", 1), ("back", 1), ("out", -1), ("there", -1), ("back", -1), ("out", 1),
     ]  # fmt: skip
-    assert guide.reached == 2
+    assert guide.goals_reached == 2
 
 
 def test_a_missed_goal_is_not_said_and_the_way_just_empties() -> None:
-    guide = Guide(exercise_named("FIST_COMPOSITE"), 80.0, NONE)
+    guide = ExerciseGuide(get_exercise("FIST_COMPOSITE"), 80.0, NONE)
     scenes = walk(guide, [*[5.0] * 4, *ramp(5, 60, 5, 50)])
     assert phases(scenes)[1:] == [("out", 1), ("back", 1), ("out", 1)]
-    assert guide.reached == 0
-    words = {said("FIST_COMPOSITE", scene, "adult").now for scene in scenes}
+    assert guide.goals_reached == 0
+    words = {patient_words("FIST_COMPOSITE", scene, "adult").state for scene in scenes}
     assert words <= {"One moment.", "", "A little further", "And back"}
 
 
 def test_small_movements_without_a_goal_are_followed_too() -> None:
-    guide = Guide(exercise_named("FINGER_ABAD"), NONE, NONE)
+    guide = ExerciseGuide(get_exercise("FINGER_ABAD"), NONE, NONE)
     values = [2 + 8 * math.sin(0.25 * k) ** 2 for k in range(40)]
     assert phases(walk(guide, values))[1:4] == [("out", 1), ("back", 1), ("out", 1)]
 
 
 @pytest.mark.parametrize("sure", [True, False])
 def test_a_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
-    guide = Guide(exercise_named("WRIST_FE"), 60.0, NONE)
+    guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, NONE)
     walk(guide, [20.0] * 5)
     value = NONE if sure else 20.0
     unsure = walk(guide, [value] * 8, sure=False, seen=False, from_s=0.5)
@@ -91,20 +91,22 @@ def test_a_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> Non
 
 
 def test_nobody_is_told_to_show_the_dots_where_the_computer_is_late() -> None:
-    guide = Guide(exercise_named("WRIST_FE"), 60.0, NONE)
+    guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, NONE)
     walk(guide, [20.0] * 5)
-    scenes = [guide.take(Glance(0.5 + 0.1 * k, state="recording", asked=10, late=True)) for k in range(8)]
+    scenes = [
+        guide.update(ExerciseSnapshot(0.5 + 0.1 * k, state="recording", asked=10, is_late=True)) for k in range(8)
+    ]
     assert {scene.phase for scene in scenes[int(10 * LOST_AFTER_S) + 1 :]} == {"away"}
-    assert said("WRIST_FE", scenes[-1], "adult") == Said("", "One moment.")
+    assert patient_words("WRIST_FE", scenes[-1], "adult") == PatientWords("", "One moment.")
 
 
 def test_a_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:
-    guide = Guide(exercise_named("FIST_COMPOSITE"), 80.0, NONE)
+    guide = ExerciseGuide(get_exercise("FIST_COMPOSITE"), 80.0, NONE)
     walk(guide, [*[5.0] * 4, *ramp(5, 60)])
     hidden = walk(guide, [66.0] * 12, sure=False, seen=True, from_s=3.0)
     assert {scene.phase for scene in hidden} == {"hidden"}
     assert all(math.isnan(scene.value_deg) for scene in hidden)
-    assert said("FIST_COMPOSITE", hidden[-1], "adult").task == "Open your hand"
+    assert patient_words("FIST_COMPOSITE", hidden[-1], "adult").task == "Open your hand"
 
 
 def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirror_image(
@@ -114,30 +116,36 @@ def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirr
     qtbot.addWidget(view)
     view.resize(640, 360)
     for exercise in EXERCISES:
-        scene = GuideScene("out", 1, 20.0, 30.0) if exercise.counts else GuideScene("free", wrist_deg=(5.0, 20.0, 0.0))
+        scene = (
+            GuideScene("out", 1, 20.0, 30.0)
+            if exercise.has_repetitions
+            else GuideScene("free", wrist_deg=(5.0, 20.0, 0.0))
+        )
         for audience in ("adult", "child"):
-            assert said(exercise.id, scene, audience).task, exercise.id  # type: ignore[arg-type]
+            assert patient_words(exercise.id, scene, audience).task, exercise.id  # type: ignore[arg-type]
         pictures = []
         for side in ("right", "left"):
-            view.begin(replace(set_up(exercise.id), side=side))  # type: ignore[arg-type]
+            view.show_set_up(replace(set_up(exercise.id), side=side))  # type: ignore[arg-type]
             view.show_scene(scene)
             pictures.append(view.grab().toImage())
         assert pictures[0] != pictures[1], exercise.id
-        if exercise.counts:
-            assert not figure_at(exercise, 25.0).hand.isEmpty()
-            arc = arc_of(exercise)
-            assert (arc.at(0.0) - arc.at(30.0)).manhattanLength() > 40.0
+        if exercise.has_repetitions:
+            assert not build_pose(exercise, 25.0).hand.isEmpty()
+            arc = find_arc(exercise)
+            assert (arc.point(0.0) - arc.point(30.0)).manhattanLength() > 40.0
 
 
 def test_esc_closes_a_view_that_lies_over_the_window(qtbot: QtBot, theme: Theme) -> None:
     live = LiveScreen(theme, Background())
     qtbot.addWidget(live)
-    viewing = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view)
-    assert not viewing.uncover()
+    viewing = PatientViewController(
+        a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view
+    )
+    assert not viewing.close_if_covering()
     viewing.toggle()
     assert viewing.window is not None
     qtbot.addWidget(viewing.window)
-    assert viewing.uncover()
+    assert viewing.close_if_covering()
     assert not viewing.is_open
     viewing.toggle()
     qtbot.keyClick(viewing.window, Qt.Key.Key_Escape)
@@ -148,8 +156,8 @@ def test_a_window_that_hears_nothing_more_shows_no_hand(qtbot: QtBot, theme: The
     window = PatientWindow(theme)
     qtbot.addWidget(window)
     assert window.windowFlags() & Qt.WindowType.WindowDoesNotAcceptFocus
-    window.view.begin(set_up())
-    window.show_running(GuideScene("out", 1, 30.0, 60.0))
+    window.view.show_set_up(set_up())
+    window.show_live_scene(GuideScene("out", 1, 30.0, 60.0))
     assert window.view.words().task == "Bend your hand down"
     qtbot.waitUntil(lambda: window.view.scene.phase == GuideScene().phase)
     assert window.view.accessibleName() == "One moment."

@@ -10,17 +10,26 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtWidgets import QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.names import MOST_CHARACTERS
+from carpus.core.names import MAX_NAME_CHARACTERS
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.ui.controls.text import Text
-from carpus.ui.language import LANGUAGES, speaking
-from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
+from carpus.ui.language import LANGUAGES, use_language
+from carpus.ui.numbers import (
+    format_clock,
+    format_clock_tenths,
+    format_days_ago,
+    format_degrees,
+    format_ordinal,
+    format_recording_time,
+    format_sd,
+    format_with_sd,
+)
 from carpus.ui.patients.entry import PatientForm
-from carpus.ui.patients.listing import cells
+from carpus.ui.patients.listing import row_cells
 from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.picture.photo import fitted
-from carpus.ui.ports import MOST_ROWS
+from carpus.ui.picture.photo import fit_box
+from carpus.ui.ports import MAX_LISTED_PATIENTS
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
@@ -49,7 +58,7 @@ def test_arrow_and_enter_start_a_session_while_the_search_has_the_keyboard(
 ) -> None:
     for _ in range(2):
         qtbot.keyClick(screen.search, Qt.Key.Key_Down)
-    with qtbot.waitSignal(screen.start) as started:
+    with qtbot.waitSignal(screen.start_requested) as started:
         qtbot.keyClick(screen.search, Qt.Key.Key_Return)
     assert started.args == ["maple"]
 
@@ -68,15 +77,15 @@ def test_typing_narrows_the_list_by_name_real_name_and_exercise(
     ):
         screen.search.clear()
         qtbot.keyClicks(screen.search, typed)
-        shown = [screen.list.rows.row(k).patient_id for k in range(screen.list.rows.rowCount())]
+        shown = [screen.list.patient_model.row(k).patient_id for k in range(screen.list.patient_model.rowCount())]
         assert shown == expected
 
 
 def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore
 ) -> None:
-    assert cells(store.rows[5], TODAY)[2:4] == ("Wrist fracture, plate", "13 weeks")
-    assert cells(store.rows[3], TODAY)[2:4] == ("Rheumatoid arthritis", "")
+    assert row_cells(store.rows[5], TODAY)[2:4] == ("Wrist fracture, plate", "13 weeks")
+    assert row_cells(store.rows[3], TODAY)[2:4] == ("Rheumatoid arthritis", "")
     screen.refresh("linden")
     expected = {"Wrist fracture, plate", "operated on 21 Aug 2026", "13 weeks"}
     qtbot.waitUntil(lambda: expected <= set(shown_texts(screen.card)))
@@ -99,9 +108,11 @@ def test_a_real_name_is_shown_in_list_and_card_where_it_was_searched_for(
     store.rows[5] = replace(store.rows[5], name="Rosa Muster Wu")
     screen.refresh("linden")
     qtbot.keyClicks(screen.search, typed)
-    row = screen.list.rows.find("linden")
-    assert ("Rosa Muster Wu · Wrist fracture" in screen.list.rows.cells(screen.list.rows.row(row))[2]) == is_shown
-    screen.list.setCurrentIndex(screen.list.rows.index(row))
+    row = screen.list.patient_model.find_row("linden")
+    assert (
+        "Rosa Muster Wu · Wrist fracture" in screen.list.patient_model.row_cells(screen.list.patient_model.row(row))[2]
+    ) == is_shown
+    screen.list.setCurrentIndex(screen.list.patient_model.index(row))
     assert ("Name: Rosa Muster Wu" in shown_texts(screen.card)) == is_shown
     screen.search.clear()
     assert "Name: Rosa Muster Wu" not in shown_texts(screen.card)
@@ -118,7 +129,7 @@ def test_a_name_that_is_not_there_can_be_created_with_enter(
     screen.form.fields["dominance"].buttons()[0].click()
     qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Return)
     assert (store.added[0].pseudonym, store.added[0].side) == ("Fir 12", "left")
-    assert screen.list.rows.row(screen.list.currentIndex().row()).pseudonym == "Fir 12"
+    assert screen.list.patient_model.row(screen.list.currentIndex().row()).pseudonym == "Fir 12"
     assert screen.search.text() == ""
 
 
@@ -156,8 +167,8 @@ def test_what_the_card_leads_to(qtbot: QtBot, screen: PatientsScreen, store: Fak
     card = screen.card
     screen.refresh("linden")
     pairs = (
-        (card.review_button, screen.review), (card.progress_button, screen.progress),
-        (card.change_button, screen.set_up),
+        (card.review_button, screen.review_requested), (card.progress_button, screen.progress_requested),
+        (card.change_button, screen.setup_requested),
     )  # fmt: skip
     for button, signal in pairs:
         with qtbot.waitSignal(signal) as sent:
@@ -169,7 +180,7 @@ def test_what_the_card_leads_to(qtbot: QtBot, screen: PatientsScreen, store: Fak
     assert [row.pseudonym for row in store.rows if row.patient_id == "linden"] == ["Linden 43"]
     screen.set_camera_ready(False)
     assert "no camera" in card.start_button.text()
-    last = screen.list.rows.row(screen.list.rows.rowCount() - 1)
+    last = screen.list.patient_model.row(screen.list.patient_model.rowCount() - 1)
     assert last.patient_id == PRACTICE_PATIENT
     screen.refresh(PRACTICE_PATIENT)
     assert card.start_button.text() == "Start practice"
@@ -181,16 +192,16 @@ def test_the_legal_sentence_stands_on_the_first_screen_word_for_word(screen: Pat
 
 
 def test_numbers_never_carry_a_sign_and_never_hide_what_is_unknown() -> None:
-    assert degrees(-41.6) == "42°"
-    assert degrees(float("nan")) == "–"
-    assert spread(0.2) == "±\N{NO-BREAK SPACE}1°"
-    assert spread(float("nan")) == ""
-    assert with_spread(57.2, 2.4) == "57°\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}2°"
-    assert with_spread(57.2, float("nan")) == "57°"
-    assert (clock(84.9), clock(3661), clock_tenths(20.65)) == ("01:24", "1:01:01", "00:20.6")
-    said = [ordinal(n) for n in (1, 2, 3, 4, 11, 12, 13, 21, 112)]
+    assert format_degrees(-41.6) == "42°"
+    assert format_degrees(float("nan")) == "–"
+    assert format_sd(0.2) == "±\N{NO-BREAK SPACE}1°"
+    assert format_sd(float("nan")) == ""
+    assert format_with_sd(57.2, 2.4) == "57°\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}2°"
+    assert format_with_sd(57.2, float("nan")) == "57°"
+    assert (format_clock(84.9), format_clock(3661), format_clock_tenths(20.65)) == ("01:24", "1:01:01", "00:20.6")
+    said = [format_ordinal(n) for n in (1, 2, 3, 4, 11, 12, 13, 21, 112)]
     assert said == ["1st", "2nd", "3rd", "4th", "11th", "12th", "13th", "21st", "112th"]
-    assert days_ago(datetime(2026, 11, 19, 23, 0), TODAY) == "yesterday"
+    assert format_days_ago(datetime(2026, 11, 19, 23, 0), TODAY) == "yesterday"
 
 
 def test_nothing_moves_while_a_search_finds_nobody(qtbot: QtBot, screen: PatientsScreen) -> None:
@@ -212,8 +223,8 @@ def test_a_long_name_moves_no_button_and_widens_nothing(qtbot: QtBot, screen: Pa
     screen.layout().activate()
     qtbot.wait(1)
     assert (edit.geometry(), card.geometry(), screen.list.geometry()) == before
-    assert card._name.shown_text.startswith("Blue Humm")
-    assert card._name.shown_text.endswith("…")
+    assert card._name.visible_text.startswith("Blue Humm")
+    assert card._name.visible_text.endswith("…")
     assert "and more of it" in card._name.toolTip()
 
 
@@ -225,14 +236,14 @@ def test_an_empty_register_offers_one_way_to_a_new_patient(screen: PatientsScree
 
 
 def test_room_on_the_disk_is_told_in_fitting_units() -> None:
-    assert [room_left(minutes) for minutes in (0.0, 8.4, 599.0, 1020.0, 60_000.0)] == [
+    assert [format_recording_time(minutes) for minutes in (0.0, 8.4, 599.0, 1020.0, 60_000.0)] == [
         "0 min", "8 min", "599 min", "17 h", "more than 99 h",
     ]  # fmt: skip
 
 
 def test_a_picture_keeps_its_shape_whole() -> None:
     for size, room in ((QSize(300, 280), QRectF(0, 0, 465, 185)), (QSize(300, 280), QRectF(3, 3, 152, 112))):
-        box = fitted(size, room)
+        box = fit_box(size, room)
         assert room.contains(box)
         assert box.width() / box.height() == pytest.approx(300 / 280)
         assert box.width() == pytest.approx(room.width()) or box.height() == pytest.approx(room.height())
@@ -242,22 +253,24 @@ def test_after_midnight_it_is_another_day_without_a_new_start(theme: Theme, stor
     day = [TODAY]
     screen = PatientsScreen(theme, store, lambda: day[0])
     screen.refresh()
-    shown, row = screen.day.text(), screen.list.rows.index(0)
+    shown, row = screen.date_text.text(), screen.list.patient_model.index(0)
     ago = row.data()
     day[0] = TODAY + timedelta(days=1)
-    screen.look_at_day()
-    assert screen.day.text() != shown
+    screen.refresh_date()
+    assert screen.date_text.text() != shown
     assert row.data() != ago
 
 
 def test_of_very_many_patients_the_first_are_shown_and_searching_finds_the_others(
     screen: PatientsScreen, store: FakeStore
 ) -> None:
-    store.rows = [replace(store.rows[0], pseudonym=f"Oak {n}", patient_id=str(n)) for n in range(MOST_ROWS + 200)]
+    store.rows = [
+        replace(store.rows[0], pseudonym=f"Oak {n}", patient_id=str(n)) for n in range(MAX_LISTED_PATIENTS + 200)
+    ]
     screen.refresh()
-    assert screen.list.rows.rowCount() == MOST_ROWS + 1
-    screen.search.setText(f"oak {MOST_ROWS + 150}")
-    assert [screen.list.rows.row(0).pseudonym] == [f"Oak {MOST_ROWS + 150}"]
+    assert screen.list.patient_model.rowCount() == MAX_LISTED_PATIENTS + 1
+    screen.search.setText(f"oak {MAX_LISTED_PATIENTS + 150}")
+    assert [screen.list.patient_model.row(0).pseudonym] == [f"Oak {MAX_LISTED_PATIENTS + 150}"]
 
 
 # --- the sheet of a patient's facts ----------------------------------------------------------------------
@@ -277,35 +290,35 @@ def given(store: FakeStore) -> Given:
     return store.added
 
 
-@pytest.mark.parametrize("letters", [5, MOST_CHARACTERS])
+@pytest.mark.parametrize("letters", [5, MAX_NAME_CHARACTERS])
 def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given: Given, letters: int) -> None:
-    form.begin(Patient("n" * letters, "left", "right"), frozenset())
-    form.save.click()
+    form.edit_patient(Patient("n" * letters, "left", "right"), frozenset())
+    form.save_button.click()
     assert [entry.pseudonym for entry in given] == ["n" * letters]
-    too_long = "m" * (MOST_CHARACTERS + 5)
+    too_long = "m" * (MAX_NAME_CHARACTERS + 5)
     for line in (form.fields["pseudonym"], form.fields["name"], form.fields["diagnosis"]):
-        form.begin(given[0], frozenset())
+        form.edit_patient(given[0], frozenset())
         line.setText(too_long)
-        assert (line.text(), form.save.isEnabled()) == (too_long, False), "nothing is cut"
-        assert form.save.text().endswith("5 letters too many")
-    form.close_sheet()
+        assert (line.text(), form.save_button.isEnabled()) == (too_long, False), "nothing is cut"
+        assert form.save_button.text().endswith("5 letters too many")
+    form.close_dialog()
 
 
 def test_patient_who_writes_with_both_hands_when_changed_stays_so(form: PatientForm, given: Given) -> None:
-    form.begin(Patient("Fir 12", "left", "both"), frozenset())
-    assert form.save.isEnabled()
+    form.edit_patient(Patient("Fir 12", "left", "both"), frozenset())
+    assert form.save_button.isEnabled()
     form.fields["note"].setPlainText("plate out")
-    form.save.click()
+    form.save_button.click()
     assert [(one.dominance, one.note) for one in given] == [("both", "plate out")]
 
 
 def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Given) -> None:
-    form.begin(None, frozenset())
+    form.edit_patient(None, frozenset())
     qtbot.keyClick(form.fields["pseudonym"], Qt.Key.Key_Return)
-    assert (given, form.save.isEnabled(), form.save.text()) == ([], False, "Which hand is affected?")
+    assert (given, form.save_button.isEnabled(), form.save_button.text()) == ([], False, "Which hand is affected?")
     assert form.focusWidget() is form.fields["side"].buttons()[0], "Enter leads to what is asked"
     form.fields["side"].buttons()[1].click()
-    assert form.save.text() == "Which hand writes?"
+    assert form.save_button.text() == "Which hand writes?"
     form.fields["dominance"].buttons()[2].click()
     qtbot.keyClick(form.fields["pseudonym"], Qt.Key.Key_Return)
     assert [(one.side, one.dominance) for one in given] == [("left", "unknown")]
@@ -314,38 +327,40 @@ def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Giv
 def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     qtbot: QtBot, form: PatientForm, given: Given, store: FakeStore
 ) -> None:
-    form.begin(Patient("Fir 12", "left", "right"), frozenset())
-    assert (form.listed.isVisible(), form.save.isEnabled()) == (False, True), "nobody must say why a patient comes"
+    form.edit_patient(Patient("Fir 12", "left", "right"), frozenset())
+    assert (form.listed_tick.isVisible(), form.save_button.isEnabled()) == (False, True), (
+        "nobody must say why a patient comes"
+    )
     qtbot.keyClicks(form.fields["diagnosis"], "Mallet  finger")
-    assert not form.listed.isChecked()
-    form.listed.click()
+    assert not form.listed_tick.isChecked()
+    form.listed_tick.click()
     assert store.listed[-1] == "Mallet finger"
-    form.listed.click()
-    assert (form.listed.isChecked(), "Mallet finger" in store.listed) == (False, False)
+    form.listed_tick.click()
+    assert (form.listed_tick.isChecked(), "Mallet finger" in store.listed) == (False, False)
     for typed, asked in (("21.8.", "Since"), ("20.12.2026", "Since when? It"), ("21.8.2026", "Operation or injury?")):
         form.fields["onset_day"].setText(typed)
-        assert form.save.text().startswith(asked), typed
-        assert not form.save.isEnabled()
+        assert form.save_button.text().startswith(asked), typed
+        assert not form.save_button.isEnabled()
     form.fields["onset"].buttons()[1].click()
-    assert form.since.text() == "13 weeks"
-    form.save.click()
+    assert form.weeks_text.text() == "13 weeks"
+    form.save_button.click()
     assert given == [
         Patient("Fir 12", "left", "right", diagnosis="Mallet finger", onset="injury", onset_day=date(2026, 8, 21))
     ]
-    form.begin(given[0], frozenset())
+    form.edit_patient(given[0], frozenset())
     form.fields["onset_day"].clear()
-    form.save.click()
+    form.save_button.click()
     assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
 
 
 def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_of_tab(
     qtbot: QtBot, form: PatientForm, host: QWidget
 ) -> None:
-    form.begin(None, frozenset())  # no hand is chosen yet: the button asks for that first
+    form.edit_patient(None, frozenset())  # no hand is chosen yet: the button asks for that first
     form.fields["diagnosis"].setFocus()
     qtbot.keyClicks(form.fields["diagnosis"], "Mallet finger")
     form.focusNextPrevChild(True)
-    assert (form.listed.isVisible(), host.focusWidget()) == (True, form.fields["onset_day"])
+    assert (form.listed_tick.isVisible(), host.focusWidget()) == (True, form.fields["onset_day"])
     none = "Since when? There is no such day"
     order = "Since when? Day, month, year"
     for typed, told in (
@@ -356,45 +371,45 @@ def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_o
         form.fields["onset_day"].selectAll()
         for sign in typed[:-1]:
             qtbot.keyClicks(form.fields["onset_day"], sign)
-            assert not form._fault.isVisible(), "not while it is typed"
+            assert not form._error_text.isVisible(), "not while it is typed"
         qtbot.keyClicks(form.fields["onset_day"], typed[-1])
-        assert form._fault.isVisible()
-        assert told in form._fault.text()
+        assert form._error_text.isVisible()
+        assert told in form._error_text.text()
     form.fields["onset_day"].selectAll()
     qtbot.keyClicks(form.fields["onset_day"], "31.2")
     form.focusNextPrevChild(True)
-    assert form._fault.isVisible(), "half a day is told on leaving its field"
+    assert form._error_text.isVisible(), "half a day is told on leaving its field"
     form.fields["onset_day"].setFocus()
     form.fields["onset_day"].selectAll()
     qtbot.keyClick(form.fields["onset_day"], Qt.Key.Key_Delete)
     form.focusNextPrevChild(True)
-    assert not form._fault.isVisible()
+    assert not form._error_text.isVisible()
 
 
 def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_lost(
     form: PatientForm, given: Given, store: FakeStore
 ) -> None:
-    form.begin(Patient("Fir 12", "left", "right"), frozenset())
+    form.edit_patient(Patient("Fir 12", "left", "right"), frozenset())
     form.fields["note"].setPlainText("a long note")
     form.fields["diagnosis"].setText("Radius\u00adfracture")
     before = list(store.listed)
-    form.listed.click()
+    form.listed_tick.click()
     assert store.listed == before
-    form.save.click()
+    form.save_button.click()
     assert form.isVisible()
-    assert "soft hyphen" in form._fault.text()
+    assert "soft hyphen" in form._error_text.text()
     assert form.fields["note"].toPlainText() == "a long note"
     for typed in ("21.8.99999999999", "21.8.202"):
         form.fields["onset_day"].setText(typed)
-        assert not form.save.isEnabled(), typed
+        assert not form.save_button.isEnabled(), typed
     form.fields["onset_day"].clear()
     form.fields["diagnosis"].setText("Radius fracture")
-    form.save.click()
+    form.save_button.click()
     assert [one.diagnosis for one in given] == ["Radius fracture"]
 
 
 def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, form: PatientForm, host: QWidget) -> None:
-    form.begin(None, frozenset())
+    form.edit_patient(None, frozenset())
     for letter, field in (
         (Qt.Key.Key_D, form.fields["diagnosis"]),
         (Qt.Key.Key_S, form.fields["onset_day"]),
@@ -406,12 +421,14 @@ def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, form: PatientForm, host
 
 @pytest.mark.parametrize("code", LANGUAGES)
 def test_no_field_is_cut_at_its_right(qtbot: QtBot, host: QWidget, code: str) -> None:
-    with speaking(code):
+    with use_language(code):
         form = PatientForm(host, Theme("dark", 1.5), FakeStore(), lambda: TODAY)
-        form.begin(Patient("Fir 12", "both", "left", diagnosis="Radius", onset="injury", onset_day=TODAY), frozenset())
-        qtbot.waitUntil(lambda: form._asked.width() > 0)
-        assert form._asked.minimumSizeHint().width() <= form._scroll.viewport().width()
-        form.close_sheet()
+        form.edit_patient(
+            Patient("Fir 12", "both", "left", diagnosis="Radius", onset="injury", onset_day=TODAY), frozenset()
+        )
+        qtbot.waitUntil(lambda: form._form_page.width() > 0)
+        assert form._form_page.minimumSizeHint().width() <= form._scroll.viewport().width()
+        form.close_dialog()
 
 
 @pytest.mark.parametrize(

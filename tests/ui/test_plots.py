@@ -18,22 +18,22 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import OutputNotWritable
-from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.exercises import get_exercise
 from carpus.core.hand.protocols import HAND21, WRIST6, joint_angle_names
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.seen import ReportCurves, joint_curves, session_curves
+from carpus.core.results.seen import WristCurves, joint_curves, wrist_curves
 from carpus.core.types import ByteImage, FloatArray
-from carpus.ui.figures import FIGURES, Figure
-from carpus.ui.joint_figures import figures_of
-from carpus.ui.numbers import with_spread
+from carpus.ui.figures import FINGER_ANGLES, FingerAngle
+from carpus.ui.joint_figures import estimate_finger_angles
+from carpus.ui.numbers import format_with_sd
 from carpus.ui.plot.axes import Panel, Scale, time_labels
 from carpus.ui.plot.chart import ChartText
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.series import Curve, Drawing, Series, decimate, longest_step_s
+from carpus.ui.plot.series import Curve, CurveDrawing, Series, decimate, find_max_step_s
 from carpus.ui.plot.session import SessionChart, SessionPlot
-from carpus.ui.plot.style import RIGHT_MIDDLE, paper_style, screen_style, write
+from carpus.ui.plot.style import RIGHT_MIDDLE, draw_text, paper_style, screen_style
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, figures_once, session
@@ -50,7 +50,7 @@ def view(qtbot: QtBot, theme: Theme) -> Iterator[SessionChart]:
     qtbot.addWidget(view)
     view.resize(900, 420)
     view.show()
-    plot = SessionPlot(session_curves(stored), figures.exercise, figures.repetitions, 2, 40.0)
+    plot = SessionPlot(wrist_curves(stored), figures.exercise, figures.repetitions, 2, 40.0)
     view.show_plot(plot)
     return view
 
@@ -90,9 +90,9 @@ def test_zoomed_in_a_drag_moves_along_and_all_panels_go_together(qtbot: QtBot, v
     view.show_window((20.0, 30.0))
     view.set_time(28.0)
     box = view.panels()[0][0].box
-    drag(qtbot, view.face, center(view), -round(box.width() / 5))
+    drag(qtbot, view.mouse_target, center(view), -round(box.width() / 5))
     assert view.zoom_range == pytest.approx((22.0, 32.0), abs=0.1)
-    drag(qtbot, view.face, center(view), 10 * round(box.width()))
+    drag(qtbot, view.mouse_target, center(view), 10 * round(box.width()))
     assert view.zoom_range == pytest.approx((0.0, 10.0), abs=1e-6), "no further than the beginning"
     assert [tuple(own.viewRange()[0]) for own in view.plots] == [pytest.approx(view.zoom_range)] * 3
 
@@ -102,24 +102,24 @@ def test_the_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot:
     view.set_time(8.0)
     moved: list[float] = []
     view.cursor_moved.connect(moved.append)
-    drag(qtbot, view.face, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
+    drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
     assert moved[-1] == pytest.approx(view.to_time(float(panel.x(8.0)) + 60), abs=0.2)
     assert view.zoom_range is None
     view.show_window((5.0, 15.0))
     moved.clear()
     panel = view.panels()[0][0]
-    drag(qtbot, view.face, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
+    drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
     assert moved
     assert view.zoom_range == (5.0, 15.0)
 
 
 def test_the_wheel_alone_is_the_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
-    assert not wheel(view.face, center(view), 120), "the page that it lies on scrolls"
+    assert not wheel(view.mouse_target, center(view), 120), "the page that it lies on scrolls"
     assert view.zoom_range is None
-    assert wheel(view.face, center(view), 120, Qt.KeyboardModifier.ControlModifier)
+    assert wheel(view.mouse_target, center(view), 120, Qt.KeyboardModifier.ControlModifier)
     assert view.zoom_range is not None
     view.show_window((20.0, 30.0))
-    wheel(view.face, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
+    wheel(view.mouse_target, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
     assert view.zoom_range == pytest.approx((21.0, 31.0))
 
 
@@ -142,14 +142,14 @@ def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None
     plot = view._plot
     at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))
     time_s, *values = view.describe_values(at)
-    shown = plot.values(column, view.to_time(at.x()))[0]
+    shown = plot.read_values(column, view.to_time(at.x()))[0]
     assert time_s.startswith("00:1")
-    assert values == [f"{shown.name} {with_spread(shown.value_deg, shown.sd_deg)}"]
+    assert values == [f"{shown.name} {format_with_sd(shown.value_deg, shown.sd_deg)}"]
     assert "±" in values[0]
-    move(view.face, at)
-    assert view._said.isVisible()
-    QApplication.sendEvent(view.face, QEvent(QEvent.Type.Leave))
-    assert not view._said.isVisible()
+    move(view.mouse_target, at)
+    assert view._hover_label.isVisible()
+    QApplication.sendEvent(view.mouse_target, QEvent(QEvent.Type.Leave))
+    assert not view._hover_label.isVisible()
 
 
 def test_the_menu_speaks_our_words_and_has_no_other(view: SessionChart) -> None:
@@ -181,7 +181,7 @@ def test_a_picture_is_of_print_size_a_drawing_of_lines_and_a_folder_that_is_not_
     assert fixed <= {"none"}, "no line is as wide at any size"
     view.menu.copy_picture()
     assert QGuiApplication.clipboard().image().size() == image.size()
-    with qtbot.waitSignal(view.menu.told) as told:
+    with qtbot.waitSignal(view.menu.fault_raised) as told:
         view.menu.save(tmp_path / "none" / "curves.csv")
     assert isinstance(told.args[0], OutputNotWritable)
 
@@ -190,7 +190,7 @@ def test_the_table_has_what_is_shown_with_gaps_empty(view: SessionChart, tmp_pat
     plot = view._plot
     angles = plot.curves.angles_deg.copy()
     angles[330:333] = math.nan
-    curves = ReportCurves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
+    curves = WristCurves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
     view.show_plot(SessionPlot(curves, plot.exercise, plot.repetitions))
     view.show_window((10.0, 14.0))
     view.menu.save(tmp_path / "curves.csv")
@@ -214,10 +214,10 @@ def test_twenty_minutes_are_drawn_with_few_points_and_every_peak() -> None:
     time_s = np.arange(0.0, MINUTES_20_S, 1.0 / 30.0)
     angles = np.stack([40.0 * np.sin(time_s * (k + 1)) for k in range(3)], axis=1)
     angles[17_000, 1] = 83.0
-    curves = ReportCurves(time_s, angles, np.ones_like(angles), np.zeros(len(time_s), dtype=int))
-    plot = SessionPlot(curves, exercise_named("WRIST_FE"), ())
+    curves = WristCurves(time_s, angles, np.ones_like(angles), np.zeros(len(time_s), dtype=int))
+    plot = SessionPlot(curves, get_exercise("WRIST_FE"), ())
     for window in (None, (500.0, 900.0), (560.0, 570.0)):
-        drawn = SessionPlot(curves, plot.exercise, (), window_s=window).moving(1, 600)[0].series
+        drawn = SessionPlot(curves, plot.exercise, (), window_s=window).visible_curves(1, 600)[0].series
         assert len(drawn.time_s) <= 3 * 600
         assert drawn.value.max() == 83.0
         assert not drawn.gaps_s()
@@ -229,7 +229,7 @@ def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, rat
     image.fill(QColor("white"))
     painter = QPainter(image)
     panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), start_s, end_s)
-    Drawing(screen_style(theme), [(panel, [Curve(series, "curve_a")])]).paint(painter, screen_style(theme), 0)
+    CurveDrawing(screen_style(theme), [(panel, [Curve(series, "curve_a")])]).paint(painter, screen_style(theme), 0)
     painter.end()
     return pixels(image)[..., :3].astype(np.float64)
 
@@ -246,7 +246,7 @@ def test_a_curve_in_pieces_looks_like_the_stroked_one_and_keeps_every_peak(
     predicted = (time_s > 50.0) & (time_s < 55.0)
     series = Series(time_s, value, np.full(len(time_s), 2.0), predicted)
     in_pieces = drawn_series(theme, series, 0.0, 60.0, ratio)
-    monkeypatch.setattr("carpus.ui.plot.series._on_pixels", lambda painter: False)
+    monkeypatch.setattr("carpus.ui.plot.series._is_raster", lambda painter: False)
     stroked = drawn_series(theme, series, 0.0, 60.0, ratio)
     assert np.abs(in_pieces - stroked).mean() < 5.0
     tops = [np.flatnonzero((picture < 128).any(axis=(1, 2)))[0] for picture in (in_pieces, stroked)]
@@ -261,7 +261,7 @@ def test_dashes_are_half_of_a_line_whether_level_or_steep_and_run_with_it(qapp: 
         whole, dashed = (Series(time_s, value, None, np.full(len(time_s), on)) for on in (False, True))
         ink = [(255 - drawn_series(theme, one, 0.0, 30.0, 1.0)).sum() for one in (whole, dashed)]
         assert 0.4 < ink[1] / ink[0] < 0.85
-        now, later = (drawn_series(theme, dashed.from_time(now_s), -10.0, 0.0, 1.0) for now_s in (15.0, 16.0))
+        now, later = (drawn_series(theme, dashed.shift_time(now_s), -10.0, 0.0, 1.0) for now_s in (15.0, 16.0))
         assert np.abs(now[:, 70:590] - later[:, 10:530]).max() <= 8, "a second is 60 pixels"
 
 
@@ -271,7 +271,7 @@ def test_all_that_is_drawn_of_a_curve_lies_on_it(
     qapp: QApplication, theme: Theme, monkeypatch: pytest.MonkeyPatch, seen: range, on_pixels: bool
 ) -> None:
     """As pieces on pixels and as lines on paper, half of it dashed, all but one piece, or all."""
-    monkeypatch.setattr("carpus.ui.plot.series._on_pixels", lambda painter: on_pixels)
+    monkeypatch.setattr("carpus.ui.plot.series._is_raster", lambda painter: on_pixels)
     time_s = np.arange(0.0, 30.0, 0.15)
     predicted = ~np.isin(np.arange(len(time_s)), seen)
     ink = drawn_series(theme, Series(time_s, 3.0 * time_s - 45.0, None, predicted), 0.0, 30.0, 1.0).min(axis=2) < 200
@@ -289,7 +289,7 @@ def test_words_stand_at_a_point_or_on_their_side_of_a_box(qapp: QApplication, th
         image = QImage(200, 40, QImage.Format.Format_RGB32)
         image.fill(QColor("white"))
         with QPainter(image) as painter:
-            write(painter, at, "x", style.label, style.color("text"), *side)
+            draw_text(painter, at, "x", style.label_font, style.color("text"), *side)
         return np.nonzero(pixels(image).min(axis=2) < 160)
 
     for (down, across), left, right in ((ink(box), 0, 20), (ink(box, RIGHT_MIDDLE), 180, 200)):
@@ -311,9 +311,9 @@ def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> N
     before = [box.viewRange() for box in curves.plots]
     at = QPointF(curves.panels()[0][0].box.center().toPoint())
     for turn in (120, -120):
-        wheel(curves.face, at, turn)
-    drag(qtbot, curves.face, at, 80)
-    qtbot.mouseClick(curves.face, Qt.MouseButton.RightButton, pos=at.toPoint())
+        wheel(curves.mouse_target, at, turn)
+    drag(qtbot, curves.mouse_target, at, 80)
+    qtbot.mouseClick(curves.mouse_target, Qt.MouseButton.RightButton, pos=at.toPoint())
     assert [box.viewRange() for box in curves.plots] == before
     assert QApplication.activePopupWidget() is None
 
@@ -330,9 +330,9 @@ def test_an_angle_that_no_joint_can_have_is_a_gap_in_review_and_figures() -> Non
     broken = replace(session, motion=replace(session.motion, joint_angles_rad=angles))
     curves = joint_curves(broken)
     assert np.isnan(curves.angles_deg[600:602]).all()
-    assert not curves.seen[600:602].any()
+    assert not curves.is_valid[600:602].any()
     assert np.nanmin(curves.angles_deg) > -60.0
-    figures = session_figures(broken, RepetitionChoices({}))
+    figures = compute_session_results(broken, RepetitionChoices({}))
     for row in (*figures.wrist_ranges, *figures.joint_ranges):
         for value in (row.mean, row.sd, row.best):
             assert not abs(value) > 400.0, row.key
@@ -340,12 +340,12 @@ def test_an_angle_that_no_joint_can_have_is_a_gap_in_review_and_figures() -> Non
 
 def test_an_angle_that_no_joint_can_have_takes_only_its_own_figures_live() -> None:
     frame = FakeFeed("fist", 3.0, protocol="hand21").frames[10]
-    angles = frame.moment.joint_angles_rad.copy()
+    angles = frame.kinematics.joint_angles_rad.copy()
     angles[COLUMN] = np.radians(-3627.0)
-    _, value, _, measured, _ = figures_of(HAND21, [with_moment(frame, joint_angles_rad=angles)])
-    gone = {FIGURES[k] for k in np.flatnonzero(np.isnan(value[0]))}
-    assert gone == {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
-    assert not measured[0, [FIGURES.index(figure) for figure in gone]].any()
+    _, value, _, measured, _ = estimate_finger_angles(HAND21, [with_moment(frame, joint_angles_rad=angles)])
+    gone = {FINGER_ANGLES[k] for k in np.flatnonzero(np.isnan(value[0]))}
+    assert gone == {FingerAngle(4, "middle"), FingerAngle(4, "end"), FingerAngle(4, "tam")}
+    assert not measured[0, [FINGER_ANGLES.index(figure) for figure in gone]].any()
 
 
 def test_thinning_keeps_extremes_gaps_and_ends() -> None:
@@ -379,9 +379,9 @@ def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_
     sure, picture = np.zeros(len(time_s), dtype=bool), QImage(600, 120, QImage.Format.Format_RGB32)
     with QPainter(picture) as painter:
         curves = [Curve(Series(time_s, value + off, None, sure), "curve_a") for off in (0.0, 3.0, 1.0)]
-        numbered = Drawing(screen_style(theme), [(panel, curves)]).paint(painter, screen_style(theme), 0)
+        numbered = CurveDrawing(screen_style(theme), [(panel, curves)]).paint(painter, screen_style(theme), 0)
         hidden = Curve(Series(time_s, value, None, value > 80.0), "curve_a")
-        assert Drawing(screen_style(theme), [(panel, [hidden])]).paint(painter, screen_style(theme), 0) == []
+        assert CurveDrawing(screen_style(theme), [(panel, [hidden])]).paint(painter, screen_style(theme), 0) == []
     assert len(numbered) > 2
     for i, one in enumerate(numbered):
         assert one.right() <= 600.0
@@ -391,7 +391,7 @@ def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_
 @pytest.mark.parametrize("fps", [1.5, 5.0, 30.0])
 def test_a_recording_of_few_frames_a_second_is_drawn_and_its_gaps_stay(fps: float) -> None:
     time_s = np.arange(40) / fps
-    whole = Series(time_s, np.zeros(40), None, np.zeros(40, bool), longest_step_s(time_s))
+    whole = Series(time_s, np.zeros(40), None, np.zeros(40, bool), find_max_step_s(time_s))
     assert whole.gaps_s() == []
     value = np.zeros(40)
     value[10 : 10 + round(0.4 * fps) + 1] = math.nan

@@ -10,26 +10,31 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measure import wrist_column
-from carpus.core.results.progress import compare, progress
-from carpus.core.results.ranges import finger_keys
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.measure import wrist_angle_index
+from carpus.core.results.progress import compare_ranges, compute_progress
+from carpus.core.results.ranges import finger_measure_keys
 from carpus.ui import numbers
-from carpus.ui.figures import Figure, with_side
-from carpus.ui.plot.course import axis_top_deg, panels_of
+from carpus.ui.figures import FingerAngle, format_spread
+from carpus.ui.plot.course import axis_top_deg, panel_keys
 from carpus.ui.progress.flow import write_table
-from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
+from carpus.ui.report.gather import (
+    build_progress_report,
+    build_session_report,
+    write_progress_report,
+    write_session_report,
+)
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.words.fingers import (
-    cell_of,
     finger_table,
-    followed_keys,
-    followed_kinds,
-    limits_words,
+    limitation_words,
+    progress_choices,
+    progress_keys,
+    range_cell,
 )
 from carpus.ui.words.progress import headline
 from carpus.ui.words.session import hand_summary, quality_lines
-from carpus.ui.words.table import Cell, cell_words
+from carpus.ui.words.table import Cell, cell_text
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
@@ -54,8 +59,8 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
     figures = figures_once(store.session("hand-7"))
     for row in finger_table(figures, None).rows:
         for cell in row:
-            assert plain(cell_words(cell)) in words
-            assert isinstance(cell, str) or plain(cell.below) in words
+            assert plain(cell_text(cell)) in words
+            assert isinstance(cell, str) or plain(cell.subtext) in words
     for head in ("(MCP)", "(PIP)", "(DIP)", "TAM", "Bending arc", "Limited by the camera’s view", "DIP not measured"):
         assert head in words
     assert LEGAL_SENTENCE in words
@@ -64,7 +69,7 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
 @pytest.mark.parametrize("code", ["en", "de", "it"])
 def test_no_cell_of_a_finger_runs_into_the_one_beside_it(store: FakeHandSessions, tmp_path: Path, code: str) -> None:
     first = figures_once(store.session("hand-3"))
-    made = session_report(store.session("hand-7"), history=store.history("x"), language=code)
+    made = build_session_report(store.session("hand-7"), history=store.history("x"), language=code)
     for number, previous in enumerate((None, first)):
         report = replace(made, previous=previous, other_hand=first)
         assert overlapping_words(write_session_report(report, tmp_path / f"{number}.pdf")) == []
@@ -92,27 +97,27 @@ def test_a_lower_bound_is_a_gain_when_it_is_beyond_the_error_and_else_not_judged
     first, last = (figures_once(store.session(key)) for key in ("hand-3", "hand-7"))
     row = last.find("TAM3", "arc")
     before = first.find("TAM3", "arc")
-    assert row.at_least
-    assert not before.at_least
-    gain = compare(first, last, [row])[0]
-    assert (gain.verdict, gain.at_least) == ("improved", True)
+    assert row.is_lower_bound
+    assert not before.is_lower_bound
+    gain = compare_ranges(first, last, [row])[0]
+    assert (gain.verdict, gain.is_lower_bound) == ("improved", True)
     little = replace(row, mean=before.mean + 5.0)
-    assert compare(first, last, [little])[0].verdict == "not_judged"
-    assert compare(last, first, [before])[0].verdict == "not_judged"
+    assert compare_ranges(first, last, [little])[0].verdict == "not_judged"
+    assert compare_ranges(last, first, [before])[0].verdict == "not_judged"
 
 
 def test_a_hand_that_was_seen_all_the_time_is_judged_joint_by_joint() -> None:
     first, last = (figures_once(without_hidden(hand_session(share=share))) for share in (0.6, 1.0))
-    compared = compare(first, last, [row for row in last.joint_ranges if row.of == "MCP3_flexion"])
-    arc = next(item for item in compared if item.after.what == "arc")
-    assert (arc.verdict, arc.at_least) == ("improved", False)
+    compared = compare_ranges(first, last, [row for row in last.joint_ranges if row.subject == "MCP3_flexion"])
+    arc = next(item for item in compared if item.after.quantity == "arc")
+    assert (arc.verdict, arc.is_lower_bound) == ("improved", False)
     assert arc.limit_deg == pytest.approx(12.0 * 2**0.5)
 
 
-def shown_of(figures: SessionFigures, kind: str = "") -> list[str]:
+def shown_of(figures: SessionResults, kind: str = "") -> list[str]:
     """The panels of the course of one session, of what is followed or else comes first."""
-    kind = kind or followed_kinds(figures)[0][0]
-    return [key[0] for key in panels_of(progress([figures], None, followed_keys(kind)))]
+    kind = kind or progress_choices(figures)[0][0]
+    return [key[0] for key in panel_keys(compute_progress([figures], None, progress_keys(kind)))]
 
 
 def test_progress_follows_totals_first_and_one_finger_on_request_and_of_the_thumb_lift_and_spread(
@@ -120,19 +125,19 @@ def test_progress_follows_totals_first_and_one_finger_on_request_and_of_the_thum
 ) -> None:
     history = store.history("x")
     last = history[-1]
-    assert [value for value, _ in followed_kinds(last)] == ["tam", "spread", "1", "2", "3", "4", "5", ""]
+    assert [value for value, _ in progress_choices(last)] == ["tam", "spread", "1", "2", "3", "4", "5", ""]
     assert shown_of(last) == ["TAM1", "TAM2", "TAM3", "TAM4", "TAM5"]
-    assert "TAM" in headline(progress(history, None, followed_keys("tam")))[0]
+    assert "TAM" in headline(compute_progress(history, None, progress_keys("tam")))[0]
     assert shown_of(last, "4") == ["TAM4", "MCP4_flexion", "PIP4_flexion"]
-    assert all(row.mean <= axis_top_deg((row.of, "arc")) for row in last.joint_ranges if row.count)
-    wrist = progress(history, None, followed_keys(""))
-    assert all(wrist_column(of) >= 0 for of, _ in panels_of(wrist))
+    assert all(row.mean <= axis_top_deg((row.subject, "arc")) for row in last.joint_ranges if row.count)
+    wrist = compute_progress(history, None, progress_keys(""))
+    assert all(wrist_angle_index(of) >= 0 for of, _ in panel_keys(wrist))
     thumb = figures_once(hand_session(exercise="THUMB_OPP", motion="thumb"))
     assert shown_of(thumb) == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
 
 
 def test_the_progress_report_of_a_hand_names_the_finger(store: FakeHandSessions, tmp_path: Path) -> None:
-    path = write_progress_report(progress_report(store.history("x"), what="4"), tmp_path / "p.pdf")
+    path = write_progress_report(build_progress_report(store.history("x"), choice="4"), tmp_path / "p.pdf")
     assert pages_of(path) == 1
     words = plain(words_of(path))
     assert "Ring finger, TAM" in words
@@ -140,7 +145,7 @@ def test_the_progress_report_of_a_hand_names_the_finger(store: FakeHandSessions,
 
 
 def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHandSessions, tmp_path: Path) -> None:
-    course = progress(store.history("x"), None, finger_keys(0))
+    course = compute_progress(store.history("x"), None, finger_measure_keys(0))
     write_table(tmp_path / "t.csv", course)
     with (tmp_path / "t.csv").open(encoding="utf-8-sig", newline="") as file:
         lines = list(csv.DictReader(file))
@@ -150,14 +155,14 @@ def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHand
     for row in figures.joint_ranges:
         line = last[row.key]
         assert float(line["mean_deg"]) == pytest.approx(row.mean, abs=0.051)
-        assert (line["at_least"] == "yes") == row.at_least
+        assert (line["at_least"] == "yes") == row.is_lower_bound
 
 
 def test_how_sure_is_amber_as_soon_as_a_joint_is_a_lower_bound() -> None:
     limited = figures_once(hand_session())
     lines = {name: (value, fine) for name, value, fine in quality_lines(limited)}
     value, fine = lines["At least (≥) or not seen"]
-    bounds = sum(row.at_least for row in limited.joint_ranges if row.what == "arc")
+    bounds = sum(row.is_lower_bound for row in limited.joint_ranges if row.quantity == "arc")
     assert value.startswith(f"{bounds} of ")
     assert bounds
     assert not fine
@@ -180,7 +185,7 @@ def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
 
 def test_a_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen() -> None:
     figures = figures_once(hand_session())
-    rows = [[cell_words(cell) for cell in row[1:6]] for row in finger_table(figures, None).rows]
+    rows = [[cell_text(cell) for cell in row[1:6]] for row in finger_table(figures, None).rows]
     bounds = [words for row in rows for words in row if "≥" in words]
     assert bounds
     assert not any("±" in words for words in bounds)
@@ -192,25 +197,25 @@ def test_a_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_see
 
 
 def test_total_active_motion_is_explained_once_and_only_after_a_fist() -> None:
-    assert limits_words(figures_once(hand_session())).count("Total active motion (TAM)") == 1
+    assert limitation_words(figures_once(hand_session())).count("Total active motion (TAM)") == 1
     hook = figures_once(hand_session(exercise="FIST_HOOK", motion="hook"))
-    assert "TAM" not in limits_words(hook)
+    assert "TAM" not in limitation_words(hook)
     unseen = figures_once(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
-    assert "never all seen at once" in limits_words(unseen)
+    assert "never all seen at once" in limitation_words(unseen)
 
 
 def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
     figures = figures_once(hand_session())
     low = ("PIP3_flexion", "extension")
     beyond = with_ranges(figures, lambda row: {"mean": -3.2} if row.key == low else {})
-    cell = cell_of(beyond, Figure(3, "middle"))
+    cell = range_cell(beyond, FingerAngle(3, "middle"))
     assert isinstance(cell, Cell)
-    assert cell.below.startswith("−3° to ")
-    spread = cell_of(figures, Figure(4, "spread"))
+    assert cell.subtext.startswith("−3° to ")
+    spread = range_cell(figures, FingerAngle(4, "spread"))
     assert isinstance(spread, Cell)
-    assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread.below)
-    assert with_side(-2.0) == "2° in"
-    assert with_side(0.4) == "0°"
+    assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread.subtext)
+    assert format_spread(-2.0) == "2° in"
+    assert format_spread(0.4) == "0°"
 
 
 def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:

@@ -19,15 +19,20 @@ from PySide6.QtWidgets import QApplication
 import carpus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, OutputNotWritable
-from carpus.core.provenance import revision
+from carpus.core.provenance import source_revision
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import PAPERS, Paper, ReportForm
-from carpus.ui.report.gather import progress_report, session_report, write_progress_report, write_session_report
-from carpus.ui.report.page import BODY_PT, PAPER, break_lines, facts, fit_parts, page_head
-from carpus.ui.report.pages import pages_of as pages_of_report
-from carpus.ui.report.progress_page import made_of
+from carpus.ui.report.gather import (
+    build_progress_report,
+    build_session_report,
+    write_progress_report,
+    write_session_report,
+)
+from carpus.ui.report.page import BODY_WIDTH_PT, PAPER, break_lines, fact_row, fit_parts, page_head
+from carpus.ui.report.pages import layout_pages as pages_of_report
+from carpus.ui.report.progress_page import provenance_words
 from carpus.ui.terms import LEGAL_SENTENCE
-from carpus.ui.words.session import other_lines
+from carpus.ui.words.session import speed_pain_lines
 from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.printed import overlapping_words, pages_of, reach_of, tool, words_of
 
@@ -118,10 +123,13 @@ def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path
 
 def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None:
     figures = figures_once(session())
-    once = dict(other_lines(replace(figures, pain=(3,), pain_s=(74.2,))))
+    once = dict(speed_pain_lines(replace(figures, pain=(3,), pain_times_s=(74.2,))))
     assert once["Pain (0–10)"] == "3 at 01:14"
-    assert dict(other_lines(replace(figures, pain=(2, 3), pain_s=(1.0, 9.0))))["Pain first / last (0–10)"] == "2 / 3"
-    assert dict(other_lines(replace(figures, pain=(), pain_s=())))["Pain (0–10)"] == "not asked"
+    assert (
+        dict(speed_pain_lines(replace(figures, pain=(2, 3), pain_times_s=(1.0, 9.0))))["Pain first / last (0–10)"]
+        == "2 / 3"
+    )
+    assert dict(speed_pain_lines(replace(figures, pain=(), pain_times_s=())))["Pain (0–10)"] == "not asked"
 
 
 @pytest.mark.parametrize("number", ["1", "2"])
@@ -174,8 +182,11 @@ def test_a_session_without_any_tracked_frame_still_gives_an_honest_page(tmp_path
 
 
 def test_a_name_longer_than_the_page_leaves_the_page_its_size(qapp: QApplication) -> None:
-    for parts in (page_head("Report", "", 64 * "W", "Wrist flexion"), facts([("Date", "today"), ("Note", 200 * "W")])):
-        assert fit_parts(parts, PAPER.px(BODY_PT), PAPER.px(800.0))[1] == 1.0
+    for parts in (
+        page_head("Report", "", 64 * "W", "Wrist flexion"),
+        fact_row([("Date", "today"), ("Note", 200 * "W")]),
+    ):
+        assert fit_parts(parts, PAPER.px(BODY_WIDTH_PT), PAPER.px(800.0))[1] == 1.0
 
 
 def test_the_progress_report_gives_the_answer_and_names_what_was_left_out(tmp_path: Path) -> None:
@@ -261,32 +272,32 @@ def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path)
 
 def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
     sessions = FakeSessions().history("linden")
-    report = progress_report(sessions)
-    said = made_of(report.made_by, report.sessions)
+    report = build_progress_report(sessions)
+    said = provenance_words(report.made_by, report.sessions)
     right = [one for one in sessions if one.side == "right"]
     assert said.startswith(f"Made by Carpus {carpus.__version__}")
     assert f"{len(right)} sessions: " in said
     assert all(one.session_id[:8] in said for one in right)
     assert f"measured by Carpus {right[0].software_version}" in said
-    assert (revision()[:7] or "by") in said
+    assert (source_revision()[:7] or "by") in said
 
 
 @pytest.mark.parametrize("code", ["en", "de", "it"])
 def test_no_word_is_printed_over_another_whatever_the_language(tmp_path: Path, code: str) -> None:
-    said = session_report(session(), language=code)
+    said = build_session_report(session(), language=code)
     pauses = {"pauses": 1.2, "pause time": 10.2}
-    rows = [replace(row, mean=pauses.get(row.what, row.mean)) for row in said.figures.measures]
-    said = replace(said, figures=replace(said.figures, measures=tuple(rows)))
+    rows = [replace(row, mean=pauses.get(row.quantity, row.mean)) for row in said.results.measures]
+    said = replace(said, figures=replace(said.results, measures=tuple(rows)))
     assert overlapping_words(write_session_report(said, tmp_path / "x.pdf")) == []
 
 
 @pytest.mark.parametrize("paper", PAPERS)
 def test_the_preview_shows_the_lines_and_places_of_the_pdf(qapp: QApplication, tmp_path: Path, paper: Paper) -> None:
     """Of the hardest page: many warnings, in German."""
-    made = session_report(session(), language="de", form=ReportForm(paper=paper), comment="Schiene nachts.")
+    made = build_session_report(session(), language="de", form=ReportForm(paper=paper), comment="Schiene nachts.")
     names = session().header.protocol.markers
     findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in names)
-    made = replace(made, figures=replace(made.figures, findings=findings, simulated=True))
+    made = replace(made, figures=replace(made.results, findings=findings, simulated=True))
     page = pages_of_report(made)[0]
     width = 1200
     preview = QImage(width, round(width * page.size_pt[1] / page.size_pt[0]), QImage.Format.Format_Grayscale8)

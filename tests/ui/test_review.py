@@ -13,11 +13,17 @@ from carpus.core.records.values import SessionEntry
 from carpus.core.results.progress import Progress
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.numbers import day_beside, day_month, report_date, since, time_beside
-from carpus.ui.plot.course import panels_of
-from carpus.ui.plot.export import picture
+from carpus.ui.numbers import (
+    format_date_time,
+    format_day_month,
+    format_distinct_day,
+    format_distinct_time,
+    format_time_or_day,
+)
+from carpus.ui.plot.course import panel_keys
+from carpus.ui.plot.export import render_image
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.review.card import ResultChoice
+from carpus.ui.review.card import VersionChoice
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from carpus.ui.words.progress import headline
@@ -38,120 +44,120 @@ def screen(review: Reviewing, store: FakeSessions) -> ReviewScreen:
 
 def test_keys_and_mouse_go_to_pictures_and_repetitions(qtbot: QtBot, screen: ReviewScreen) -> None:
     playing = screen.playing
-    playing.seek(10.0)
+    playing.set_time(10.0)
     before = playing.time_s
     qtbot.keyClick(screen, Qt.Key.Key_Right)
     assert playing.time_s - before == pytest.approx(1 / 30, abs=0.02)
     qtbot.keyClick(screen, Qt.Key.Key_Left)
     assert playing.time_s == pytest.approx(before, abs=0.02)
-    playing.seek(5.0)
+    playing.set_time(5.0)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
     qtbot.waitUntil(lambda: playing.time_s > 5.1)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
     stopped = playing.time_s
-    qtbot.waitUntil(lambda: not screen.picture.reader.busy)
+    qtbot.waitUntil(lambda: not screen.frame_view.reader.is_busy)
     assert playing.time_s == stopped
     panel = screen.charts.curves.panels()[1][0]
     spot = QPoint(round(float(panel.x(40.0))), round(panel.box.center().y()))
-    qtbot.mouseClick(screen.charts.curves.face, Qt.MouseButton.LeftButton, pos=spot)
+    qtbot.mouseClick(screen.charts.curves.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
     assert playing.time_s == pytest.approx(40.0, abs=0.2)
-    screen.go_to_repetition(0)
+    screen.select_repetition(0)
     for _ in range(2):
         qtbot.keyClick(screen, Qt.Key.Key_BracketRight)
     assert screen.current == 2
-    assert playing.time_s == pytest.approx(screen.figures.repetitions[2].start_s)
+    assert playing.time_s == pytest.approx(screen.results.repetitions[2].start_s)
     qtbot.keyClick(screen, Qt.Key.Key_BracketLeft)
     assert screen.current == 1
 
 
 def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
-    qtbot.mouseClick(screen.card.count_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].not_counted)
-    assert screen.figures.not_counted
-    assert screen.card.count_button.text() == "Let it count again"
-    screen.toggle_left_out()
-    screen._leave_out(screen.current + 1, "pain", and_after=False)
-    assert screen.figures.not_counted, "other corrections leave it"
-    qtbot.mouseClick(screen.card.count_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: not store.kept["session-7"].not_counted)
-    assert not screen.figures.not_counted
-    assert screen.figures.repetitions[screen.current].reason == "pain"
+    qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].is_session_excluded)
+    assert screen.results.is_excluded
+    assert screen.card.include_button.text() == "Let it count again"
+    screen.toggle_excluded()
+    screen._exclude_repetition(screen.current + 1, "pain", and_after=False)
+    assert screen.results.is_excluded, "other corrections leave it"
+    qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not store.kept["session-7"].is_session_excluded)
+    assert not screen.results.is_excluded
+    assert screen.results.repetitions[screen.current].exclusion_reason == "pain"
 
 
 def test_the_card_has_figures_beside_others_notes_pain_and_when_it_was_stored(screen: ReviewScreen) -> None:
-    movement, *_, other_hand, _, last, change = (cell.text for cell in screen.card.tables.range.rows[0])
+    movement, *_, other_hand, _, last, change = (cell.text for cell in screen.card.tables.range_table.rows[0])
     assert movement == "Whole arc"
     assert last.endswith("°")
     assert other_hand.endswith("°")
     assert "within measurement error (14°)" in change
-    figures, notes = screen.figures, screen.card.tables.notes
+    figures, notes = screen.results, screen.card.tables.notes
     assert figures.notes
-    assert figures.pain
-    assert f"Pain (0–10): {', '.join(map(str, figures.pain))}" in notes.text()
+    assert figures.pain_scores
+    assert f"Pain (0–10): {', '.join(map(str, figures.pain_scores))}" in notes.text()
     assert all(text in notes.text() for _, text in figures.notes)
     assert notes.isVisible()
-    assert (screen.reviewed.saved_at - figures.when).total_seconds() == pytest.approx(figures.duration_s)
+    assert (screen.reviewed.end_time - figures.when).total_seconds() == pytest.approx(figures.duration_s)
 
 
 def test_a_session_that_cannot_be_read_is_said_to_be_so_and_another_one_can_be(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
     gone = store.sessions.pop("session-6")
-    with qtbot.waitSignal(screen.told) as told:
-        screen.begin("linden", "session-6")
+    with qtbot.waitSignal(screen.fault_raised) as told:
+        screen.load_session("linden", "session-6")
     assert isinstance(told.args[0], KeyError)
-    assert screen.picture.empty_words == "This session cannot be read. Go back, or choose another one."
-    assert not screen.shown
+    assert screen.frame_view.empty_text == "This session cannot be read. Go back, or choose another one."
+    assert not screen.is_loaded
     store.sessions["session-6"] = gone
-    screen.begin("linden", "session-6")
-    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+    screen.load_session("linden", "session-6")
+    qtbot.waitUntil(lambda: screen.is_loaded and screen.frame_view.image is not None)
 
 
 def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
-    screen.go_to_repetition(3)
+    screen.select_repetition(3)
     qtbot.keyClick(screen, Qt.Key.Key_X)
-    assert screen.reason.isVisible()
-    screen.reason.buttons[0].click()
+    assert screen.exclusion_dialog.isVisible()
+    screen.exclusion_dialog.reason_buttons[0].click()
     qtbot.waitUntil(lambda: "session-7" in store.kept)
-    assert store.kept["session-7"].left_out == {3: "pain"}
-    assert "number 4 left out: pain" in screen.card.count.text()
-    assert "mean of 8 repetitions" in screen.card.count.text()
-    screen.go_to_repetition(3)
+    assert store.kept["session-7"].excluded == {3: "pain"}
+    assert "number 4 left out: pain" in screen.card.count_text.text()
+    assert "mean of 8 repetitions" in screen.card.count_text.text()
+    screen.select_repetition(3)
     qtbot.keyClick(screen, Qt.Key.Key_X)
-    qtbot.waitUntil(lambda: not store.kept["session-7"].left_out)
-    assert "mean of 9 repetitions" in screen.card.count.text()
-    screen.go_to_repetition(7)
-    qtbot.mouseClick(screen.player.repetition, Qt.MouseButton.LeftButton)
-    assert screen.reason.isVisible()
-    qtbot.mouseClick(screen.reason.passive_on, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: bool(store.kept["session-7"].left_out))
-    assert set(store.kept["session-7"].left_out.items()) >= {(7, "passive"), (8, "passive")}
-    assert screen.card.count.text().startswith("mean of 7 repetitions; 2 passive beside it")
-    assert screen.card.tables.ways.isVisible()
-    assert [row[0].text for row in screen.card.tables.ways.rows] == ["Whole arc", "Flexion", "Extension"]
-    screen.go_to_repetition(7)
+    qtbot.waitUntil(lambda: not store.kept["session-7"].excluded)
+    assert "mean of 9 repetitions" in screen.card.count_text.text()
+    screen.select_repetition(7)
+    qtbot.mouseClick(screen.player.repetition_button, Qt.MouseButton.LeftButton)
+    assert screen.exclusion_dialog.isVisible()
+    qtbot.mouseClick(screen.exclusion_dialog.passive_onwards_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(store.kept["session-7"].excluded))
+    assert set(store.kept["session-7"].excluded.items()) >= {(7, "passive"), (8, "passive")}
+    assert screen.card.count_text.text().startswith("mean of 7 repetitions; 2 passive beside it")
+    assert screen.card.tables.passive_table.isVisible()
+    assert [row[0].text for row in screen.card.tables.passive_table.rows] == ["Whole arc", "Flexion", "Extension"]
+    screen.select_repetition(7)
     qtbot.keyClick(screen, Qt.Key.Key_X)
-    qtbot.waitUntil(lambda: store.kept["session-7"].left_out[7] == "")
-    assert screen.figures.repetitions[7].counts
+    qtbot.waitUntil(lambda: store.kept["session-7"].excluded[7] == "")
+    assert screen.results.repetitions[7].is_counted
 
 
 def test_the_edges_of_a_repetition_are_moved_by_keys_and_dragged_by_mouse(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
-    screen.go_to_repetition(2)
-    before = screen.figures.repetitions[2]
+    screen.select_repetition(2)
+    before = screen.results.repetitions[2]
     qtbot.keyClick(screen, Qt.Key.Key_Period)  # the nearer edge
-    after = screen.figures.repetitions[2]
+    after = screen.results.repetitions[2]
     assert after.start_s == pytest.approx(before.start_s + 0.1)
     assert after.end_s == before.end_s
     qtbot.waitUntil(lambda: "session-7" in store.kept)
     panel = screen.charts.curves.panels()[0][0]
     start = QPoint(round(float(panel.x(after.end_s))), round(panel.box.center().y()))
-    drag(qtbot, screen.charts.curves.face, QPointF(start), -12)
-    assert screen.figures.repetitions[2].end_s < after.end_s - 0.5
-    assert screen.figures.repetitions[2].start_s == after.start_s
+    drag(qtbot, screen.charts.curves.mouse_target, QPointF(start), -12)
+    assert screen.results.repetitions[2].end_s < after.end_s - 0.5
+    assert screen.results.repetitions[2].start_s == after.start_s
 
 
 def test_without_pictures_the_marks_are_still_shown(review: Reviewing) -> None:
@@ -162,18 +168,18 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     qtbot: QtBot, theme: Theme, show: Show[ProgressScreen], store: FakeSessions, background: Background
 ) -> None:
     screen = show(ProgressScreen(theme, background, store))
-    screen.begin("linden", "session-7")
+    screen.load_patient("linden", "session-7")
     qtbot.waitUntil(lambda: len(screen.progress.points) == 7)
-    assert screen.answer.text().startswith("The whole arc has improved by")
-    assert [point.fair for point in screen.progress.points].count(False) == 1
-    assert panels_of(screen.progress)[0][1] == "arc"
-    assert screen.exercise.count() == 2
-    with qtbot.waitSignal(screen.report) as asked:
+    assert screen.answer_text.text().startswith("The whole arc has improved by")
+    assert [point.is_comparable for point in screen.progress.points].count(False) == 1
+    assert panel_keys(screen.progress)[0][1] == "arc"
+    assert screen.exercise_choice.count() == 2
+    with qtbot.waitSignal(screen.report_requested) as asked:
         screen.report_button.click()
     assert len(asked.args[0]) == 7
-    assert not picture(screen.chart).isNull()
-    screen.exercise.setCurrentIndex(1 - screen.exercise.currentIndex())
-    assert screen.answer.text() == "One session does not make a course."
+    assert not render_image(screen.chart).isNull()
+    screen.exercise_choice.setCurrentIndex(1 - screen.exercise_choice.currentIndex())
+    assert screen.answer_text.text() == "One session does not make a course."
 
 
 def test_progress_of_nobody_says_so() -> None:
@@ -183,44 +189,48 @@ def test_progress_of_nobody_says_so() -> None:
 def test_of_the_session_before_nothing_is_seen_while_another_is_read(qtbot: QtBot, screen: ReviewScreen) -> None:
     """It may be another patient's."""
     card, places = screen.card, (screen.card.tables.geometry(), screen.card.report_button.geometry())
-    shown = (card.title, card.count, card.tables)
-    acts = (card.count_button, card.export_button, card.report_button, card.beside_button)
+    shown = (card.title, card.count_text, card.tables)
+    acts = (card.include_button, card.export_button, card.report_button, card.compare_button)
     assert all(widget.isVisible() for widget in shown)
-    screen.toggle_left_out()
-    assert screen.reason.isVisible()
-    screen.begin("linden", "session-6", whole_hand=False)
+    screen.toggle_excluded()
+    assert screen.exclusion_dialog.isVisible()
+    screen.load_session("linden", "session-6", whole_hand=False)
     assert screen.reviewed is None
-    assert not screen.reason.isVisible()
+    assert not screen.exclusion_dialog.isVisible()
     assert not any(widget.isVisible() for widget in shown)
     assert not any(button.isEnabled() for button in acts)
     assert "00:00" in screen.player.time.text()
     assert (card.tables.geometry(), card.report_button.geometry()) == places, "nothing jumps"
-    qtbot.waitUntil(lambda: screen.shown)
+    qtbot.waitUntil(lambda: screen.is_loaded)
     assert all(widget.isVisible() for widget in shown)
     assert all(button.isEnabled() for button in acts[:3])
 
 
 def test_what_is_asked_about_is_what_is_left_out_however_far_it_plays(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.go_to_repetition(1)
+    screen.select_repetition(1)
     screen.playing.toggle()
-    screen.toggle_left_out()
+    screen.toggle_excluded()
     at_s = screen.playing.time_s
     qtbot.wait(200)
     assert screen.playing.time_s == at_s, "nothing plays on behind the question"
-    screen.playing.seek(screen.figures.repetitions[3].start_s + 0.1)
-    screen.reason.buttons[0].click()
-    assert [one.reason for one in screen.figures.repetitions[:5]] == ["", "pain", "", "", ""]
+    screen.playing.set_time(screen.results.repetitions[3].start_s + 0.1)
+    screen.exclusion_dialog.reason_buttons[0].click()
+    assert [one.exclusion_reason for one in screen.results.repetitions[:5]] == ["", "pain", "", "", ""]
 
 
 def test_sessions_of_one_day_are_told_apart_by_their_time_and_of_one_minute_by_their_second() -> None:
     first, second, third = (datetime(2026, 11, 21, *at) for at in ((9, 5, 7), (15, 29), (9, 5, 41)))
-    assert day_beside(first, second) == f"{day_month(first)}, 09:05"
-    assert day_beside(first, first) == day_beside(first, datetime(2026, 11, 20, 9, 5)) == day_month(first)
-    assert day_beside(first, third) == f"{day_month(first)}, 09:05:07"
-    assert since(first, third) == "09:05:07"
-    assert (since(first, second), since(first, datetime(2026, 11, 22))) == ("09:05", "21 Nov")
-    assert report_date(third, first) == f"{report_date(third)}:41"
-    assert time_beside(first, first, datetime(2025, 11, 21, 9, 5, 41)) == "09:05"
+    assert format_distinct_day(first, second) == f"{format_day_month(first)}, 09:05"
+    assert (
+        format_distinct_day(first, first)
+        == format_distinct_day(first, datetime(2026, 11, 20, 9, 5))
+        == format_day_month(first)
+    )
+    assert format_distinct_day(first, third) == f"{format_day_month(first)}, 09:05:07"
+    assert format_time_or_day(first, third) == "09:05:07"
+    assert (format_time_or_day(first, second), format_time_or_day(first, datetime(2026, 11, 22))) == ("09:05", "21 Nov")
+    assert format_date_time(third, first) == f"{format_date_time(third)}:41"
+    assert format_distinct_time(first, first, datetime(2025, 11, 21, 9, 5, 41)) == "09:05"
 
 
 class Unwritten(datetime):
@@ -232,7 +242,7 @@ class Unwritten(datetime):
 
 def test_only_the_session_that_is_told_from_the_others_is_put_in_words() -> None:
     first, others = datetime(2026, 11, 21, 9, 5, 7), (Unwritten(2026, 11, 21, 9, 5, 41), Unwritten(2026, 11, 20, 9, 5))
-    assert time_beside(first, *others) == "09:05:07"
+    assert format_distinct_time(first, *others) == "09:05:07"
 
 
 def results(*made: datetime) -> list[SessionEntry]:
@@ -251,21 +261,21 @@ def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: Revie
         ("session-7", {"session-6": "somebody else"}, False),
     ):
         store.owners = owners
-        screen.begin("linden", session_id)
-        qtbot.waitUntil(lambda: screen.shown)
-        assert screen.card.count.text().startswith("older result, does not count") is is_older
+        screen.load_session("linden", session_id)
+        qtbot.waitUntil(lambda: screen.is_loaded)
+        assert screen.card.count_text.text().startswith("older result, does not count") is is_older
 
 
 def test_an_older_result_is_told_by_its_time_and_can_count_again(
-    qtbot: QtBot, theme: Theme, show: Show[ResultChoice]
+    qtbot: QtBot, theme: Theme, show: Show[VersionChoice]
 ) -> None:
-    choice, both = show(ResultChoice(theme)), results(datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29))
-    choice.show_results(both, "session-6")
+    choice, both = show(VersionChoice(theme)), results(datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29))
+    choice.show_versions(both, "session-6")
     assert [button.text() for button in choice.buttons] == ["1 · 21 Nov, 09:05", "2 · 21 Nov, 15:29, counts"]
     assert len(choice.findChildren(Button)) == 2, "what counts needs no button to count"
-    choice.show_results(both, "session-7")
+    choice.show_versions(both, "session-7")
     again = next(one for one in choice.findChildren(Button) if one.text() == "Let this one count")
-    with qtbot.waitSignal(choice.wanted) as asked:
+    with qtbot.waitSignal(choice.restore_requested) as asked:
         again.click()
     assert asked.args == ["session-7"]
     assert not again.isEnabled(), "a second click would make a second one"

@@ -16,18 +16,18 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES, joint_angle_names
-from carpus.core.results.figures import session_figures
-from carpus.core.results.seen import joint_curves, session_curves
+from carpus.core.results.figures import compute_session_results
+from carpus.core.results.seen import joint_curves, wrist_curves
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
-from carpus.ui.figures import Figure
-from carpus.ui.picture.view import PictureView
-from carpus.ui.playback.pictures import GROUND, modelled_px, paint_trails
+from carpus.ui.figures import FingerAngle
+from carpus.ui.picture.view import FrameView
+from carpus.ui.playback.pictures import BLANK_GREY, paint_trails, project_markers
 from carpus.ui.plot.chart import ChartText
-from carpus.ui.plot.session import HandPlot, SessionChart, joint_at
+from carpus.ui.plot.session import HandPlot, SessionChart, read_joint_angle
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
-from carpus.ui.words.fingers import COLUMNS, limits_words
+from carpus.ui.words.fingers import COLUMNS, limitation_words
 from tests.ui.conftest import Reviewing, Show
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.test_plots import wheel
@@ -54,7 +54,7 @@ def test_every_finger_has_a_panel_and_a_chosen_one_two_and_the_wrist_three(scree
     assert len(curves.panels()) == 5
     buttons[4].click()
     bending, spreading = curves.panels()
-    assert {figure.joint for figure in plot_of(screen).figures(1)} == {"MCP4_abduction"}
+    assert {figure.joint for figure in plot_of(screen).panel_angles(1)} == {"MCP4_abduction"}
     assert bending[0].box.height() == pytest.approx(2 * spreading[0].box.height(), abs=1.0)
     buttons[-1].click()
     assert not isinstance(curves._plot, HandPlot)
@@ -67,47 +67,49 @@ def test_a_curve_is_dashed_where_its_discs_were_hidden_and_open_where_the_hand_w
     screen: ReviewScreen, store: FakeHandSessions
 ) -> None:
     session, plot = store.session("hand-7"), plot_of(screen)
-    series = plot.joint_series(Figure(3, "middle"))
+    series = plot.joint_series(FingerAngle(3, "middle"))
     at = SITES.index("PIP3")
     known = np.isfinite(session.markers.measured_px[:, [at, at + 1], 0]).all(axis=1)
     value = np.isfinite(series.value)
     assert (~known & value).any()
     assert np.array_equal(series.predicted[value], ~known[value])
-    series = plot.joint_series(Figure(2, "knuckle"))
+    series = plot.joint_series(FingerAngle(2, "knuckle"))
     assert any(start < 31.5 < end for start, end in series.gaps_s())
-    assert math.isnan(joint_at(plot, Figure(2, "knuckle"), 31.5)[0])
-    value_deg, _, hidden = joint_at(plot, Figure(3, "end"), 1.0)
+    assert math.isnan(read_joint_angle(plot, FingerAngle(2, "knuckle"), 31.5)[0])
+    value_deg, _, hidden = read_joint_angle(plot, FingerAngle(3, "end"), 1.0)
     assert hidden, "an end joint without measurement of its own is never seen"
-    assert value_deg == pytest.approx(2.0 / 3.0 * joint_at(plot, Figure(3, "middle"), 1.0)[0])
+    assert value_deg == pytest.approx(2.0 / 3.0 * read_joint_angle(plot, FingerAngle(3, "middle"), 1.0)[0])
 
 
 def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
     tables, at_least = screen.card.tables, []
-    assert len(tables.hand.rows) == 5
-    for finger, row in enumerate(tables.hand.rows, 1):
+    assert len(tables.hand_table.rows) == 5
+    for finger, row in enumerate(tables.hand_table.rows, 1):
         for column, cell in zip(COLUMNS, row[1 : 1 + len(COLUMNS)], strict=True):
-            found = screen.figures.find(Figure(finger, column).joint, "arc")
+            found = screen.results.find(FingerAngle(finger, column).joint, "arc")
             at_least.append("≥" in cell.text)
-            assert at_least[-1] == (found is not None and found.at_least and found.count > 0)
-    assert ("camera’s view" in limits_words(screen.figures)) == any(at_least)
-    assert "DIP not measured" in tables.limits.text()
-    assert tables.further.rows
-    tops = [part.y() for part in (tables.hand, tables.limits, tables.notes, tables.further.parentWidget())]
+            assert at_least[-1] == (found is not None and found.is_lower_bound and found.count > 0)
+    assert ("camera’s view" in limitation_words(screen.results)) == any(at_least)
+    assert "DIP not measured" in tables.limitations.text()
+    assert tables.task_table.rows
+    tops = [
+        part.y() for part in (tables.hand_table, tables.limitations, tables.notes, tables.task_table.parentWidget())
+    ]
     assert tops == sorted(tops), "what explains the table stands right under it"
 
 
 def test_space_plays_with_a_finger_chosen_and_curves_and_number_keep_step(qtbot: QtBot, screen: ReviewScreen) -> None:
     qtbot.mouseClick(screen.charts.finger.buttons()[2], Qt.MouseButton.LeftButton)
-    screen.playing.seek(4.0)
+    screen.playing.set_time(4.0)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
     qtbot.waitUntil(lambda: screen.playing.time_s > 4.1)
     assert screen.charts.curves._time_s == screen.playing.time_s
     qtbot.keyClick(screen, Qt.Key.Key_Space)
-    first, *_, last = repetitions = screen.reviewed.figures.repetitions
+    first, *_, last = repetitions = screen.reviewed.results.repetitions
     assert len(repetitions) >= 7, "of the eight that were made, one may end with the recording"
     for time_s, words in ((first.start_s + 0.5, f"Repetition 1 of {len(repetitions)} · "), (last.end_s + 0.3, "")):
-        screen.playing.seek(time_s)
-        said = screen.picture._clock_words(screen.reviewed)
+        screen.playing.set_time(time_s)
+        said = screen.frame_view._clock_words(screen.reviewed)
         assert said.startswith(words) if words else "Repetition" not in said
 
 
@@ -116,7 +118,7 @@ def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -
         assert SITES[SITE_CHAINS[finger - 1][0]] == "WRIST"
         assert SITES[SITE_CHAINS[finger - 1][-1]] == f"TIP{finger}"
     session = store.session("hand-7")
-    places = modelled_px(session.camera, session.markers.position_cam_m)
+    places = project_markers(session.camera, session.markers.position_cam_m)
     seen = np.isfinite(session.markers.measured_px)
     assert np.abs(places - session.markers.measured_px)[seen].max() < 2.0
     assert np.isnan(places[session.status == 2]).all()
@@ -137,14 +139,14 @@ def test_the_places_are_final_before_the_session_is_read(
 
     def places() -> list[QRect]:
         QApplication.processEvents()
-        parts = (screen.picture, screen.charts.curves, screen.card.tables, screen.charts.finger, screen.player)
+        parts = (screen.frame_view, screen.charts.curves, screen.card.tables, screen.charts.finger, screen.player)
         return [QRect(part.mapTo(screen, part.rect().topLeft()), part.size()) for part in parts]
 
-    screen.begin("linden", "hand-7", whole_hand=True)
+    screen.load_session("linden", "hand-7", whole_hand=True)
     before = places()
-    assert not screen.shown
+    assert not screen.is_loaded
     may_read.set()
-    qtbot.waitUntil(lambda: screen.shown and not background.busy)
+    qtbot.waitUntil(lambda: screen.is_loaded and not background.is_busy)
     assert places() == before
     screen.playing.stop()
 
@@ -160,35 +162,35 @@ def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repeti
     qtbot: QtBot, screen: ReviewScreen
 ) -> None:
     curves = screen.charts.curves
-    whole = plot_of(screen).shown_s
+    whole = plot_of(screen).visible_s
     assert whole == (0.0, plot_of(screen).end_s)
     box = curves.panels()[0][0].box
     at = QPointF(round(box.left() + 0.25 * box.width()), round(box.center().y()))
     time_s = curves.to_time(at.x())
     for _ in range(4):
-        wheel(curves.face, at, 120, Qt.KeyboardModifier.ControlModifier)
-    start_s, end_s = plot_of(screen).shown_s
+        wheel(curves.mouse_target, at, 120, Qt.KeyboardModifier.ControlModifier)
+    start_s, end_s = plot_of(screen).visible_s
     assert end_s - start_s == pytest.approx((whole[1] - whole[0]) / 1.25**4)
     assert curves.to_time(at.x()) == pytest.approx(time_s)
-    screen.playing.seek(whole[1] - 0.5)  # what is shown follows the cursor
-    assert plot_of(screen).shown_s[1] == pytest.approx(whole[1])
+    screen.playing.set_time(whole[1] - 0.5)  # what is shown follows the cursor
+    assert plot_of(screen).visible_s[1] == pytest.approx(whole[1])
     for _ in range(30):
-        wheel(curves.face, at, -120, Qt.KeyboardModifier.ControlModifier)
+        wheel(curves.mouse_target, at, -120, Qt.KeyboardModifier.ControlModifier)
     assert plot_of(screen).window_s is None
-    double_click(qtbot, curves.face, at)
+    double_click(qtbot, curves.mouse_target, at)
     repetitions = plot_of(screen).repetitions
-    start_s, end_s = plot_of(screen).shown_s
+    start_s, end_s = plot_of(screen).visible_s
     assert 0.0 <= start_s <= repetitions[0].start_s
     assert repetitions[-1].end_s <= end_s <= whole[1]
-    assert plot_of(screen).shown_s == plot_of(screen).repetitions_s
-    double_click(qtbot, curves.face, at)
-    assert plot_of(screen).shown_s == whole
+    assert plot_of(screen).visible_s == plot_of(screen).repetition_span_s
+    double_click(qtbot, curves.mouse_target, at)
+    assert plot_of(screen).visible_s == whole
 
 
 def test_numbers_beside_the_curves_never_overlap_also_with_end_joints_of_their_own(qtbot: QtBot, theme: Theme) -> None:
     session = free_ends(hand_session())
-    figures = session_figures(session)
-    plot = HandPlot(session_curves(session), figures.exercise, figures.repetitions, joints=joint_curves(session))
+    figures = compute_session_results(session)
+    plot = HandPlot(wrist_curves(session), figures.exercise, figures.repetitions, joints=joint_curves(session))
     chart = SessionChart(theme)
     qtbot.addWidget(chart)
     chart.show_plot(plot)
@@ -215,7 +217,7 @@ def free_ends(session: Session) -> Session:
     return replace(session, motion=motion, header=replace(session.header, joint_names=free))
 
 
-@pytest.mark.parametrize("ground", [GROUND, 255])
+@pytest.mark.parametrize("ground", [BLANK_GREY, 255])
 def test_the_way_of_a_fingertip_is_no_bone_but_dots_that_fade(ground: int) -> None:
     ways = np.full((30, len(HAND21.markers), 2), np.nan)
     ways[:, HAND21.chains[3][-1]] = np.stack((np.arange(30) * 10.0 + 5.0, np.full(30, 10.0)), axis=1)
@@ -224,7 +226,7 @@ def test_the_way_of_a_fingertip_is_no_bone_but_dots_that_fade(ground: int) -> No
     drawn = QImage(300, 20, QImage.Format.Format_RGB32)
     drawn.fill(QColor(ground, ground, ground))
     painter = QPainter(drawn)
-    paint_trails(painter, cast("PictureView", SimpleNamespace(to_screen=QPointF)), HAND21, ways, seen, 3)
+    paint_trails(painter, cast("FrameView", SimpleNamespace(to_screen=QPointF)), HAND21, ways, seen, 3)
     painter.end()
     grey = np.array([[[qGray(drawn.pixel(10 * n + x, y)) for x in range(10)] for y in range(20)] for n in range(30)])
     contrast = np.ptp(grey, axis=(1, 2))

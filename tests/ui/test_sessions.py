@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from carpus.ui.background import Background
 from carpus.ui.fonts import MEDIUM, font
 from carpus.ui.sessions import listing
-from carpus.ui.sessions.listing import cells
+from carpus.ui.sessions.listing import row_cells
 from carpus.ui.sessions.screen import SessionsScreen
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
@@ -27,26 +27,26 @@ def screen(
     qtbot: QtBot, theme: Theme, show: Show[SessionsScreen], background: Background, sessions: FakeStoredSessions
 ) -> SessionsScreen:
     screen = show(SessionsScreen(theme, background, sessions))
-    screen.begin("linden", "Linden 42", "s1")
-    qtbot.waitUntil(lambda: all(line.figure or line.damaged for line in screen.list.rows.lines))
+    screen.show_patient("linden", "Linden 42", "s1")
+    qtbot.waitUntil(lambda: all(line.main_value or line.is_damaged for line in screen.list.session_model.lines))
     return screen
 
 
 def chosen(screen: SessionsScreen) -> str:
-    line = screen.chosen()
+    line = screen.current_line()
     return line.entry.session_id
 
 
 def test_any_session_is_opened_by_enter_or_double_click(qtbot: QtBot, screen: SessionsScreen) -> None:
     opened: list[str] = []
-    screen.opened.connect(opened.append)
+    screen.open_requested.connect(opened.append)
     assert chosen(screen) == "s1"
-    assert "Flexion 54°" in screen.figure.text()
+    assert "Flexion 54°" in screen.value_text.text()
     screen.list.setFocus()
     qtbot.keyClick(screen.list, Qt.Key.Key_Down)
     qtbot.keyClick(screen.list, Qt.Key.Key_Return)
     assert opened == ["s2"]
-    screen.list.setCurrentIndex(screen.list.rows.index(4))
+    screen.list.setCurrentIndex(screen.list.session_model.index(4))
     assert not screen.open_button.isEnabled()
     qtbot.keyClick(screen.list, Qt.Key.Key_Return)
     assert opened == ["s2"], "a damaged file is not opened"
@@ -55,14 +55,14 @@ def test_any_session_is_opened_by_enter_or_double_click(qtbot: QtBot, screen: Se
 def test_a_session_is_set_aside_with_a_reason_and_taken_back(
     qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
 ) -> None:
-    screen.aside_button.click()
-    screen.aside_sheet.line.setText("splint on")
-    qtbot.keyClick(screen.aside_sheet.line, Qt.Key.Key_Return)
+    screen.exclude_button.click()
+    screen.exclude_dialog.reason_field.setText("splint on")
+    qtbot.keyClick(screen.exclude_dialog.reason_field, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: sessions.done == [("aside", "s1", "splint on")])
-    qtbot.waitUntil(lambda: "splint on" in screen.remark.text())
-    assert cells(screen.list.rows.lines[1])[4] == "set aside: splint on"
+    qtbot.waitUntil(lambda: "splint on" in screen.remark_text.text())
+    assert row_cells(screen.list.session_model.lines[1])[4] == "set aside: splint on"
     assert chosen(screen) == "s1"
-    screen.aside_button.click()
+    screen.exclude_button.click()
     qtbot.waitUntil(lambda: sessions.done[-1] == ("aside", "s1", ""))
 
 
@@ -70,36 +70,38 @@ def test_a_session_is_renamed_moved_and_deleted(
     qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
 ) -> None:
     wanted: list[str] = []
-    screen.erase_wanted.connect(wanted.append)
-    screen.erase_button.click()
+    screen.delete_requested.connect(wanted.append)
+    screen.delete_button.click()
     screen.list.setFocus()
     qtbot.keyClick(screen.list, Qt.Key.Key_Delete)
     assert wanted == ["s1", "s1"], "it is asked for by button and key"
     screen.rename_button.click()
-    offered = {screen.rename_sheet.box.itemData(row) for row in range(screen.rename_sheet.box.count())}
+    offered = {
+        screen.exercise_dialog.choice_field.itemData(row) for row in range(screen.exercise_dialog.choice_field.count())
+    }
     assert "WRIST_RU" in offered
     assert not offered & {"WRIST_FE", "FIST_COMPOSITE"}, "only exercises with the same discs"
-    screen.rename_sheet.box.setCurrentIndex(screen.rename_sheet.box.findData("WRIST_RU"))
-    screen.rename_sheet.take.click()
+    screen.exercise_dialog.choice_field.setCurrentIndex(screen.exercise_dialog.choice_field.findData("WRIST_RU"))
+    screen.exercise_dialog.accept_button.click()
     qtbot.waitUntil(lambda: sessions.done == [("rename", "s1", "WRIST_RU")])
     screen.move_button.click()
-    screen.move_sheet.box.setCurrentIndex(1)
-    screen.move_sheet.take.click()
+    screen.move_dialog.choice_field.setCurrentIndex(1)
+    screen.move_dialog.accept_button.click()
     qtbot.waitUntil(lambda: sessions.done[-1] == ("move", "s1", "alder"))
-    qtbot.waitUntil(lambda: screen.list.rows.find("s1") < 0)
+    qtbot.waitUntil(lambda: screen.list.session_model.find_row("s1") < 0)
 
 
 def test_a_patient_without_a_session_is_told_so(
     theme: Theme, show: Show[SessionsScreen], background: Background
 ) -> None:
     screen = show(SessionsScreen(theme, background, FakeStoredSessions(0)))
-    screen.begin("fir", "Fir 12")
-    assert screen.none.isVisible()
+    screen.show_patient("fir", "Fir 12")
+    assert screen.empty_text.isVisible()
     assert not screen.open_button.isVisible()
 
 
 def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: QtBot) -> None:
-    rooms = listing._rooms(QRectF(0, 0, 846, listing.ROW_PX), theme, remarked=True)
+    rooms = listing._cell_boxes(QRectF(0, 0, 846, listing.ROW_PX), theme, has_remark=True)
     metrics = QFontMetricsF(font(14, MEDIUM))
     for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "does not count: simulated")):
         assert metrics.elidedText(text, Qt.TextElideMode.ElideRight, rooms[number].width()) == text
@@ -107,7 +109,7 @@ def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: Qt
 
 def test_a_figure_without_room_loses_letters_of_its_name_but_no_sign(theme: Theme) -> None:
     metrics = QFontMetricsF(font(16, MEDIUM))
-    shown = listing.cut_figure("Supination −50° ± 1°", metrics, metrics.horizontalAdvance("Supination −50°"))
+    shown = listing.elide_value("Supination −50° ± 1°", metrics, metrics.horizontalAdvance("Supination −50°"))
     assert shown.startswith("Sup")
     assert shown.endswith("… −50° ± 1°")
     assert metrics.horizontalAdvance(shown) <= metrics.horizontalAdvance("Supination −50°")

@@ -14,32 +14,32 @@ from PySide6.QtWidgets import QApplication, QPushButton, QScrollArea, QVBoxLayou
 from pytestqt.qtbot import QtBot
 
 from carpus.core.version import __version__
-from carpus.core.words import Words
+from carpus.core.words import MessageText
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import in_column
+from carpus.ui.controls.field import ChoiceRow
+from carpus.ui.controls.layouts import column_layout
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.flow import Navigator
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
 from carpus.ui.keys import KEYS, action_words
-from carpus.ui.messages.messages import Answer, StopCard
+from carpus.ui.messages.messages import Answer, MessageDialog
 from carpus.ui.ports import Preferences
-from carpus.ui.report.gather import session_report
+from carpus.ui.report.gather import build_session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.settings.screen import SettingsScreen
-from carpus.ui.shell import FocusRing, Shell
+from carpus.ui.shell import FocusRing, MainWindow
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeSessions
 
 Settings = Callable[..., tuple[SettingsScreen, list[Preferences]]]
-WORDS = Words("The camera was unplugged.", "Your data are safe.", "Plug the camera in again.")
+WORDS = MessageText("The camera was unplugged.", "Your data are safe.", "Plug the camera in again.")
 
 
 @pytest.fixture
-def shell(theme: Theme, show: Show[Shell]) -> Shell:
-    return show(Shell(theme), active=True)
+def shell(theme: Theme, show: Show[MainWindow]) -> MainWindow:
+    return show(MainWindow(theme), active=True)
 
 
 @pytest.fixture
@@ -57,18 +57,18 @@ def settings(theme: Theme, show: Show[SettingsScreen]) -> Settings:
 def test_settings_that_are_not_offered_stay_when_another_is_chosen(settings: Settings) -> None:
     by_hand = {"text_scale": 1.2, "language": "fr", "therapist": "Initials of many"}
     screen, told = settings(**by_hand)
-    screen.chosen["research"].click()
+    screen.form["research"].click()
     assert told == [Preferences(research=True, **by_hand)]
-    screen.keep_language("fr", "not now")
-    screen.chosen["text_scale"].buttons()[2].click()
+    screen.revert_language("fr", "not now")
+    screen.form["text_scale"].buttons()[2].click()
     assert told[-1] == Preferences(research=True, **by_hand | {"text_scale": 1.5})
 
 
 def test_language_that_was_refused_when_chosen_again_is_told_again(settings: Settings) -> None:
     screen, told = settings(language="de")
-    italian = screen.chosen["language"].buttons()[2]
+    italian = screen.form["language"].buttons()[2]
     italian.click()
-    screen.keep_language("de", "a session is recorded")
+    screen.revert_language("de", "a session is recorded")
     italian.click()
     assert [one.language for one in told] == ["it", "it"]
 
@@ -83,62 +83,64 @@ def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication
         assert metrics.horizontalAdvance("1111") == pytest.approx(metrics.horizontalAdvance("0408"), abs=0.01 * size)
 
 
-def test_the_way_through_a_session_the_recording_and_the_keys_of_all_screens(qtbot: QtBot, shell: Shell) -> None:
-    bar = shell.bar
+def test_the_way_through_a_session_the_recording_and_the_keys_of_all_screens(qtbot: QtBot, shell: MainWindow) -> None:
+    bar = shell.top_bar
     bar.show_steps(["Exercise", "Camera", "Markers", "Measure"], 2)
-    assert [button.isEnabled() for button in bar.way()] == [True, True, False, False], "only what is done"
-    with qtbot.waitSignal(bar.step) as step:
-        bar.way()[1].click()
+    assert [button.isEnabled() for button in bar.navigation_buttons()] == [True, True, False, False], (
+        "only what is done"
+    )
+    with qtbot.waitSignal(bar.step_selected) as step:
+        bar.navigation_buttons()[1].click()
     assert step.args == [1]
     bar.show_tabs(["Session", "Review", "Progress", "Report"], 1)
-    assert bar.way()[1].accessibleName() == "Review, you are here"
-    with qtbot.waitSignal(bar.tab) as tab:
-        bar.way()[3].click()
+    assert bar.navigation_buttons()[1].accessibleName() == "Review, you are here"
+    with qtbot.waitSignal(bar.tab_selected) as tab:
+        bar.navigation_buttons()[3].click()
     assert tab.args == [3]
     for state, said in (("recording", "Recording 01:24"), ("paused", "Paused at 01:24"), ("off", "")):
-        bar.pill.show_state(state, 84.2)
-        assert (bar.pill.accessibleName(), bar.pill.isVisible()) == (said, state != "off")
+        bar.recording_pill.show_state(state, 84.2)
+        assert (bar.recording_pill.accessibleName(), bar.recording_pill.isVisible()) == (said, state != "off")
     shell.bind_keys(["help"])
-    with qtbot.waitSignal(shell.key) as told:
+    with qtbot.waitSignal(shell.key_pressed) as told:
         qtbot.keyClick(shell, Qt.Key.Key_F1)
     assert told.args == ["help"]
 
 
-def test_what_comes_while_settings_are_open_is_behind_them(shell: Shell) -> None:
+def test_what_comes_while_settings_are_open_is_behind_them(shell: MainWindow) -> None:
     way, shown = Navigator(shell, lambda: False, lambda: False), list[str]()
 
     def put(place: str) -> None:
         screen = QWidget()
         flow = SimpleNamespace(screen=screen, first=lambda: screen, while_aside=False, leave=lambda: None)
-        flow.show = lambda given: (shown.append(given), way.go(place))
+        flow.show = lambda given: (shown.append(given), way.switch_screen(place))
         way.flows[place] = flow
 
     for place in ("review", "correct", "settings"):
         put(place)
-    way.show("correct", "old")
-    way.aside("settings")
-    way.show_behind("review", "new")
-    assert (way.place, way.behind, shown) == ("settings", "review", ["old", "new"])
-    way.back()
-    assert way.place == "review"
-    way.show_behind("correct", "once more")
-    assert way.place == "correct"
+    way.open_screen("correct", "old")
+    way.open_overlay("settings")
+    way.open_under_overlay("review", "new")
+    assert (way.screen_name, way.underlying_screen, shown) == ("settings", "review", ["old", "new"])
+    way.navigate_back()
+    assert way.screen_name == "review"
+    way.open_under_overlay("correct", "once more")
+    assert way.screen_name == "correct"
 
 
-def test_the_focus_ring_follows_the_keyboard(qtbot: QtBot, shell: Shell) -> None:
+def test_the_focus_ring_follows_the_keyboard(qtbot: QtBot, shell: MainWindow) -> None:
     host = QWidget()
     button = QPushButton("x", host)
     button.setGeometry(100, 50, 80, 40)
     shell.show_screen(host, button)
-    qtbot.waitUntil(shell.ring.isVisible)
-    assert shell.ring.geometry().contains(button.geometry().translated(host.mapTo(shell, host.rect().topLeft())))
-    place = shell.ring.geometry()
+    qtbot.waitUntil(shell.focus_ring.isVisible)
+    assert shell.focus_ring.geometry().contains(button.geometry().translated(host.mapTo(shell, host.rect().topLeft())))
+    place = shell.focus_ring.geometry()
     button.hide()
-    assert not shell.ring.isVisible() or shell.ring.geometry() != place
+    assert not shell.focus_ring.isVisible() or shell.focus_ring.geometry() != place
 
 
 def test_a_change_of_theme_and_scale_reaches_everything(
-    qapp: QApplication, qtbot: QtBot, theme: Theme, shell: Shell
+    qapp: QApplication, qtbot: QtBot, theme: Theme, shell: MainWindow
 ) -> None:
     label = Text(theme, "x", 14, token="text2")
     qtbot.addWidget(label)
@@ -162,39 +164,41 @@ def test_a_title_has_room_for_the_dots_of_its_capitals(qtbot: QtBot, theme: Them
     assert label.sizeHint().height() == plain_px
 
 
-def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, theme: Theme, shell: Shell) -> None:
+def test_a_message_gives_three_answers_and_its_buttons_act_by_key(
+    qtbot: QtBot, theme: Theme, shell: MainWindow
+) -> None:
     done: list[str] = []
-    card = StopCard(shell.stage, theme)
+    card = MessageDialog(shell.screen_stack, theme)
     card.show_words(
         WORDS,
         [Answer("Check", lambda: done.append("check"), "C"), Answer("Stop", lambda: done.append("stop"), "Space")],
     )
-    for part in (WORDS.safe, WORDS.do):
+    for part in (WORDS.data_safety, WORDS.remedy):
         assert part in card.accessibleName()
     assert card.card.edge == "bad"
-    assert card.answers[-1].hasFocus()
+    assert card.answer_buttons[-1].hasFocus()
     qtbot.keyClick(card, Qt.Key.Key_Escape)
     assert card.isVisible()
-    qtbot.keyClick(card.answers[-1], Qt.Key.Key_C)
+    qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_C)
     assert done == ["check"]
     assert not card.isVisible()
     card.show_words(WORDS, [Answer("Stop", lambda: done.append("stop"), "Space")])
-    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Space)
+    qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_Space)
     assert done == ["check", "stop"]
-    card.show_words(WORDS, [Answer("Go on", lambda: None)], alarm=False)
+    card.show_words(WORDS, [Answer("Go on", lambda: None)], is_alarm=False)
     assert card.card.edge == "line"  # good news and questions look like no alarm
-    card.close_sheet()
-    answers = [Answer("End it", lambda: done.append("end"), risky=True), Answer("Go on", lambda: done.append("on"))]
+    card.close_dialog()
+    answers = [Answer("End it", lambda: done.append("end"), is_risky=True), Answer("Go on", lambda: done.append("on"))]
     card.show_words(WORDS, answers)
-    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Escape)
+    qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_Escape)
     assert done[-1] == "on", "Esc gives the answer that loses nothing"
     assert not card.isVisible()
 
 
-def test_tab_leads_to_what_is_chosen_and_arrows_choose_another(qtbot: QtBot, theme: Theme, shell: Shell) -> None:
-    host = QWidget(shell.stage)
-    before, choices = Button(theme, "Before"), Choices(theme, [(one, one) for one in "abc"], "c")
-    in_column(before, choices, within=host)
+def test_tab_leads_to_what_is_chosen_and_arrows_choose_another(qtbot: QtBot, theme: Theme, shell: MainWindow) -> None:
+    host = QWidget(shell.screen_stack)
+    before, choices = Button(theme, "Before"), ChoiceRow(theme, [(one, one) for one in "abc"], "c")
+    column_layout(before, choices, parent=host)
     host.show()
     told: list[object] = []
     choices.chosen.connect(told.append)
@@ -212,31 +216,31 @@ def test_tab_leads_to_what_is_chosen_and_arrows_choose_another(qtbot: QtBot, the
 
 def test_settings_act_at_once_and_tell_what_was_chosen(settings: Settings) -> None:
     screen, told = settings(theme="light", data_folder="/data")
-    screen.chosen["theme"].buttons()[1].click()
-    screen.chosen["text_scale"].buttons()[2].click()
-    screen.chosen["therapist"].setText("M. R.")
-    screen.chosen["therapist"].editingFinished.emit()
+    screen.form["theme"].buttons()[1].click()
+    screen.form["text_scale"].buttons()[2].click()
+    screen.form["therapist"].setText("M. R.")
+    screen.form["therapist"].editingFinished.emit()
     now = told[-1]
     assert (now.theme, now.text_scale, now.therapist, now.data_folder) == ("dark", 1.5, "M. R.", "/data")
 
 
 def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(settings: Settings) -> None:
     screen, told = settings(stream=True, angle_order="isb")
-    screen.choose("research")
-    folded = (screen.chosen["angle_order"], screen.chosen["stream"])
+    screen.show_page("research")
+    folded = (screen.form["angle_order"], screen.form["stream"])
     assert not any(widget.isVisible() for widget in folded)
-    screen.chosen["research"].click()
+    screen.form["research"].click()
     assert all(widget.isVisible() for widget in folded)
     assert (told[-1].research, told[-1].stream, told[-1].angle_order) == (True, True, "isb"), "no value changes by it"
 
 
 def test_about_tells_what_lies_in_the_clinics_folder(settings: Settings) -> None:
     screen, _ = settings()
-    assert "asks nobody" in screen.newer.text()
+    assert "asks nobody" in screen.update_text.text()
     told = []
     for newest in ("99.10.0", __version__, "", None):
-        screen.show_newest("/srv/apt", newest)
-        told.append(screen.newer.text())
+        screen.show_available_version("/srv/apt", newest)
+        told.append(screen.update_text.text())
     assert "99.10.0 is ready" in told[0]
     assert told[1] == told[2]
     assert "not newer" in told[1]
@@ -253,18 +257,18 @@ def test_a_report_is_saved_in_the_background_and_replaces_only_when_asked(
     qtbot: QtBot, theme: Theme, show: Show[ReportScreen], tmp_path: Path
 ) -> None:
     screen = show(ReportScreen(theme, Background()))
-    screen.begin(session_report(FakeSessions().session("session-7")), str(tmp_path))
-    assert not screen.page.grab().isNull()
+    screen.show_report(build_session_report(FakeSessions().session("session-7")), str(tmp_path))
+    assert not screen.preview.grab().isNull()
     with qtbot.waitSignal(screen.saved) as saved:
         screen.save(str(tmp_path / "one"))
     path = Path(saved.args[0])
     assert path.name == "one.pdf"
     assert screen.focusWidget() is screen.save_button, "Enter after saving does not print"
     assert path.read_bytes().startswith(b"%PDF")
-    with qtbot.waitSignal(screen.told):
+    with qtbot.waitSignal(screen.fault_raised):
         screen.save(str(path))
     with qtbot.waitSignal(screen.saved):
-        screen.save(str(path), replace_asked=True)
+        screen.save(str(path), may_replace=True)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["one.pdf"]
 
 
@@ -282,7 +286,7 @@ def test_background_work_answers_in_the_window_s_thread(qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: len(seen) == 2)
     assert seen == [(7, True), ZeroDivisionError]
     assert worker[0] != threading.get_ident()
-    assert not background.busy
+    assert not background.is_busy
 
 
 # --- the mark of the keyboard, also when what holds its control moves ------------------------------------
@@ -303,7 +307,7 @@ def parts(qtbot: QtBot, theme: Theme) -> tuple[QWidget, QScrollArea, list[QPushB
     ring = FocusRing(window)
     with qtbot.waitExposed(window):
         window.show()
-    ring._follow(None, buttons[2])  # without a window manager nothing has the keyboard
+    ring._follow_focus(None, buttons[2])  # without a window manager nothing has the keyboard
     return window, area, buttons, ring
 
 

@@ -11,64 +11,64 @@ from hypothesis import strategies as st
 
 from carpus.ui.theme import Theme
 from carpus.ui.tour.bubble import BubbleView
-from carpus.ui.tour.order import PARTS, PLACES, Bubble, TourMoment, Work, bubble_at, part_of, words_of
+from carpus.ui.tour.order import PARTS, PLACES, Bubble, LabelStage, TourState, bubble_words, find_bubble, part_number
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
 PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")
 MOMENTS = st.builds(
-    TourMoment,
+    TourState,
     st.sampled_from(PLACES_OF_ALL),
     is_meant=st.booleans(),
     is_covered=st.booleans(),
     is_busy=st.booleans(),
-    work=st.sampled_from(get_args(Work)),
+    work=st.sampled_from(get_args(LabelStage)),
     is_recording=st.booleans(),
     is_saved=st.booleans(),
 )
 READ = st.frozensets(st.sampled_from(BUBBLES))
 SESSION = (
-    TourMoment("patients"),
-    TourMoment("camera", is_busy=True),
-    TourMoment("markers", work="aiming"),
-    TourMoment("markers", work="clicking"),
-    TourMoment("markers", work="doubtful"),
-    TourMoment("markers", work="checked"),
-    TourMoment("live"),
-    TourMoment("live", is_recording=True),
-    TourMoment("live", is_busy=True),
-    TourMoment("review", is_busy=True),
-    TourMoment("review"),
-    TourMoment("report"),
-    TourMoment("report", is_saved=True),
+    TourState("patients"),
+    TourState("camera", is_busy=True),
+    TourState("markers", label_stage="aiming"),
+    TourState("markers", label_stage="clicking"),
+    TourState("markers", label_stage="doubtful"),
+    TourState("markers", label_stage="checked"),
+    TourState("live"),
+    TourState("live", is_recording=True),
+    TourState("live", is_busy=True),
+    TourState("review", is_busy=True),
+    TourState("review"),
+    TourState("report"),
+    TourState("report", is_saved=True),
 )
 """The moments that a person comes by, from the patient to the report."""
 
 
 def test_a_session_comes_by_the_bubbles_in_their_order() -> None:
-    shown = [bubble_at(moment) for moment in SESSION]
+    shown = [find_bubble(moment) for moment in SESSION]
     assert shown == [
         "patient", None, "aim", "click", None, "check", "record", "stop", None, None, "results", "save", "end",
     ]  # fmt: skip
-    assert bubble_at(TourMoment("review"), frozenset({"results"})) == "report"
+    assert find_bubble(TourState("review"), frozenset({"results"})) == "report"
     places = [PARTS.index(PLACES[bubble]) for bubble in shown if bubble is not None]
     assert places == sorted(places)
 
 
 @given(MOMENTS, READ)
-def test_a_bubble_is_on_its_own_screen_and_not_read_yet(moment: TourMoment, read: frozenset[Bubble]) -> None:
-    bubble = bubble_at(moment, read)
+def test_a_bubble_is_on_its_own_screen_and_not_read_yet(moment: TourState, read: frozenset[Bubble]) -> None:
+    bubble = find_bubble(moment, read)
     if bubble is not None:
         assert PLACES[bubble] == moment.place
         assert bubble not in read
-        assert moment.is_meant
+        assert moment.is_wanted
         assert not moment.is_covered
         assert not moment.is_busy
 
 
 @given(MOMENTS, READ)
-def test_reading_leads_on_and_never_back(moment: TourMoment, read: frozenset[Bubble]) -> None:
+def test_reading_leads_on_and_never_back(moment: TourState, read: frozenset[Bubble]) -> None:
     seen = []
-    while (bubble := bubble_at(moment, read)) is not None:
+    while (bubble := find_bubble(moment, read)) is not None:
         assert bubble not in seen
         seen.append(bubble)
         read |= {bubble}
@@ -77,25 +77,25 @@ def test_reading_leads_on_and_never_back(moment: TourMoment, read: frozenset[Bub
 
 
 @given(MOMENTS, READ)
-def test_while_recording_nothing_speaks_of_beginning_one(moment: TourMoment, read: frozenset[Bubble]) -> None:
-    recording = bubble_at(replace(moment, place="live", is_recording=True), read)
-    waiting = bubble_at(replace(moment, place="live", is_recording=False), read)
+def test_while_recording_nothing_speaks_of_beginning_one(moment: TourState, read: frozenset[Bubble]) -> None:
+    recording = find_bubble(replace(moment, place="live", is_recording=True), read)
+    waiting = find_bubble(replace(moment, place="live", is_recording=False), read)
     assert recording in ("stop", None)
     assert waiting in ("record", None)
 
 
 @given(MOMENTS)
-def test_what_is_wrong_with_the_markers_is_the_screens_to_say(moment: TourMoment) -> None:
-    assert bubble_at(replace(moment, place="markers", work="doubtful")) is None
+def test_what_is_wrong_with_the_markers_is_the_screens_to_say(moment: TourState) -> None:
+    assert find_bubble(replace(moment, place="markers", work="doubtful")) is None
 
 
 def test_each_says_one_plain_sentence() -> None:
     for bubble in BUBBLES:
-        words = words_of(bubble)
+        words = bubble_words(bubble)
         assert words.endswith(".")
         assert words.count(".") == 1
         assert len(words) < 100
-        assert 0 <= part_of(bubble) <= len(PARTS)
+        assert 0 <= part_number(bubble) <= len(PARTS)
 
 
 def test_both_ways_on_are_always_there_and_over_a_recording_take_no_key(theme: Theme) -> None:
@@ -107,8 +107,8 @@ def test_both_ways_on_are_always_there_and_over_a_recording_take_no_key(theme: T
         assert view.next_button.isEnabled()
         assert not view.next_button.isHidden()
         assert not view.leave_button.isHidden()
-        assert view.accessibleName() == words_of(bubble)
-        assert view.points is (bubble not in ("click", "results", "end")), bubble
+        assert view.accessibleName() == bubble_words(bubble)
+        assert view.has_pointer is (bubble not in ("click", "results", "end")), bubble
     view.show_bubble(None)
     assert view.isHidden()
     over_a_recording = BubbleView(theme, wide=True, keys=False)

@@ -15,8 +15,8 @@ from pytestqt.qtbot import QtBot
 
 from carpus.ui import language, terms
 from carpus.ui.background import Background
-from carpus.ui.live.controls import LightView
-from carpus.ui.numbers import day_month
+from carpus.ui.live.controls import StatusLightView
+from carpus.ui.numbers import format_day_month
 from carpus.ui.patients.listing import ListHeader, PatientList
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
@@ -88,12 +88,12 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     translations.release(source, compiled)
     translator = QTranslator()
     assert translator.load(str(compiled))
-    texts = language.texts_in(source.read_bytes())
+    texts = language.parse_texts(source.read_bytes())
     assert all(translator.translate(context, text) == said for (context, text), said in texts.items())
-    language.learn("xx", lambda context, text: texts.get((context, text)), QLocale("de_CH"))
-    header, light = ListHeader(theme, PatientList(theme, lambda: date(2026, 11, 20))), LightView(theme)
+    language.register_language("xx", lambda context, text: texts.get((context, text)), QLocale("de_CH"))
+    header, light = ListHeader(theme, PatientList(theme, lambda: date(2026, 11, 20))), StatusLightView(theme)
     assert header.tr("Patient") == "Patient"
-    with language.speaking("xx"):
+    with language.use_language("xx"):
         assert terms.movement_name("flexion") == "¡Flexion"
         assert header.tr("Patient") == "¡Patient"
         assert light.tr("nothing like this") == "nothing like this"
@@ -103,15 +103,15 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
 def test_a_page_in_another_language_is_painted_in_a_thread_of_its_own_while_the_window_goes_on_in_its_own(
     qtbot: QtBot,
 ) -> None:
-    language.learn("xx", lambda context, text: f"¡{text}" if text == "Cancel" else None, QLocale("de_CH"))
+    language.register_language("xx", lambda context, text: f"¡{text}" if text == "Cancel" else None, QLocale("de_CH"))
     background, said = Background(), []
     go_on = threading.Event()
 
     def work() -> str:
         go_on.wait(20.0)
-        return tr("Cancel") + day_month(date(2026, 11, 13)) + language.spoken()
+        return tr("Cancel") + format_day_month(date(2026, 11, 13)) + language.current_language()
 
-    with language.speaking("xx"):
+    with language.use_language("xx"):
         background.run(work, said.append, said.append)
     assert tr("Cancel") == "Cancel"
     go_on.set()
@@ -121,14 +121,14 @@ def test_a_page_in_another_language_is_painted_in_a_thread_of_its_own_while_the_
 
 def test_the_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: QtBot) -> None:
     try:
-        language.speak("de")
+        language.set_window_language("de")
         assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Abbrechen"
         assert QLocale().toString(1.5, "f", 1) == "1,5"
     finally:
-        language.speak("en")
+        language.set_window_language("en")
     assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Cancel"
     assert QLocale().toString(1.5, "f", 1) == "1.5"
-    assert language.of_the_system() in language.LANGUAGES
+    assert language.system_language() in language.LANGUAGES
 
 
 @pytest.mark.usefixtures("qapp")
@@ -138,7 +138,7 @@ def test_days_are_named_in_the_language_where_the_computer_has_them_in_another(m
         language.QLocale, "system", lambda: mixed(QLocale.Language.Italian, QLocale.Country.Switzerland)
     )
     translator = language._Translator()
-    language._prepare(translator, "it")
+    language._load_language(translator, "it")
     assert translator.locales["it"].dayName(1) == "lunedì"
     assert translator.locales["it"].territory() == QLocale.Country.Switzerland
 
@@ -146,7 +146,7 @@ def test_days_are_named_in_the_language_where_the_computer_has_them_in_another(m
 @pytest.mark.parametrize("code", [code for code in language.LANGUAGES if code != "en"])
 def test_every_text_is_translated_with_the_same_places_and_no_key_twice(code: str, extracted: Path) -> None:
     kept = ROOT / "resources" / "translations" / f"carpus_{code}.ts"
-    texts = language.texts_in(kept.read_bytes())
+    texts = language.parse_texts(kept.read_bytes())
     unfinished = set(translations.missing(kept))
     said_in_sources = translations.missing(extracted)
     assert len(said_in_sources) > 1000

@@ -7,7 +7,7 @@ from PySide6.QtCore import QRect
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.last_places import TITLE_PX, fitted, place_of, put_in_place
+from carpus.ui.last_places import TITLE_BAR_PX, encode_geometry, fit_on_screen, restore_window
 
 ROOM = QRect(0, 0, 1280, 800)
 
@@ -20,13 +20,13 @@ ROOM = QRect(0, 0, 1280, 800)
     ],
 )  # fmt: skip
 def test_no_place_reaches_out_of_the_screen(place: QRect, whole: bool) -> None:
-    fits, kept_size = fitted(place, ROOM)
-    assert ROOM.adjusted(0, TITLE_PX, 0, 0).contains(fits)
+    fits, kept_size = fit_on_screen(place, ROOM)
+    assert ROOM.adjusted(0, TITLE_BAR_PX, 0, 0).contains(fits)
     assert kept_size == whole
 
 
 def test_a_place_that_fits_is_left_alone() -> None:
-    assert fitted(QRect(100, 60, 1024, 700), ROOM) == (QRect(100, 60, 1024, 700), True)
+    assert fit_on_screen(QRect(100, 60, 1024, 700), ROOM) == (QRect(100, 60, 1024, 700), True)
 
 
 def test_the_window_remembers_its_place(qtbot: QtBot) -> None:
@@ -34,7 +34,7 @@ def test_the_window_remembers_its_place(qtbot: QtBot) -> None:
     for window in (first, second):
         qtbot.addWidget(window)
     first.setGeometry(40, 60, 500, 400)
-    put_in_place(second, place_of(first))
+    restore_window(second, encode_geometry(first))
     assert second.size() == first.size()
-    put_in_place(second, "not a place")
+    restore_window(second, "not a place")
     assert second.size() == first.size()

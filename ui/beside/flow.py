@@ -3,45 +3,45 @@
 from __future__ import annotations
 
 from carpus.ui.background import Background
-from carpus.ui.beside.screen import BesideScreen
+from carpus.ui.beside.screen import ComparisonScreen
 from carpus.ui.flow import Flow, ScreenContext
 
 
-class BesideFlow(Flow):
-    """``back_to`` is where one came from."""
+class ComparisonFlow(Flow):
+    """``origin`` is where one came from."""
 
-    place, guide, tab = "beside", "sessions", "review"
-    screen: BesideScreen
+    screen_name, guide_page, parent_tab = "beside", "sessions", "review"
+    screen: ComparisonScreen
 
     def __init__(self, context: ScreenContext) -> None:
         self._background = Background()  # its own: what the list still reads holds up no picture
-        super().__init__(context, BesideScreen(context.theme, self._background, context.library))
-        self.back_to = "sessions"
-        self.screen.told.connect(context.messages.fault)
+        super().__init__(context, ComparisonScreen(context.theme, self._background, context.library))
+        self.origin = "sessions"
+        self.screen.fault_raised.connect(context.messages.show_fault)
 
-    def show(self, one: str, other: str) -> None:
+    def open(self, one: str, other: str) -> None:
         """Show two sessions; Back leads to where one is now."""
-        if self.context.way.place != "beside":
-            self.back_to = self.context.way.place
-        patient = self.context.now.patient
-        self.screen.begin((one, other), patient.side if patient is not None else "")
-        self.context.way.go("beside")
+        if self.context.navigator.screen_name != "beside":
+            self.origin = self.context.navigator.screen_name
+        patient = self.context.current.patient
+        self.screen.load_sessions((one, other), patient.side if patient is not None else "")
+        self.context.navigator.switch_screen("beside")
 
-    def up(self) -> None:
-        patient = self.context.now.patient
-        if self.back_to == "review" or patient is None:
-            self.to_session()
+    def navigate_back(self) -> None:
+        patient = self.context.current.patient
+        if self.origin == "review" or patient is None:
+            self.return_to_session()
         else:
-            self.context.way.show("sessions", patient.patient_id)
+            self.context.navigator.open_screen("sessions", patient.patient_id)
 
-    def leave(self) -> None:
+    def on_leave(self) -> None:
         self.screen.playing.stop()
 
     def close(self) -> None:
         self.screen.playing.stop()
-        self._background.wait()
+        self._background.join()
 
-    def sign_lines(self) -> list[str]:
-        both = None if self.context.now.is_practice else self.screen.both
-        simulated = both is not None and (both.first.simulated or both.second.simulated)
+    def banner_lines(self) -> list[str]:
+        both = None if self.context.current.is_practice else self.screen.comparison
+        simulated = both is not None and (both.first.is_simulated or both.second.is_simulated)
         return [self.tr("Simulated hand: this is not a patient’s, and does not count.")] if simulated else []

@@ -6,61 +6,61 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
 
-from carpus.core.results.side_by_side import SideBySide, ordered, side_by_side
+from carpus.core.results.side_by_side import SessionPair, compare_pair, order_pair
 from carpus.ui.background import Background
-from carpus.ui.beside.picture import BesidePicture
-from carpus.ui.beside.player import BesidePlayer, Together, Watched, ends_s, value_words
+from carpus.ui.beside.picture import ComparisonFrameView
+from carpus.ui.beside.player import ComparedSession, ComparisonPlayer, PlaybackAlignment, durations_s, value_words
 from carpus.ui.beside.table import DifferencesCard
-from carpus.ui.beside.words import doubts, headline, keys_of, name_of, picture_words, unfair_words
+from carpus.ui.beside.words import doubts, headline, measure_keys, picture_words, session_name, unfair_words
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import Fitted, in_column, in_line, page
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, heading
-from carpus.ui.keys import bind_screen
-from carpus.ui.playback.transport import Playing
+from carpus.ui.controls.layouts import FittedWidget, column_layout, row_layout, scroll_page
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Icon, Text, heading
+from carpus.ui.keys import bind_screen_keys
+from carpus.ui.playback.transport import PlaybackClock
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
 if TYPE_CHECKING:
     from carpus.core.records.library import Library
 
 
-class BesideScreen(Fitted):
-    """``told`` a fault; ``arrived`` when both sessions are on the screen."""
+class ComparisonScreen(FittedWidget):
+    """``fault_raised`` a fault; ``sessions_shown`` when both sessions are on the screen."""
 
-    told = Signal(object)
-    arrived = Signal()
+    fault_raised = Signal(object)
+    sessions_shown = Signal()
 
     def __init__(self, theme: Theme, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
-        self.ids: tuple[str, str] = ("", "")
+        self.session_ids: tuple[str, str] = ("", "")
         """The sessions asked for; once they are shown in the order in which they stand."""
-        self._affected, self._asked = "", 0
-        self.both: SideBySide | None = None
-        self.together: Together | None = None
+        self._affected_side, self._request_number = "", 0
+        self.comparison: SessionPair | None = None
+        self.alignment: PlaybackAlignment | None = None
         """What is on the screen, and how it is played; None while it is read."""
-        self.playing = Playing(self)
+        self.playing = PlaybackClock(self)
         self.answer = heading(theme, wrap=True)
         self._basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
-        self.pictures = tuple(BesidePicture(theme, background, store.picture) for _ in range(2))
-        self.player = BesidePlayer(theme, self.playing)
+        self.frame_views = tuple(ComparisonFrameView(theme, background, store.read_frame) for _ in range(2))
+        self.player = ComparisonPlayer(theme, self.playing)
         self._unfair = Text(theme, "", 14, SEMIBOLD, wrap=True)
         self._strip = Card(theme, 12, "warn_soft", "warn")
         self.differences = DifferencesCard(theme)
-        self._lay_out()
+        self._build_layout()
         self._connect()
         theme.changed.connect(self._fit)
         theme.changed.connect(self._fit_soon)
-        self._show_parts(reading=False)
+        self._show_sections(reading=False)
 
-    def _lay_out(self) -> None:
-        line = in_line((Sign(self._theme, "warn"), 0, Qt.AlignmentFlag.AlignVCenter), (self._unfair, 1), gap=10)
+    def _build_layout(self) -> None:
+        line = row_layout((Icon(self._theme, "warn"), 0, Qt.AlignmentFlag.AlignVCenter), (self._unfair, 1), gap=10)
         self._strip.body.addLayout(line)
-        pictures = in_line(*((picture, 1) for picture in self.pictures), gap=12)
+        pictures = row_layout(*((picture, 1) for picture in self.frame_views), gap=12)
         margins = (MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX)
         parts = (self.answer, self._basis, self._strip, (pictures, 5), self.player, self.differences)
-        self._column = in_column(*parts, gap=12, margins=margins)
+        self._column = column_layout(*parts, gap=12, margins=margins)
         self._column.addStretch(0)
-        in_column(page(self._column), margins=(0, 0, 0, 0), within=self)
+        column_layout(scroll_page(self._column), margins=(0, 0, 0, 0), parent=self)
 
     def _fit(self) -> None:
         """With large text smaller pictures."""
@@ -68,72 +68,82 @@ class BesideScreen(Fitted):
         self.player.show_tight(tight)
         self._basis.setVisible(bool(self._basis.text()) and not tight)  # the table says it too
         least = 180 if tight else 240
-        for picture in self.pictures:
+        for picture in self.frame_views:
             picture.setMinimumSize(round(least * 4 / 3), least)
 
     def _connect(self) -> None:
-        for picture in self.pictures:
-            picture.failed.connect(self.told)
-            picture.failed.connect(self.playing.stop)
-        self.differences.followed.currentIndexChanged.connect(lambda _: self._compare())
-        self.differences.mirror_button.toggled.connect(lambda _: self._show_place())
-        self.playing.moved.connect(lambda _: self._show_place())
-        self.player.transport.stepped.connect(self.step)
-        self.player.sought.connect(self._seek_in)
+        for picture in self.frame_views:
+            picture.read_failed.connect(self.fault_raised)
+            picture.read_failed.connect(self.playing.stop)
+        self.differences.measure_choice.currentIndexChanged.connect(lambda _: self._compare())
+        self.differences.mirror_button.toggled.connect(lambda _: self._show_time())
+        self.playing.time_changed.connect(lambda _: self._show_time())
+        self.player.transport.stepped.connect(self.step_frames)
+        self.player.time_requested.connect(self._jump_to_time)
         actions = {
-            "play": self.playing.toggle, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
-            "repetition_back": lambda: self.go_to_repetition(-1), "repetition_on": lambda: self.go_to_repetition(1),
+            "play": self.playing.toggle,
+            "frame_back": lambda: self.step_frames(-1),
+            "frame_on": lambda: self.step_frames(1),
+            "repetition_back": lambda: self.jump_to_repetition(-1),
+            "repetition_on": lambda: self.jump_to_repetition(1),
             "mirror": self.differences.mirror_button.click,
-        }  # fmt: skip
-        bind_screen(self, actions)
+        }
+        bind_screen_keys(self, actions)
 
     # --- life ---------------------------------------------------------------------------------------------
-    def begin(self, session_ids: tuple[str, str], affected: str = "") -> None:
-        """Read two sessions in the background, then show them; ``affected`` is the patient's hand."""
+    def load_sessions(self, session_ids: tuple[str, str], affected_side: str = "") -> None:
+        """Read two sessions in the background, then show them; ``affected_side`` is the patient's hand."""
         self.playing.open(-1.0)
-        self.ids, self._affected = session_ids, affected
-        self.both = self.together = None
-        self._say(self.tr("Reading both sessions…"))
-        for picture in self.pictures:
+        self.session_ids, self._affected_side = session_ids, affected_side
+        self.comparison = self.alignment = None
+        self._show_answer(self.tr("Reading both sessions…"))
+        for picture in self.frame_views:
             picture.open(None, self.tr("Reading the session…"))
-        self._show_parts(reading=True)
+        self._show_sections(reading=True)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
-        self._asked += 1
-        asked, store = self._asked, self._store
+        self._request_number += 1
+        asked, store = self._request_number, self._store
 
-        def read() -> list[Watched]:
-            return [Watched.of(store.session(one), store.figures_of(one)) for one in session_ids]
+        def read() -> list[ComparedSession]:
+            return [ComparedSession.from_figures(store.session(one), store.results_by_id(one)) for one in session_ids]
 
-        def failed(fault: Exception) -> None:
-            if asked == self._asked:
-                self._say(self.tr("Nothing is compared: one of the two sessions could not be read."))
-                self._show_parts(reading=False)
-                self.told.emit(fault)
+        def on_failed(fault: Exception) -> None:
+            if asked == self._request_number:
+                self._show_answer(self.tr("Nothing is compared: one of the two sessions could not be read."))
+                self._show_sections(reading=False)
+                self.fault_raised.emit(fault)
 
-        self._background.run(read, lambda both: self._show(both) if asked == self._asked else None, failed, self)
+        self._background.run(
+            read, lambda both: self._show_sessions(both) if asked == self._request_number else None, on_failed, self
+        )
 
-    def _show(self, watched: list[Watched]) -> None:
+    def _show_sessions(self, watched: list[ComparedSession]) -> None:
         one, other = watched
-        first, _ = ordered(one.figures, other.figures, self._affected)  # type: ignore[arg-type]
+        first, _ = order_pair(one.figures, other.figures, self._affected_side)  # type: ignore[arg-type]
         both = (one, other) if first is one.figures else (other, one)
-        self.ids = (both[0].session.header.session_id, both[1].session.header.session_id)
-        for picture, of in zip(self.pictures, both, strict=True):
+        self.session_ids = (both[0].session.header.session_id, both[1].session.header.session_id)
+        for picture, of in zip(self.frame_views, both, strict=True):
             picture.open(of.session)
-        self.together = Together.of(both)
-        self.both = side_by_side(both[0].figures, both[1].figures)
-        self.differences.begin(self.both)
+        self.alignment = PlaybackAlignment.from_sessions(both)
+        self.comparison = compare_pair(both[0].figures, both[1].figures)
+        self.differences.show_choices(self.comparison)
         self._compare()
-        self.playing.end_s = self.together.step.end_s
-        self.player.show_names((name_of(self.both.first, self.both.second), name_of(self.both.second, self.both.first)))
-        self.playing.seek(self.together.step.starts_s[0] if self.together.step.starts_s else 0.0)
-        self._show_parts(reading=False)
-        self._show_place()
+        self.playing.end_s = self.alignment.step.end_s
+        self.player.show_names(
+            (
+                session_name(self.comparison.first, self.comparison.second),
+                session_name(self.comparison.second, self.comparison.first),
+            )
+        )
+        self.playing.set_time(self.alignment.step.starts_s[0] if self.alignment.step.starts_s else 0.0)
+        self._show_sections(reading=False)
+        self._show_time()
         self._fit_soon()
-        self.arrived.emit()
+        self.sessions_shown.emit()
 
-    def _show_parts(self, *, reading: bool) -> None:
-        ready = self.together is not None
-        for widget in (self.player, *self.pictures):
+    def _show_sections(self, *, reading: bool) -> None:
+        ready = self.alignment is not None
+        for widget in (self.player, *self.frame_views):
             widget.setVisible(ready or reading)  # everything has its place at once
         self.player.setEnabled(ready)
         self.differences.setVisible(ready)
@@ -142,47 +152,51 @@ class BesideScreen(Fitted):
         self._fit()
 
     # --- what is said -------------------------------------------------------------------------------------
-    def _say(self, answer: str, basis: str = "", unfair: str = "") -> None:
+    def _show_answer(self, answer: str, basis: str = "", unfair: str = "") -> None:
         self.answer.setText(answer)
         self._basis.setText(basis)
         self._unfair.setText(unfair)
 
     def _compare(self) -> None:
-        if self.both is None:
+        if self.comparison is None:
             return
-        keys = keys_of(str(self.differences.followed.currentData() or ""))
-        self.both = side_by_side(self.both.first, self.both.second, keys)
-        self._say(*headline(self.both), unfair_words(self.both) or " ".join(doubts(self.both)))
+        keys = measure_keys(str(self.differences.measure_choice.currentData() or ""))
+        self.comparison = compare_pair(self.comparison.first, self.comparison.second, keys)
+        self._show_answer(
+            *headline(self.comparison), unfair_words(self.comparison) or " ".join(doubts(self.comparison))
+        )
         self._strip.setVisible(bool(self._unfair.text()))
-        self.differences.show_differences(self.both)
+        self.differences.show_differences(self.comparison)
         self._fit()
         self._fit_soon()
 
     # --- time ---------------------------------------------------------------------------------------------
-    def _seek_in(self, place: int, time_s: float) -> None:
-        if self.together is not None:
-            step = self.together.step
-            self.playing.seek(step.when_second(time_s) if place else step.when_first(time_s))
+    def _jump_to_time(self, which: int, time_s: float) -> None:
+        if self.alignment is not None:
+            step = self.alignment.step
+            self.playing.set_time(step.player_time_of_second(time_s) if which else step.player_time_of_first(time_s))
 
-    def step(self, pictures: int) -> None:
-        if self.together is not None:
-            self.playing.seek(self.playing.time_s + pictures * self.together.period_s())
+    def step_frames(self, frames: int) -> None:
+        if self.alignment is not None:
+            self.playing.set_time(self.playing.time_s + frames * self.alignment.frame_period_s())
 
-    def go_to_repetition(self, by: int) -> None:
-        if self.together is not None:
-            self.playing.seek(self.together.next_start(self.playing.time_s, by))
+    def jump_to_repetition(self, direction: int) -> None:
+        if self.alignment is not None:
+            self.playing.set_time(self.alignment.next_start(self.playing.time_s, direction))
 
-    def _show_place(self) -> None:
-        together, time_s = self.together, self.playing.time_s
+    def _show_time(self) -> None:
+        together, time_s = self.alignment, self.playing.time_s
         if together is None:
             return
-        currents = (together.current(0, time_s), together.current(1, time_s))
-        for place, picture in enumerate(self.pictures):
-            watched, other = together.watched[place], together.watched[1 - place]
+        currents = (together.current_repetition(0, time_s), together.current_repetition(1, time_s))
+        for place, picture in enumerate(self.frame_views):
+            watched, other = together.sessions[place], together.sessions[1 - place]
             picture.set_mirrored(self.differences.mirror_button.isChecked() and watched.figures.side == "left")
-            picture.show_row(together.row(place, time_s))
-            name = picture_words(watched.figures, other.figures, self._affected, mirrored=picture.mirrored)
+            picture.show_row(together.frame_row(place, time_s))
+            name = picture_words(watched.figures, other.figures, self._affected_side, mirrored=picture.is_mirrored)
             number = currents[place] + 1
             repetition = self.tr("Repetition {number}").format(number=number) if number else ""
             picture.show_words(name, repetition, value_words(watched, picture.row))
-        self.player.show_places(together.step.at(time_s), currents, ends_s(together.watched), together.repetitions)
+        self.player.show_times(
+            together.step.recording_times(time_s), currents, durations_s(together.sessions), together.repetitions
+        )

@@ -6,17 +6,17 @@ from collections.abc import Iterable
 
 from PySide6.QtWidgets import QVBoxLayout
 
-from carpus.core.measures.by_hand import HandChange, Key
-from carpus.ui.controls.card import Line
+from carpus.core.measures.by_hand import ManualChange, MeasureKey
+from carpus.ui.controls.card import Separator
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.theme import Theme
 from carpus.ui.words.by_hand import change_words, full_name, verdict_words
 
 
-def add_changes(body: QVBoxLayout, theme: Theme, found: Iterable[tuple[Key, HandChange]]) -> None:
+def add_change_rows(body: QVBoxLayout, theme: Theme, found: Iterable[tuple[MeasureKey, ManualChange]]) -> None:
     """Each change with its verdict in words and its sign, then from where to where."""
     for key, change in found:
-        body.addWidget(Line(theme))
+        body.addWidget(Separator(theme))
         state, verdict = verdict_words(change)
         sign = StateText(theme, 14, SEMIBOLD, 16)
         sign.show_state(state, f"{full_name(key)}: {verdict}", token="text")  # type: ignore[arg-type]

@@ -9,79 +9,79 @@ from PySide6.QtWidgets import QDoubleSpinBox, QStackedWidget, QWidget
 
 from carpus.core.calibration.camera.board import Pattern
 from carpus.core.calibration.camera.sheet import RULER_MM, Paper
-from carpus.ui.camera_calibration.showing import BoardShowing
-from carpus.ui.camera_name_sheet import CameraNameSheet
-from carpus.ui.controls.button import ENTER, Button
-from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.field import Choices, leave_wheel
+from carpus.ui.camera_calibration.showing import BoardCaptureView
+from carpus.ui.camera_name_sheet import CameraNameDialog
+from carpus.ui.controls.button import ENTER_KEY, Button
+from carpus.ui.controls.card import Card, Separator
+from carpus.ui.controls.field import ChoiceRow, ignore_wheel
 from carpus.ui.controls.layouts import (
     STRETCH,
     ScrollArea,
     ScrolledColumn,
-    empty,
+    clear_layout,
+    column_layout,
     fill,
-    in_column,
-    in_grid,
-    in_line,
+    grid_layout,
+    row_layout,
 )
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, heading
-from carpus.ui.keys import bind
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Icon, Text, heading
+from carpus.ui.keys import bind_key
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
-from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, headline, kept_words, result_rows
+from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, headline, result_rows, storage_words
 
 
-class BoardScreen(QWidget):
+class CameraCalibrationScreen(QWidget):
     """Three parts, one at a time; what their buttons do is the flow's affair."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.beginning = BoardBeginning(theme)
-        self.showing = BoardShowing(theme)
-        self.result = BoardResultView(theme)
-        self._parts = QStackedWidget()
-        for part in (self.beginning, self.showing, self.result):
-            self._parts.addWidget(part)
-        in_column(self._parts, margins=(0, 0, 0, 0), within=self)
-        self.name_sheet = CameraNameSheet(self, theme)
-        bind(self.beginning, "report", self.beginning.print_button.click)
+        self.setup_view = BoardSetupView(theme)
+        self.capture_view = BoardCaptureView(theme)
+        self.result_view = BoardResultView(theme)
+        self._view_stack = QStackedWidget()
+        for part in (self.setup_view, self.capture_view, self.result_view):
+            self._view_stack.addWidget(part)
+        column_layout(self._view_stack, margins=(0, 0, 0, 0), parent=self)
+        self.name_dialog = CameraNameDialog(self, theme)
+        bind_key(self.setup_view, "report", self.setup_view.print_button.click)
 
     @property
-    def is_beginning(self) -> bool:
-        return self._parts.currentWidget() is self.beginning
+    def is_setup_shown(self) -> bool:
+        return self._view_stack.currentWidget() is self.setup_view
 
-    def show_beginning(self) -> None:
-        self._show(self.beginning)
+    def show_setup(self) -> None:
+        self._show_view(self.setup_view)
 
-    def show_showing(self) -> None:
-        self.showing.begin()
-        self._show(self.showing)
+    def show_capture(self) -> None:
+        self.capture_view.reset()
+        self._show_view(self.capture_view)
 
     def show_result(self, result: BoardResult) -> None:
-        self.result.show_result(result)
-        self._show(self.result)
+        self.result_view.show_result(result)
+        self._show_view(self.result_view)
 
-    def _show(self, part: QWidget) -> None:
-        self._parts.setCurrentWidget(part)
-        self.first().setFocus(Qt.FocusReason.OtherFocusReason)
+    def _show_view(self, part: QWidget) -> None:
+        self._view_stack.setCurrentWidget(part)
+        self.initial_focus().setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def first(self) -> QWidget:
-        part = self._parts.currentWidget()
-        if part is self.showing:
-            return self.showing.picture
-        return self.result.first() if part is self.result else self.beginning.first()
+    def initial_focus(self) -> QWidget:
+        part = self._view_stack.currentWidget()
+        if part is self.capture_view:
+            return self.capture_view.frame_view
+        return self.result_view.initial_focus() if part is self.result_view else self.setup_view.initial_focus()
 
 
 RULER_RANGE_MM = (80.0, 120.0)
-MOST_WIDE_PX = 900
+MAX_WIDTH_PX = 900
 
 
-class BoardBeginning(QWidget):
+class BoardSetupView(QWidget):
     """What is chosen before the board is shown."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.pattern = Choices(
+        self.pattern = ChoiceRow(
             theme,
             [
                 ("chessboard", self.tr("Chessboard")),
@@ -89,88 +89,88 @@ class BoardBeginning(QWidget):
             ],
             "chessboard",
         )  # fmt: skip
-        self.paper = Choices(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
+        self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
         self.print_button = Button(theme, self.tr("&Print the board…"), icon="file-text")
-        self.ruler = QDoubleSpinBox()
-        leave_wheel(self.ruler)
-        self.ruler.setRange(*RULER_RANGE_MM)
-        self.ruler.setDecimals(1)
-        self.ruler.setSingleStep(0.5)
-        self.ruler.setValue(RULER_MM)
-        self.ruler.setSuffix("\N{NO-BREAK SPACE}mm")
-        self.ruler.setAccessibleName(self.tr("The ruler on the print measures"))
-        self.ruler.lineEdit().setTextMargins(10, 0, 10, 0)
-        self.camera_words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.begin_button = Button(theme, self.tr("Begin"), "primary", icon="camera", hint=ENTER)
-        self._lay_out()
+        self.ruler_field = QDoubleSpinBox()
+        ignore_wheel(self.ruler_field)
+        self.ruler_field.setRange(*RULER_RANGE_MM)
+        self.ruler_field.setDecimals(1)
+        self.ruler_field.setSingleStep(0.5)
+        self.ruler_field.setValue(RULER_MM)
+        self.ruler_field.setSuffix("\N{NO-BREAK SPACE}mm")
+        self.ruler_field.setAccessibleName(self.tr("The ruler on the print measures"))
+        self.ruler_field.lineEdit().setTextMargins(10, 0, 10, 0)
+        self.camera_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.start_button = Button(theme, self.tr("Begin"), "primary", icon="camera", hint=ENTER_KEY)
+        self._build_layout()
         theme.changed.connect(self._fit)
         self._fit()
-        self.set_camera_there(False)
+        self.set_camera_connected(False)
 
-    def _lay_out(self) -> None:
+    def _build_layout(self) -> None:
         theme = self._theme
-        body = in_column(gap=GAP_PX, margins=(4, 4, 12, 4))
-        self._now = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        body = column_layout(gap=GAP_PX, margins=(4, 4, 12, 4))
+        self._status_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         words = self.tr(
             "Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once "
             "for each camera, after a knock, and when the check card says so."
         )
         body.addWidget(heading(theme, self.tr("Calibrate the camera"), wrap=True))
-        fill(body, Text(theme, words, 16, REGULAR, "text2", wrap=True), self._now)
-        board = self._card(self.tr("1  Print the board"))
-        fill(board.body, self.pattern, in_line(self.paper, self.print_button, STRETCH, gap=12))
+        fill(body, Text(theme, words, 16, REGULAR, "text2", wrap=True), self._status_text)
+        board = self._make_card(self.tr("1  Print the board"))
+        fill(board.body, self.pattern, row_layout(self.paper, self.print_button, STRETCH, gap=12))
         words = self.tr(
             "Print at 100 % (“actual size”) on plain paper and glue it flat onto something stiff, such as glass or a "
             "thick board. Then measure the ruler under it."
         )
         board.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        row = in_line(Text(theme, self.tr("The ruler on the print measures"), 14), self.ruler, STRETCH, gap=12)
+        row = row_layout(Text(theme, self.tr("The ruler on the print measures"), 14), self.ruler_field, STRETCH, gap=12)
         board.body.addLayout(row)
         body.addWidget(board)
-        show = self._card(self.tr("2  Show it to the camera"))
+        show = self._make_card(self.tr("2  Show it to the camera"))
         words = self.tr(
             "Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves "
             "when it is still, sharp and in a new place. No picture of the board is stored, and nothing is changed "
             "before you say so."
         )
-        fill(show.body, Text(theme, words, 14, REGULAR, "text2", wrap=True), self.camera_words)
-        show.body.addWidget(self.begin_button, 0, Qt.AlignmentFlag.AlignLeft)
+        fill(show.body, Text(theme, words, 14, REGULAR, "text2", wrap=True), self.camera_text)
+        show.body.addWidget(self.start_button, 0, Qt.AlignmentFlag.AlignLeft)
         fill(body, show, STRETCH)
-        self._host = ScrolledColumn()
-        self._host.setLayout(body)
-        whole = in_line(margins=(MARGIN_PX - 4, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
-        self._scroll = ScrollArea(self._host)
+        self._column = ScrolledColumn()
+        self._column.setLayout(body)
+        whole = row_layout(margins=(MARGIN_PX - 4, GAP_PX, MARGIN_PX - 8, GAP_PX), parent=self)
+        self._scroll = ScrollArea(self._column)
         whole.addWidget(self._scroll, 1)
 
-    def _card(self, title: str) -> Card:
+    def _make_card(self, title: str) -> Card:
         card = Card(self._theme, 24)
         card.body.setSpacing(12)
         card.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
         return card
 
     def _fit(self) -> None:
-        self.ruler.setFixedWidth(self._theme.px(130))
-        self._host.setMaximumWidth(self._theme.px(MOST_WIDE_PX))
+        self.ruler_field.setFixedWidth(self._theme.px(130))
+        self._column.setMaximumWidth(self._theme.px(MAX_WIDTH_PX))
 
     @property
     def choice(self) -> BoardChoice:
         return BoardChoice(
             cast("Pattern", self.pattern.value()),
             cast("Paper", self.paper.value()),
-            self.ruler.value(),
+            self.ruler_field.value(),
         )
 
     def show_status(self, words: str) -> None:
         """What is known of the camera so far."""
-        self._now.say(words)
+        self._status_text.show_text(words)
 
-    def set_camera_there(self, there: bool) -> None:
-        self.camera_words.setText(self.tr("It is plugged in.") if there else self.tr("No camera is plugged in."))
-        self.begin_button.setEnabled(there)
-        self.begin_button.set_face(self.tr("Begin") if there else self.tr("Begin · plug the camera in"))
+    def set_camera_connected(self, is_connected: bool) -> None:
+        self.camera_text.setText(self.tr("It is plugged in.") if is_connected else self.tr("No camera is plugged in."))
+        self.start_button.setEnabled(is_connected)
+        self.start_button.set_label(self.tr("Begin") if is_connected else self.tr("Begin · plug the camera in"))
 
-    def first(self) -> QWidget:
-        return self.begin_button if self.begin_button.isEnabled() else self.print_button
+    def initial_focus(self) -> QWidget:
+        return self.start_button if self.start_button.isEnabled() else self.print_button
 
 
 class BoardResultView(QWidget):
@@ -180,42 +180,42 @@ class BoardResultView(QWidget):
         super().__init__()
         self._theme = theme
         self.result: BoardResult | None = None
-        self.answer = heading(theme, wrap=True)
-        self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.headline_text = heading(theme, wrap=True)
+        self.basis_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.again_button = Button(theme, self.tr("Take &again"), icon="rotate-ccw")
-        self.use_button = Button(theme, self.tr("Use this calibration"), "primary", icon="check", hint=ENTER)
+        self.use_button = Button(theme, self.tr("Use this calibration"), "primary", icon="check", hint=ENTER_KEY)
         self._table = Card(theme, 20)
-        foot = in_line(self.use_button, self.again_button, STRETCH, gap=12)
+        foot = row_layout(self.use_button, self.again_button, STRETCH, gap=12)
         self._column = ScrolledColumn()
-        parts = (self.answer, self.basis, 12, self._table, 12, foot, STRETCH)
-        in_column(*parts, gap=2, margins=(4, 4, 12, 4), within=self._column)
-        in_line((ScrollArea(self._column), 1), margins=(MARGIN_PX - 4, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
+        parts = (self.headline_text, self.basis_text, 12, self._table, 12, foot, STRETCH)
+        column_layout(*parts, gap=2, margins=(4, 4, 12, 4), parent=self._column)
+        row_layout((ScrollArea(self._column), 1), margins=(MARGIN_PX - 4, GAP_PX, MARGIN_PX - 8, GAP_PX), parent=self)
         theme.changed.connect(self._fit)
         self._fit()
 
     def _fit(self) -> None:
-        self._column.setMaximumWidth(self._theme.px(MOST_WIDE_PX))
+        self._column.setMaximumWidth(self._theme.px(MAX_WIDTH_PX))
 
     def show_result(self, result: BoardResult) -> None:
         self.result = result
-        answer, basis = headline(result.made)
-        self.answer.setText(answer)
-        self.basis.setText(basis)
+        answer, basis = headline(result.calibration)
+        self.headline_text.setText(answer)
+        self.basis_text.setText(basis)
         self.use_button.setVisible(result.is_usable)
         body, theme = self._table.body, self._theme
-        empty(body)
+        clear_layout(body)
         table = QWidget()
-        grid = in_grid(12, 8, shares=(0, 30, 30, 40), margins=(0, 0, 0, 0), within=table)
-        for number, (state, name, value, words) in enumerate(result_rows(result.made)):
+        grid = grid_layout(12, 8, stretches=(0, 30, 30, 40), margins=(0, 0, 0, 0), parent=table)
+        for number, (state, name, value, words) in enumerate(result_rows(result.calibration)):
             if number:
-                grid.addWidget(Line(theme), 2 * number - 1, 0, 1, 4)
+                grid.addWidget(Separator(theme), 2 * number - 1, 0, 1, 4)
             cells = (
-                Sign(theme, state), Text(theme, name, 16, MEDIUM, wrap=True), Text(theme, value, 16, SEMIBOLD),
+                Icon(theme, state), Text(theme, name, 16, MEDIUM, wrap=True), Text(theme, value, 16, SEMIBOLD),
                 Text(theme, words, 16, REGULAR, "text2", wrap=True),
             )  # fmt: skip
             for column, cell in enumerate(cells):
                 grid.addWidget(cell, 2 * number, column)
-        fill(body, table, 8, Text(theme, kept_words(result), 14, REGULAR, "text2", wrap=True))
+        fill(body, table, 8, Text(theme, storage_words(result), 14, REGULAR, "text2", wrap=True))
 
-    def first(self) -> QWidget:
+    def initial_focus(self) -> QWidget:
         return self.use_button if self.use_button.isVisibleTo(self) else self.again_button

@@ -13,9 +13,9 @@ from carpus.ui.icons import paint_icon
 from carpus.ui.keys import key_name
 from carpus.ui.theme import CONTROL_RADIUS_PX, Theme
 
-Kind = Literal["primary", "plain", "quiet", "well"]
-OnEnter = Literal["press", "pass", "nothing"]
-LEAST_PAD_PX = 6
+ButtonKind = Literal["primary", "plain", "quiet", "well"]
+EnterAction = Literal["press", "pass", "nothing"]
+MIN_PADDING_PX = 6
 HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
 
 
@@ -27,24 +27,31 @@ class Button(QPushButton):
     """
 
     def __init__(
-        self, theme: Theme, text: str = "", kind: Kind = "plain", *, icon: str = "", hint: str = "", height_px: int = 0
+        self,
+        theme: Theme,
+        text: str = "",
+        kind: ButtonKind = "plain",
+        *,
+        icon: str = "",
+        hint: str = "",
+        height_px: int = 0,
     ) -> None:
         super().__init__(text)
         self._theme, self._kind, self._icon, self._key = theme, kind, icon, hint
-        self.on_enter: OnEnter = "press"
+        self.on_enter: EnterAction = "press"
         """What Enter does while it has the keyboard; ``pass``: it goes to the card or screen that it stands on."""
         self.height_px = height_px or HEIGHT_PX[kind]
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setSizePolicy(QSizePolicy.Policy.Minimum, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(text.replace("&", ""))
         self.setAutoDefault(False)
-        theme.changed.connect(self._take_theme)
+        theme.changed.connect(self._apply_theme)
         application = QApplication.instance()
         if isinstance(application, QApplication):
-            application.focusChanged.connect(self._look_at_keyboard)
+            application.focusChanged.connect(self._update_key_hint)
 
-    def _look_at_keyboard(self, *_: object) -> None:
-        if self._key == ENTER:
+    def _update_key_hint(self, *_: object) -> None:
+        if self._key == ENTER_KEY:
             self.update()
 
     @property
@@ -52,24 +59,24 @@ class Button(QPushButton):
         return self._key
 
     @property
-    def shown_key(self) -> str:
-        return "" if self._key == ENTER and not says_enter(self) else self._key
+    def visible_key(self) -> str:
+        return "" if self._key == ENTER_KEY and not is_enter_target(self) else self._key
 
     @property
     def _hint(self) -> str:
         """The key as the person's keyboard has it; its room stays while it is not written."""
         return key_name(self._key)
 
-    def set_face(self, text: str, *, icon: str | None = None, hint: str | None = None) -> None:
+    def set_label(self, text: str, *, icon: str | None = None, hint: str | None = None) -> None:
         icon = self._icon if icon is None else icon
         key = self._key if hint is None else hint
         if (text, icon, key) != (self.text(), self._icon, self._key):
             self._icon, self._key = icon, key
             self.setText(text)
             self.setAccessibleName(text.replace("&", ""))
-            self._take_theme()
+            self._apply_theme()
 
-    def _take_theme(self) -> None:
+    def _apply_theme(self) -> None:
         self.updateGeometry()
         self.update()
 
@@ -103,16 +110,16 @@ class Button(QPushButton):
         return self.sizeHint() - QSize(round(hint + 12) if hint else 0, 0)
 
     @property
-    def shown_text(self) -> str:
+    def visible_text(self) -> str:
         """What there is room for; a tooltip says the rest."""
         icon, text, _ = self._parts_px()
-        room = self.width() - icon - (8 if icon and text else 0) - 2 * LEAST_PAD_PX
+        room = self.width() - icon - (8 if icon and text else 0) - 2 * MIN_PADDING_PX
         if text <= room:
             return self.text()
         return QFontMetricsF(self._text_font()).elidedText(self._words, Qt.TextElideMode.ElideRight, room)
 
     def event(self, event: QEvent) -> bool:
-        if isinstance(event, QHelpEvent) and not self.toolTip() and self.shown_text != self.text():
+        if isinstance(event, QHelpEvent) and not self.toolTip() and self.visible_text != self.text():
             QToolTip.showText(event.globalPos(), self._words, self)
             return True
         return super().event(event)
@@ -138,7 +145,7 @@ class Button(QPushButton):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter presses as the space bar does; Qt gives it to dialogs only."""
-        if is_enter(event):
+        if is_enter_key(event):
             event.setAccepted(self.on_enter != "pass")
             if self.on_enter == "press":
                 self.click()
@@ -155,12 +162,12 @@ class Button(QPushButton):
         painter.drawRoundedRect(box, CONTROL_RADIUS_PX, CONTROL_RADIUS_PX)
         icon, text, hint = self._parts_px()
         gap_icon, gap_hint = (8.0 if icon and text else 0.0), (12.0 if hint else 0.0)
-        if icon + text + hint + gap_icon + gap_hint > self.width() - 2 * LEAST_PAD_PX:
+        if icon + text + hint + gap_icon + gap_hint > self.width() - 2 * MIN_PADDING_PX:
             hint = gap_hint = 0.0
-        words = self.shown_text
+        words = self.visible_text
         if words != self.text():
             text = QFontMetricsF(self._text_font()).horizontalAdvance(words)
-        left = max(float(LEAST_PAD_PX), (self.width() - icon - text - hint - gap_icon - gap_hint) / 2)
+        left = max(float(MIN_PADDING_PX), (self.width() - icon - text - hint - gap_icon - gap_hint) / 2)
         middle = self.height() / 2
         if self._icon:
             paint_icon(
@@ -174,7 +181,7 @@ class Button(QPushButton):
         painter.setPen(text_color)
         flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextShowMnemonic
         painter.drawText(QRectF(left, 0, text + 4, self.height()), int(flags), words)
-        if hint and self.shown_key:
+        if hint and self.visible_key:
             painter.setFont(self._hint_font())
             painter.setPen(hint_color)
             painter.drawText(
@@ -184,7 +191,7 @@ class Button(QPushButton):
             )
 
 
-def icon_button(theme: Theme, icon: str, name: str, kind: Kind = "quiet") -> Button:
+def icon_button(theme: Theme, icon: str, name: str, kind: ButtonKind = "quiet") -> Button:
     """A 40 px square without text; its name is tooltip and accessible name."""
     button = Button(theme, "", kind, icon=icon, height_px=40)
     button.setToolTip(name)
@@ -192,28 +199,28 @@ def icon_button(theme: Theme, icon: str, name: str, kind: Kind = "quiet") -> But
     return button
 
 
-ENTER = "Enter"
+ENTER_KEY = "Enter"
 """The key hint of a default button."""
 
 
-def is_enter(event: QKeyEvent) -> bool:
+def is_enter_key(event: QKeyEvent) -> bool:
     """Whether Enter was pressed, of either block of keys: alone, or with Ctrl, as from a field of several lines."""
     left_alone = Qt.KeyboardModifier.KeypadModifier | Qt.KeyboardModifier.ControlModifier
     return not event.modifiers() & ~left_alone and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
 
-def takes_enter(widget: QWidget | None) -> bool:
+def is_enter_handler(widget: QWidget | None) -> bool:
     """Whether a widget that has the keyboard keeps Enter to itself, as buttons do."""
     return isinstance(widget, QPushButton) and getattr(widget, "on_enter", "press") != "pass"
 
 
-def says_enter(button: QPushButton) -> bool:
+def is_enter_target(button: QPushButton) -> bool:
     """Whether Enter would press a default button now."""
     now: QWidget | None = button.window().focusWidget()
-    return button.isEnabled() and (now is button or not takes_enter(now))
+    return button.isEnabled() and (now is button or not is_enter_handler(now))
 
 
-def press(button: QPushButton | None) -> bool:
+def press_default(button: QPushButton | None) -> bool:
     """Press the default button; whether there was one that can be pressed."""
     if button is None or not button.isVisible() or not button.isEnabled():
         return False
@@ -221,11 +228,11 @@ def press(button: QPushButton | None) -> bool:
     return True
 
 
-class Tick(Button):
+class CheckButton(Button):
     """A plus, and a check once it is wanted. Enter is not its own."""
 
     def __init__(self, theme: Theme, words: str) -> None:
         super().__init__(theme, words, "quiet", icon="plus", height_px=38)
         self.on_enter = "pass"
         self.setCheckable(True)
-        self.toggled.connect(lambda on: self.set_face(words, icon="check" if on else "plus"))
+        self.toggled.connect(lambda on: self.set_label(words, icon="check" if on else "plus"))

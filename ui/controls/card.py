@@ -8,7 +8,7 @@ from PySide6.QtCore import QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette, QPen, QShowEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.ui.controls.layouts import Fitted, in_column
+from carpus.ui.controls.layouts import FittedWidget, column_layout
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.keys import key_name
 from carpus.ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
@@ -26,12 +26,12 @@ def paint_card(painter: QPainter, theme: Theme, box: QRectF) -> QRectF:
 class Surface(QWidget):
     """A plain ground of one token, for bars; the application's style sheet paints it."""
 
-    def __init__(self, theme: Theme, fill: str = "surface", edge: str = "", under: str = "") -> None:
-        """``edge`` is the token of a line about it, ``under`` of one at its lower end."""
+    def __init__(self, theme: Theme, fill: str = "surface", edge: str = "", bottom_edge: str = "") -> None:
+        """``edge`` is the token of a line about it, ``bottom_edge`` of one at its lower end."""
         super().__init__()
         self._theme = theme
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.setProperty("under", under)
+        self.setProperty("under", bottom_edge)
         self.set_colors(fill, edge)
 
     @property
@@ -53,17 +53,17 @@ class Card(Surface):
         self, theme: Theme, padding_px: int = CARD_PADDING_PX, fill: str = "surface", edge: str = "line"
     ) -> None:
         super().__init__(theme, fill, edge)
-        self.body = in_column(gap=8, margins=(padding_px, padding_px, padding_px, padding_px), within=self)
+        self.body = column_layout(gap=8, margins=(padding_px, padding_px, padding_px, padding_px), parent=self)
 
 
-class Fill(QWidget):
+class ColorFill(QWidget):
     """A plain rectangle of one token, on paper too, where no style sheet is."""
 
     def __init__(self, theme: Theme, token: str) -> None:
         super().__init__()
         self._theme, self._token = theme, token
         self.setAutoFillBackground(True)
-        theme.follow(self, self._apply_theme)
+        theme.on_change(self, self._apply_theme)
 
     def _apply_theme(self) -> None:
         palette = self.palette()
@@ -75,7 +75,7 @@ class Fill(QWidget):
         super().showEvent(event)
 
 
-class Line(Fill):
+class Separator(ColorFill):
     """A separator, a pixel wide on the screen."""
 
     def __init__(self, theme: Theme, *, vertical: bool = False) -> None:
@@ -89,7 +89,7 @@ class Line(Fill):
 SPACE_PX, BETWEEN_PX = 7, 16
 
 
-class KeyCaps(Fitted):
+class KeyCaps(FittedWidget):
     """Keys and what they do, in one line: ``[("Space", "accept"), ...]``."""
 
     def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]]) -> None:
@@ -110,7 +110,7 @@ class KeyCaps(Fitted):
         self._keys, self._pairs = tuple(keys), []
         for name, words in keys:
             cap, said = Surface(self._theme, "surface", "border"), Text(self._theme, words, 12, MEDIUM, "text2")
-            inside = in_column(margins=(6, 0, 6, 0), within=cap)
+            inside = column_layout(margins=(6, 0, 6, 0), parent=cap)
             inside.addWidget(Text(self._theme, key_name(name), 12, MEDIUM), 0, Qt.AlignmentFlag.AlignCenter)
             for part in (cap, said):
                 part.setParent(self)

@@ -21,15 +21,15 @@ from PySide6.QtWidgets import (
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.layouts import FlowLayout, in_column, in_line
-from carpus.ui.controls.text import MEDIUM, Sign, Text, caption
+from carpus.ui.controls.layouts import FlowLayout, column_layout, row_layout
+from carpus.ui.controls.text import MEDIUM, Icon, Text, caption
 from carpus.ui.fonts import font
 from carpus.ui.theme import Theme
 
 
-def lay_inside(line: QLineEdit, *parts: QWidget | None, edge_px: int = 15) -> None:
+def add_inside(line: QLineEdit, *parts: QWidget | None, edge_px: int = 15) -> None:
     """Put signs and words over a line to type in, which leaves room for them; None is what stretches."""
-    row = in_line(margins=(edge_px, 0, edge_px, 0), within=line)
+    row = row_layout(margins=(edge_px, 0, edge_px, 0), parent=line)
     for part in parts:
         if part is None:
             row.addStretch(1)
@@ -45,20 +45,20 @@ class SearchField(QLineEdit):
         super().__init__()
         self._theme = theme
         shown = caption(theme, hint)
-        lay_inside(self, Sign(theme, "search", 18, (18, 20), "text2"), None, shown)
+        add_inside(self, Icon(theme, "search", 18, (18, 20), "text2"), None, shown)
         self.textChanged.connect(lambda text: shown.setVisible(not text))
         self.setPlaceholderText(placeholder)
         self.setAccessibleName(placeholder)
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
+        theme.changed.connect(self._apply_theme)
+        self._apply_theme()
 
-    def _take_theme(self) -> None:
+    def _apply_theme(self) -> None:
         self.setFont(font(16 * self._theme.text_scale))
         self.setTextMargins(self._theme.px(30), 0, self._theme.px(60), 0)
         self.setFixedHeight(self._theme.px(44))
 
 
-class _Wheel(QObject):
+class _WheelFilter(QObject):
     """Passes the wheel on to the page: who scrolls it would change what lies under the mouse, unseen."""
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -68,10 +68,10 @@ class _Wheel(QObject):
         return True
 
 
-def leave_wheel(field: QAbstractSpinBox | QComboBox) -> None:
+def ignore_wheel(field: QAbstractSpinBox | QComboBox) -> None:
     """The wheel neither changes a field nor brings the keyboard to it."""
     field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-    field.installEventFilter(_Wheel(field))
+    field.installEventFilter(_WheelFilter(field))
 
 
 class Combo(QComboBox):
@@ -81,15 +81,15 @@ class Combo(QComboBox):
     def __init__(self) -> None:
         super().__init__()
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        leave_wheel(self)
+        ignore_wheel(self)
 
-    def offer(self, choices: Iterable[tuple[object, str]], chosen: object = None) -> None:
-        """Values with their words in place of those before; the first unless another is ``chosen``. Tells nobody."""
+    def set_choices(self, choices: Iterable[tuple[object, str]], selected: object = None) -> None:
+        """Values with their words in place of those before; the first unless another is ``selected``. Tells nobody."""
         self.blockSignals(True)
         self.clear()
         for number, (value, words) in enumerate(choices):
             self.addItem(words, value)
-            if value == chosen:
+            if value == selected:
                 self.setCurrentIndex(number)
         self.blockSignals(False)
 
@@ -103,7 +103,7 @@ class Combo(QComboBox):
         option.currentText = self.fontMetrics().elidedText(option.currentText, Qt.TextElideMode.ElideRight, room)
 
 
-class Labelled(QWidget):
+class LabelledField(QWidget):
     """A field under its caption, with what belongs to it ``beside`` it."""
 
     def __init__(self, theme: Theme, label: str, field: QWidget, *beside: QWidget) -> None:
@@ -111,45 +111,45 @@ class Labelled(QWidget):
         self.name = name = Text(theme, label, 14, MEDIUM, "text2")
         name.setBuddy(field)
         field.setAccessibleName(label.replace("&", ""))
-        column = in_column(name, gap=4, margins=(0, 0, 0, 0), within=self)
+        column = column_layout(name, gap=4, margins=(0, 0, 0, 0), parent=self)
         if beside:
-            column.addLayout(in_line((field, 1), *beside, gap=6))
+            column.addLayout(row_layout((field, 1), *beside, gap=6))
         else:
             column.addWidget(field)
 
 
-def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "", least: int = 0) -> QSpinBox:
-    """A whole number with its unit; ``nothing`` is shown for the least."""
+def number_field(theme: Theme, maximum: int, suffix: str = "", empty_text: str = "", minimum: int = 0) -> QSpinBox:
+    """A whole number with its unit; ``empty_text`` is shown for the least."""
     field = QSpinBox()
-    leave_wheel(field)
-    field.setRange(least, most)
+    ignore_wheel(field)
+    field.setRange(minimum, maximum)
     field.setSuffix(suffix)
-    field.setSpecialValueText(nothing)
-    theme.follow(field, lambda: field.setFixedWidth(theme.px(110)))
+    field.setSpecialValueText(empty_text)
+    theme.on_change(field, lambda: field.setFixedWidth(theme.px(110)))
     field.lineEdit().setTextMargins(10, 0, 10, 0)  # the style sheet's padding does not reach the text of a spin box
     return field
 
 
-class DayField(QLineEdit):
+class DateField(QLineEdit):
     """A day as people type one, empty for none."""
 
     def value(self) -> date | None:
         """None where nothing, or no day, is typed."""
-        return numbers.day_typed(self.text())
+        return numbers.parse_date(self.text())
 
     def set_value(self, day: date | None) -> None:
-        self.setText(numbers.day_of_year(day) if day is not None else "")
+        self.setText(numbers.format_date(day) if day is not None else "")
 
 
 class NumberField(QLineEdit):
     """A number with a decimal comma or point, empty for none. What is refused stays; its edge is marked, as that of
     what is in doubt, and the tooltip tells why."""
 
-    def __init__(self, theme: Theme, width_px: int = 110, letters: int = 12) -> None:
-        super().__init__(maxLength=letters)
+    def __init__(self, theme: Theme, width_px: int = 110, max_length: int = 12) -> None:
+        super().__init__(maxLength=max_length)
         self._theme, self._width_px = theme, width_px
-        self.textChanged.connect(lambda _: self._take_theme())
-        theme.changed.connect(self._take_theme)
+        self.textChanged.connect(lambda _: self._apply_theme())
+        theme.changed.connect(self._apply_theme)
 
     @property
     def is_empty(self) -> bool:
@@ -166,7 +166,9 @@ class NumberField(QLineEdit):
 
     def set_value(self, value: float) -> None:
         """Show a number; NaN empties the field."""
-        self.setText(numbers.figures(value, 6).replace("-", "\N{MINUS SIGN}") if math.isfinite(value) else "")
+        self.setText(
+            numbers.format_significant(value, 6).replace("-", "\N{MINUS SIGN}") if math.isfinite(value) else ""
+        )
 
     @property
     def problem(self) -> str:
@@ -178,7 +180,7 @@ class NumberField(QLineEdit):
         """Why it should be looked at again; empty where nothing is unusual."""
         return ""
 
-    def _take_theme(self) -> None:
+    def _apply_theme(self) -> None:
         self.setFixedWidth(self._theme.px(self._width_px))
         token = "bad" if self.problem else "warn" if self.warning else ""
         edge = getattr(self._theme.tokens, token) if token else ""
@@ -188,25 +190,25 @@ class NumberField(QLineEdit):
 
 
 class DegreesField(NumberField):
-    """An angle above 0, or from a lowest one, to the largest; ``nothing`` stands where it is empty. ``direction`` is
+    """An angle above 0, or from a lowest one, to the largest; ``empty_text`` stands where it is empty. ``direction`` is
     the sign of the value, which the person never sees."""
 
-    def __init__(self, theme: Theme, most: int, nothing: str, direction: float = 1.0) -> None:
+    def __init__(self, theme: Theme, maximum: int, empty_text: str, direction: float = 1.0) -> None:
         super().__init__(theme)
-        self._least, self._most, self.direction = 0, most, direction
-        self.setPlaceholderText(nothing)
+        self._minimum, self._maximum, self.direction = 0, maximum, direction
+        self.setPlaceholderText(empty_text)
         self.editingFinished.connect(lambda: self.set_value(self.value()) if math.isfinite(self.value()) else None)
-        self._take_theme()
+        self._apply_theme()
 
     def value(self) -> float:
         value = super().value()
-        is_possible = (value >= self._least if self._least else value > 0.0) and value <= self._most
+        is_possible = (value >= self._minimum if self._minimum else value > 0.0) and value <= self._maximum
         return self.direction * value if is_possible else math.nan
 
-    def set_least(self, least: int) -> None:
+    def set_minimum(self, minimum: int) -> None:
         """0, beyond which an angle must be, or the lowest that can be entered."""
-        self._least = least
-        self._take_theme()
+        self._minimum = minimum
+        self._apply_theme()
 
     def set_value(self, value: float) -> None:
         super().set_value(self.direction * value)
@@ -217,10 +219,10 @@ class DegreesField(NumberField):
     def problem(self) -> str:
         if self.is_empty or math.isfinite(self.value()):
             return ""
-        return self.tr("Up to {most}°, or empty").format(most=self._most)
+        return self.tr("Up to {most}°, or empty").format(most=self._maximum)
 
 
-class Choices(QWidget):
+class ChoiceRow(QWidget):
     """Exclusive choices side by side; Tab leads to the chosen one, arrow keys choose another. The chosen one is filled
     and says so by its check state."""
 
@@ -245,7 +247,7 @@ class Choices(QWidget):
         if isinstance(row, QHBoxLayout):
             row.addStretch(1)
         self._group.idClicked.connect(lambda number: self.chosen.emit(self._values[number]))
-        self._group.idToggled.connect(self._lead_tab)
+        self._group.idToggled.connect(self._update_tab_stop)
         self.choose(current if current in self._values else self._values[0])
 
     def choose(self, value: object) -> None:
@@ -258,7 +260,7 @@ class Choices(QWidget):
             button.setChecked(False)
         self._group.setExclusive(True)
 
-    def _lead_tab(self) -> None:
+    def _update_tab_stop(self) -> None:
         """Qt does it only once a button has had the keyboard."""
         at = max(self._group.checkedId(), 0)
         for number, button in enumerate(self.buttons()):
@@ -280,7 +282,7 @@ class ChoiceButton(Button):
         super().__init__(theme, text, "plain", height_px=height_px)
         self.on_enter = "pass"
         self.setCheckable(True)
-        self.toggled.connect(lambda on: self.set_face(self.text(), icon="check" if on else ""))
+        self.toggled.connect(lambda on: self.set_label(self.text(), icon="check" if on else ""))
 
     def _colors(self):  # type: ignore[no-untyped-def]
         if self.isChecked():

@@ -49,7 +49,7 @@ def fill(layout: QBoxLayout, *parts: Part) -> None:
             layout.addWidget(item, share)
 
 
-def empty(layout: QLayout) -> None:
+def clear_layout(layout: QLayout) -> None:
     """Take out what is in it, and let it go."""
     while (item := layout.takeAt(0)) is not None:
         if (widget := item.widget()) is not None:
@@ -57,36 +57,41 @@ def empty(layout: QLayout) -> None:
             widget.deleteLater()
 
 
-def in_line(
+def row_layout(
     *parts: Part,
     gap: int | None = None,
     margins: Margins | None = None,
-    within: QWidget | None = None,
+    parent: QWidget | None = None,
 ) -> QHBoxLayout:
-    """Side by side, ``gap`` pixels between them, as the layout of ``within``."""
-    return _laid(QHBoxLayout() if within is None else QHBoxLayout(within), parts, gap, margins)
+    """Side by side, ``gap`` pixels between them, as the layout of ``parent``."""
+    return _laid(QHBoxLayout() if parent is None else QHBoxLayout(parent), parts, gap, margins)
 
 
-def in_column(
+def column_layout(
     *parts: Part,
     gap: int | None = None,
     margins: Margins | None = None,
-    within: QWidget | None = None,
+    parent: QWidget | None = None,
 ) -> QVBoxLayout:
-    """One below the other; else as :func:`in_line`."""
-    return _laid(QVBoxLayout() if within is None else QVBoxLayout(within), parts, gap, margins)
+    """One below the other; else as :func:`row_layout`."""
+    return _laid(QVBoxLayout() if parent is None else QVBoxLayout(parent), parts, gap, margins)
 
 
-def in_grid(
-    across: int, down: int, *, shares: Sequence[int] = (), margins: Margins | None = None, within: QWidget | None = None
+def grid_layout(
+    horizontal_gap: int,
+    vertical_gap: int,
+    *,
+    stretches: Sequence[int] = (),
+    margins: Margins | None = None,
+    parent: QWidget | None = None,
 ) -> QGridLayout:
-    """In rows and columns, with so many pixels between them; ``shares`` of the room for each column."""
-    grid = QGridLayout() if within is None else QGridLayout(within)
-    grid.setHorizontalSpacing(across)
-    grid.setVerticalSpacing(down)
+    """In rows and columns, with so many pixels between them; ``stretches`` of the room for each column."""
+    grid = QGridLayout() if parent is None else QGridLayout(parent)
+    grid.setHorizontalSpacing(horizontal_gap)
+    grid.setVerticalSpacing(vertical_gap)
     if margins is not None:
         grid.setContentsMargins(*margins)
-    for column, share in enumerate(shares):
+    for column, share in enumerate(stretches):
         grid.setColumnStretch(column, share)
     return grid
 
@@ -100,7 +105,7 @@ def _laid(layout: LayoutT, parts: tuple[Part, ...], gap: int | None, margins: Ma
     return layout
 
 
-def host_of(widget: QWidget) -> QWidget:
+def require_parent(widget: QWidget) -> QWidget:
     """The parent of a widget that is never without one."""
     parent = widget.parentWidget()
     assert parent is not None
@@ -135,11 +140,11 @@ class FlowLayout(QLayout):
         return True
 
     def heightForWidth(self, width: int) -> int:
-        return self._placed(QRect(0, 0, width, 0), moves=False)
+        return self._place_items(QRect(0, 0, width, 0), moves=False)
 
     def setGeometry(self, room: QRect) -> None:
         super().setGeometry(room)
-        self._placed(room, moves=True)
+        self._place_items(room, moves=True)
 
     def sizeHint(self) -> QSize:
         sizes = [item.sizeHint() for item in self._items]
@@ -150,7 +155,7 @@ class FlowLayout(QLayout):
         sizes = [item.minimumSize() for item in self._items]
         return QSize(max((one.width() for one in sizes), default=0), max((one.height() for one in sizes), default=0))
 
-    def _placed(self, room: QRect, *, moves: bool) -> int:
+    def _place_items(self, room: QRect, *, moves: bool) -> int:
         x = y = line_px = 0
         for item in self._items:
             size = item.sizeHint()
@@ -168,7 +173,7 @@ NO_LIMIT_PX = 16_777_215
 """Qt's own greatest width and height."""
 
 
-class Fitted(QWidget):
+class FittedWidget(QWidget):
     """What is on it is fitted to the room whenever that changes."""
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -210,7 +215,7 @@ class ScrollArea(QScrollArea):
         self.setFocusPolicy(focus)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
 
-    def unroll(self, *, on: bool) -> None:
+    def expand(self, *, on: bool) -> None:
         """As high as all that it holds, on a page that scrolls in its place."""
         policy = self.sizePolicy()
         policy.setHeightForWidth(on)
@@ -230,14 +235,14 @@ class ScrollArea(QScrollArea):
         return super().event(event)
 
 
-def page(layout: QVBoxLayout) -> ScrollArea:
+def scroll_page(layout: QVBoxLayout) -> ScrollArea:
     """The whole of a screen, which scrolls where the window is lower than everything on it can be."""
     host = _ScrolledPage()
     host.setLayout(layout)
     return ScrollArea(host)
 
 
-def scrolled(layout: QVBoxLayout) -> ScrollArea:
+def scroll_column(layout: QVBoxLayout) -> ScrollArea:
     """A column that scrolls where large text leaves no room; at its edges there is room for the focus ring."""
     layout.setContentsMargins(RING_PX, RING_PX, RING_PX, RING_PX)
     host = ScrolledColumn()

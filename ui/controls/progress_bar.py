@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QProgressBar
 from carpus.ui.theme import Theme
 
 
-class ThinBar(QProgressBar):
+class ThinProgressBar(QProgressBar):
     """A line that fills; before the first word it says only that something is done."""
 
     def __init__(self, theme: Theme, name: str) -> None:
@@ -16,17 +16,17 @@ class ThinBar(QProgressBar):
         self.setTextVisible(False)
         self.setAccessibleName(name)
         self.setFixedHeight(8)
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
+        theme.changed.connect(self._apply_theme)
+        self._apply_theme()
 
-    def begin(self) -> None:
+    def show_busy(self) -> None:
         self.setRange(0, 0)
 
     def show_progress(self, done: int, total: int) -> None:
         self.setRange(0, max(total, 1))
         self.setValue(done)
 
-    def _take_theme(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._theme.tokens
         bar = f"QProgressBar {{ background: {tokens.sunken}; border: 0; border-radius: 4px; height: 8px; }}"
         chunk = f" QProgressBar::chunk {{ background: {tokens.accent}; border-radius: 4px; }}"

@@ -15,154 +15,156 @@ from PySide6.QtWidgets import (
 )
 from shiboken6 import isValid
 
-from carpus.ui.controls.button import ENTER, Button, is_enter, press
+from carpus.ui.controls.button import ENTER_KEY, Button, is_enter_key, press_default
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.layouts import STRETCH, fill, host_of, in_line
+from carpus.ui.controls.layouts import STRETCH, fill, require_parent, row_layout
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.theme import Theme
 
-_open: list[Sheet] = []
+_open_dialogs: list[Dialog] = []
 """The sheets that are open, the topmost last."""
 
 
-def _keep_order(sheet: Sheet) -> None:
-    _open[:] = [other for other in _open if isValid(other) and other is not sheet] + [sheet]
+def _move_to_top(sheet: Dialog) -> None:
+    _open_dialogs[:] = [other for other in _open_dialogs if isValid(other) and other is not sheet] + [sheet]
 
 
-def is_covered(window: QWidget) -> bool:
+def has_open_dialog(window: QWidget) -> bool:
     """Whether a sheet is open in a window."""
-    return any(isValid(sheet) and sheet.isVisible() and sheet.window() is window for sheet in _open)
+    return any(isValid(sheet) and sheet.isVisible() and sheet.window() is window for sheet in _open_dialogs)
 
 
-_MOUSE = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonRelease, QEvent.Type.MouseButtonDblClick)
-_HELD = frozenset((QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress, QEvent.Type.FocusIn, *_MOUSE))
+_MOUSE_EVENTS = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonRelease, QEvent.Type.MouseButtonDblClick)
+_FILTERED_EVENTS = frozenset((QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress, QEvent.Type.FocusIn, *_MOUSE_EVENTS))
 """What a sheet keeps from the window below it: all other events of the whole program pass without being looked at."""
 
 
-class Sheet(QWidget):
+class Dialog(QWidget):
     """Covers ``host`` while open. Every key of the window is the topmost sheet's, whatever lies below or beside it; Tab
-    stays inside; Esc closes when ``may_close``, and says so first where something was typed; Enter presses the
-    ``default`` button. Where it must be answered the mouse is held to it too."""
+    stays inside; Esc closes when ``is_dismissible``, and says so first where something was typed; Enter presses the
+    ``default_button`` button. Where it must be answered the mouse is held to it too."""
 
     closed = Signal()
 
     def __init__(
-        self, host: QWidget, theme: Theme, width_px: int = 560, *, may_close: bool = True, low: bool = False
+        self, host: QWidget, theme: Theme, width_px: int = 560, *, is_dismissible: bool = True, is_low: bool = False
     ) -> None:
-        """``low``: near the lower edge and without dimming, over a screen that must stay readable."""
+        """``is_low``: near the lower edge and without dimming, over a screen that must stay readable."""
         super().__init__(host)
-        self._theme, self._may_close = theme, may_close
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground, not low)
+        self._theme, self._is_dismissible = theme, is_dismissible
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground, not is_low)
         self._width_px = width_px
-        self._focus_before: QWidget | None = None
-        self._first: QWidget | None = None
-        self.default: Button | None = None
-        self._typed_before: list[str] = []
+        self._previous_focus: QWidget | None = None
+        self._focus_widget: QWidget | None = None
+        self.default_button: Button | None = None
+        self._initial_texts: list[str] = []
         self._warning: Text | None = None
         self.card = Card(theme, 24)
-        across = in_line(STRETCH, self.card, STRETCH)
+        across = row_layout(STRETCH, self.card, STRETCH)
         down = QVBoxLayout(self)
-        down.addStretch(12 if low else 2)
+        down.addStretch(12 if is_low else 2)
         down.addLayout(across)
-        down.addStretch(1 if low else 3)
+        down.addStretch(1 if is_low else 3)
         host.installEventFilter(self)
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
+        theme.changed.connect(self._apply_theme)
+        self._apply_theme()
         self.hide()
 
-    def _take_theme(self) -> None:
-        self._take_room()
+    def _apply_theme(self) -> None:
+        self._fit_card()
         self.update()
 
-    def _take_room(self) -> None:
+    def _fit_card(self) -> None:
         """The card as wide as the design has it, and never wider than its host has room for."""
-        self.card.setFixedWidth(min(self._theme.px(self._width_px), max(host_of(self).width() - 48, 200)))
+        self.card.setFixedWidth(min(self._theme.px(self._width_px), max(require_parent(self).width() - 48, 200)))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        self._take_room()
+        self._fit_card()
         super().resizeEvent(event)
 
-    def head(self, title: str = "", words: str = "", *, gap: int = 12) -> None:
+    def add_heading(self, title: str = "", words: str = "", *, gap: int = 12) -> None:
         """What is asked, and a sentence of what follows; ``gap`` between all that is on the card."""
         self.title = Text(self._theme, title, 20, SEMIBOLD, wrap=True)
         self.words = Text(self._theme, words, 14, REGULAR, "text2", wrap=True)
         self.card.body.setSpacing(gap)
         fill(self.card.body, self.title, self.words)
 
-    def answer_row(self, take: Button, *others: Button, words: str = "", gap: int | None = 10) -> Button:
+    def add_buttons(self, accept: Button, *others: Button, cancel_text: str = "", gap: int | None = 10) -> Button:
         """The last line: ``others`` at the left, then the way out, which is returned, and what Enter takes."""
-        close = Button(self._theme, words or self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=take.height_px)
-        close.clicked.connect(self.close_sheet)
-        self.set_default(take)
-        self.card.body.addLayout(in_line(*others, STRETCH, close, take, gap=gap))
+        close = Button(
+            self._theme, cancel_text or self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=accept.height_px
+        )
+        close.clicked.connect(self.close_dialog)
+        self.set_default(accept)
+        self.card.body.addLayout(row_layout(*others, STRETCH, close, accept, gap=gap))
         return close
 
     def set_default(self, button: Button) -> None:
         """What Enter answers: it loses nothing."""
-        if self.default is not None and self.default is not button and isValid(self.default):
-            self.default.set_face(self.default.text(), hint="")
-        self.default = button
-        button.set_face(button.text(), hint=ENTER)
+        if self.default_button is not None and self.default_button is not button and isValid(self.default_button):
+            self.default_button.set_label(self.default_button.text(), hint="")
+        self.default_button = button
+        button.set_label(button.text(), hint=ENTER_KEY)
 
-    def open(self, first: QWidget | None = None) -> None:
-        """Show over the host and give the keyboard to ``first``, a field, or else to the default button."""
-        first = first or self.default
+    def open(self, focus: QWidget | None = None) -> None:
+        """Show over the host and give the keyboard to ``focus``, a field, or else to the default button."""
+        focus = focus or self.default_button
         now: QWidget | None = self.window().focusWidget()
         if now is None or not self.isAncestorOf(now):
-            self._focus_before = now
-        self._first = first
-        self._typed_before = self._typed()
-        self._take_warning_back()
-        self.setGeometry(host_of(self).rect())
-        self._take_room()
+            self._previous_focus = now
+        self._focus_widget = focus
+        self._initial_texts = self._field_texts()
+        self._clear_warning()
+        self.setGeometry(require_parent(self).rect())
+        self._fit_card()
         self.show()
         self.raise_()
-        _keep_order(self)
+        _move_to_top(self)
         application = QCoreApplication.instance()
         assert application is not None
         application.installEventFilter(self)
-        self._take_keyboard()
+        self._grab_focus()
 
-    def _take_keyboard(self) -> None:
-        first = self._first
+    def _grab_focus(self) -> None:
+        first = self._focus_widget
         (first if first is not None and isValid(first) else self).setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def close_sheet(self) -> None:
+    def close_dialog(self) -> None:
         """Hide and give the keyboard back."""
-        if self.isVisibleTo(host_of(self)):
+        if self.isVisibleTo(require_parent(self)):
             self.hide()
             application = QCoreApplication.instance()
             if application is not None:
                 application.removeEventFilter(self)
-            if self in _open:
-                _open.remove(self)
-            before = self._focus_before
+            if self in _open_dialogs:
+                _open_dialogs.remove(self)
+            before = self._previous_focus
             if before is not None and isValid(before) and before.isVisible():  # a card's own old button is gone
                 before.setFocus(Qt.FocusReason.OtherFocusReason)
             self.closed.emit()
 
-    def leave(self) -> None:
+    def dismiss(self) -> None:
         """What Esc does: close where this may be left without an answer; what was typed takes a second key."""
-        if not self._may_close:
+        if not self._is_dismissible:
             return
-        typed = self._typed()
-        if typed == self._typed_before:
-            self.close_sheet()
+        typed = self._field_texts()
+        if typed == self._initial_texts:
+            self.close_dialog()
             return
-        self._typed_before = typed
-        self._take_warning_back()
+        self._initial_texts = typed
+        self._clear_warning()
         words = self.tr("What you typed is not kept yet. Esc once more closes without it.")
         self._warning = Text(self._theme, words, 14, SEMIBOLD, "bad", wrap=True)
         self.card.body.insertWidget(max(self.card.body.count() - 1, 0), self._warning)  # above the answers
 
-    def _take_warning_back(self) -> None:
+    def _clear_warning(self) -> None:
         if self._warning is not None:
             self._warning.hide()
             self._warning.deleteLater()
             self._warning = None
 
-    def _typed(self) -> list[str]:
+    def _field_texts(self) -> list[str]:
         """What stands in the fields; nothing of a search, or of a secret, which is typed again."""
         lines = [
             one.text()
@@ -173,9 +175,9 @@ class Sheet(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape:
-            self.leave()
-        elif is_enter(event):
-            press(self.default)
+            self.dismiss()
+        elif is_enter_key(event):
+            press_default(self.default_button)
         else:
             self._press_mnemonic(event)
         event.accept()  # nothing goes through to what lies below
@@ -215,28 +217,28 @@ class Sheet(QWidget):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         kind = event.type()
         if kind == QEvent.Type.Resize and watched is self.parentWidget():
-            self.setGeometry(host_of(self).rect())
-        if kind not in _HELD:
+            self.setGeometry(require_parent(self).rect())
+        if kind not in _FILTERED_EVENTS:
             return False
         if kind == QEvent.Type.ShortcutOverride:
-            if self._rules(watched.window() if isinstance(watched, QWidget) else QApplication.activeWindow()):
+            if self._is_topmost(watched.window() if isinstance(watched, QWidget) else QApplication.activeWindow()):
                 event.accept()  # no shortcut of the window fires; the key itself goes to who has the keyboard
-        elif isinstance(watched, QWidget) and watched is not self and self._rules(watched.window()):
+        elif isinstance(watched, QWidget) and watched is not self and self._is_topmost(watched.window()):
             outside = not self.isAncestorOf(watched) and watched is not self.window()
             if kind == QEvent.Type.KeyPress and self._press_mnemonic(event):  # type: ignore[arg-type]
                 return True  # a line to type in would take the letter
             if kind == QEvent.Type.KeyPress and outside:
-                self._take_keyboard()
+                self._grab_focus()
                 self.keyPressEvent(event)  # type: ignore[arg-type]
                 return True
-            if kind in _MOUSE and outside and not self._may_close:
+            if kind in _MOUSE_EVENTS and outside and not self._is_dismissible:
                 return True
             if kind == QEvent.Type.FocusIn and outside:
-                self._take_keyboard()
+                self._grab_focus()
                 return True
         return False
 
-    def _rules(self, window: QWidget | None) -> bool:
+    def _is_topmost(self, window: QWidget | None) -> bool:
         """Whether this is the topmost sheet to be seen in a window."""
-        shown = [sheet for sheet in _open if isValid(sheet) and sheet.isVisible() and sheet.window() is window]
+        shown = [sheet for sheet in _open_dialogs if isValid(sheet) and sheet.isVisible() and sheet.window() is window]
         return bool(shown) and shown[-1] is self

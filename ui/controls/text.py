@@ -10,15 +10,15 @@ from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEven
 from PySide6.QtWidgets import QLabel, QSizePolicy, QToolTip, QWidget
 
 from carpus.ui.fonts import DISPLAY_FAMILY, MEDIUM, REGULAR, SEMIBOLD, font
-from carpus.ui.icons import State, paint_icon, paint_mark, paint_state
+from carpus.ui.icons import State, paint_icon, paint_logo, paint_state
 from carpus.ui.theme import Theme
 
 __all__ = [
     "MEDIUM",
     "REGULAR",
     "SEMIBOLD",
+    "Icon",
     "PlainText",
-    "Sign",
     "StateText",
     "Text",
     "caption",
@@ -47,16 +47,16 @@ class PlainText(QLabel):
         self.setWordWrap(wrap)
         if wrap:
             self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        theme.follow(self, self._take_theme)
+        theme.on_change(self, self._apply_theme)
 
-    def _take_theme(self) -> None:
+    def _apply_theme(self) -> None:
         self.setFont(self._theme.font(self._size_px, self._weight))
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.WindowText, self._theme.color(self._token))
         self.setPalette(palette)
-        self._leave_room()
+        self._reserve_ascent()
 
-    def _leave_room(self) -> None:
+    def _reserve_ascent(self) -> None:
         """The display cut's Ä, Ö, Ü and È rise above the line that the font asks for, and would be cut at the label's
         edge."""
         top_px = 0
@@ -72,21 +72,21 @@ class Text(PlainText):
 
     def setText(self, text: str) -> None:
         super().setText(text)
-        self._leave_room()
+        self._reserve_ascent()
 
-    def say(self, words: str) -> None:
+    def show_text(self, words: str) -> None:
         """These words; hidden where there are none."""
         self.setText(words)
         self.setVisible(bool(words))
 
-    def set_look(self, token: str, weight: int) -> None:
+    def set_style(self, token: str, weight: int) -> None:
         if (token, weight) != (self._token, self._weight):
             self._token, self._weight = token, weight
-            self._take_theme()
+            self._apply_theme()
 
     def showEvent(self, event: QShowEvent) -> None:
         # A label that was not on a screen yet when the colours changed is given its old ones back by the style sheet.
-        self._take_theme()
+        self._apply_theme()
         super().showEvent(event)
 
     # Qt gives an empty label another height than one with a word, and what lies below would move when the word comes.
@@ -100,7 +100,7 @@ class Text(PlainText):
         return super().heightForWidth(width) if self.text() or not self.wordWrap() else self._line_px()
 
     @property
-    def shown_text(self) -> str:
+    def visible_text(self) -> str:
         """What there is room for of a single line; a tooltip says the rest."""
         if self.wordWrap() or "\n" in self.text():
             return self.text()
@@ -111,7 +111,7 @@ class Text(PlainText):
         return self.fontMetrics().elidedText(words, Qt.TextElideMode.ElideRight, room)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        words = self.shown_text
+        words = self.visible_text
         if words == self.text():
             super().paintEvent(event)
             return
@@ -120,7 +120,7 @@ class Text(PlainText):
         painter.drawText(self.contentsRect(), self.alignment().value, words)
 
     def event(self, event: QEvent) -> bool:
-        if isinstance(event, QHelpEvent) and not self.toolTip() and self.shown_text != self.text():
+        if isinstance(event, QHelpEvent) and not self.toolTip() and self.visible_text != self.text():
             QToolTip.showText(event.globalPos(), self.text(), self)
             return True
         return super().event(event)
@@ -139,13 +139,15 @@ class ElidedText(Text):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
 
     @property
-    def shown_text(self) -> str:
+    def visible_text(self) -> str:
         return self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-        painter.drawText(self.rect(), int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), self.shown_text)
+        painter.drawText(
+            self.rect(), int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), self.visible_text
+        )
 
 
 def heading(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
@@ -230,33 +232,33 @@ class StateText(QWidget):
         painter.drawText(QRectF(left, 0, self.width() - left, self.height()), Qt.AlignmentFlag.AlignVCenter, self._text)
 
 
-class Sign(QWidget):
+class Icon(QWidget):
     """A state's sign or a line icon alone; its words stand beside it. ``size_px`` large in the middle of the height of
-    ``room_px``, and so far to the right in it as ``lean`` says, from 0 to 1."""
+    ``box_px``, and so far to the right in it as ``alignment`` says, from 0 to 1."""
 
     def __init__(
-        self, theme: Theme, name: str, size_px: int = 18, room_px: tuple[int, int] = (20, 20), token: str = "accent",
-        lean: float = 0.0,
+        self, theme: Theme, name: str, size_px: int = 18, box_px: tuple[int, int] = (20, 20), token: str = "accent",
+        alignment: float = 0.0,
     ) -> None:  # fmt: skip
         super().__init__()
-        self._theme, self._room_px, self._lean = theme, room_px, lean
-        self.show_sign(name, token, size_px)
-        theme.follow(self, self._take_theme)
+        self._theme, self._box_px, self._alignment = theme, box_px, alignment
+        self.show_icon(name, token, size_px)
+        theme.on_change(self, self._apply_theme)
 
-    def show_sign(self, name: str, token: str = "accent", size_px: int = 18) -> None:
+    def show_icon(self, name: str, token: str = "accent", size_px: int = 18) -> None:
         """Show another; the token is that of an icon, a state has its own."""
         self._name, self._token, self._size_px = name, token, size_px
         self.update()
 
-    def _take_theme(self) -> None:
-        self.setFixedSize(*(self._theme.px(side) for side in self._room_px))
+    def _apply_theme(self) -> None:
+        self.setFixedSize(*(self._theme.px(side) for side in self._box_px))
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter, size = QPainter(self), self._theme.px(self._size_px)
-        box = QRectF((self.width() - size) * self._lean, (self.height() - size) / 2, size, size)
+        box = QRectF((self.width() - size) * self._alignment, (self.height() - size) / 2, size, size)
         if self._name == "carpus":
-            paint_mark(painter, box, self._theme.color(self._token))
+            paint_logo(painter, box, self._theme.color(self._token))
         elif self._name == "chosen":
             paint_state(painter, "good", box, self._theme.color("accent"), self._theme.color("on_accent"))
         elif self._name in STATE_TOKENS:

@@ -10,252 +10,264 @@ from pathlib import Path
 
 from PySide6.QtCore import Signal
 
-from carpus.core.pipeline.correction import correct_in_process, not_held, task_of
-from carpus.core.records.corrections import Corrections, Difference, Waiting, difference
+from carpus.core.pipeline.correction import correct_in_process, find_lost_corrections, load_task
+from carpus.core.records.corrections import Corrections, PendingResult, ResultDifference, compare_results
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.results.figures import session_figures
-from carpus.core.results.seen import joint_curves, session_curves
-from carpus.core.session.marker_doubts import Correction, corrections_in
+from carpus.core.results.figures import compute_session_results
+from carpus.core.results.seen import joint_curves, wrist_curves
+from carpus.core.session.marker_doubts import Correction, read_corrections
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import Session, SessionHeader
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
-from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
-from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.correct.results_sheet import ResultPair, ResultsDialog
+from carpus.ui.correct.screen import CorrectionScreen
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.marker_words import finger_of, marker_name
-from carpus.ui.now_open import practice_name
-from carpus.ui.translate import inside, tr
+from carpus.ui.marker_words import finger_number, marker_title
+from carpus.ui.now_open import practice_patient_name
+from carpus.ui.translate import to_mid_sentence, tr
 from carpus.ui.words.agreement import angle_name
 
 
-class CorrectFlow(Flow):
-    """``changed`` carries percent, -1 when nothing runs, and how many new results wait for a decision.
+class CorrectionFlow(Flow):
+    """``progress_changed`` carries percent, -1 when nothing runs, and how many new results wait for a decision.
 
     One session is tracked again at a time, in a process of its own; window, other patients and a new measurement go on.
     What comes of it waits in the top bar until a person opens it: nothing comes up over what somebody does.
     """
 
-    place, guide = "correct", "correct"
-    while_aside = True
-    screen: CorrectScreen
+    screen_name, guide_page = "correct", "correct"
+    runs_behind_overlay = True
+    screen: CorrectionScreen
 
-    changed = Signal(int, int)
-    _at = Signal(int)
+    progress_changed = Signal(int, int)
+    _percent_reached = Signal(int)
 
     def __init__(self, context: ScreenContext) -> None:
-        self._stored = Corrections(context.library)
-        self._stored.clear_unfinished()
-        super().__init__(context, CorrectScreen(context.theme, context.background, self._stored))
-        self.sheet = ResultsSheet(context.shell.stage, context.theme)
+        self._corrections = Corrections(context.library)
+        self._corrections.delete_unfinished()
+        super().__init__(context, CorrectionScreen(context.theme, context.background, self._corrections))
+        self.dialog = ResultsDialog(context.window.screen_stack, context.theme)
         self._tracking, self._background = Background(), Background()
-        self._stopping = threading.Event()
-        self.running, self._whose, self._percent = "", "", -1
-        self.waiting: list[Waiting] = []
-        self._shown: Waiting | None = None
-        self._at.connect(self._take_progress)
-        self.screen.wanted.connect(self.start)
-        self.screen.told.connect(context.messages.fault)
-        self.screen.done.connect(context.way.back)
-        self.sheet.stop.clicked.connect(self.stop)
-        self.sheet.keep.clicked.connect(self._keep)
-        self.sheet.use.clicked.connect(self._use)
+        self._stop_event = threading.Event()
+        self.running_session_id, self._session_label, self._percent = "", "", -1
+        self.pending: list[PendingResult] = []
+        self._shown_result: PendingResult | None = None
+        self._percent_reached.connect(self._on_progress)
+        self.screen.reanalysis_requested.connect(self.start)
+        self.screen.fault_raised.connect(context.messages.show_fault)
+        self.screen.back_requested.connect(context.navigator.navigate_back)
+        self.dialog.stop_button.clicked.connect(self.stop)
+        self.dialog.keep_button.clicked.connect(self._discard_result)
+        self.dialog.use_button.clicked.connect(self._accept_result)
 
     @property
-    def is_at_work(self) -> bool:
-        return self._tracking.busy
+    def is_busy(self) -> bool:
+        return self._tracking.is_busy
 
-    def look_for_waiting(self) -> None:
+    def refresh_pending(self) -> None:
         """When the program starts, and after something was erased: what waits for a decision."""
-        self._background.run(self._stored.waiting, self._take_waiting, self.context.messages.fault, self)
+        self._background.run(self._corrections.list_pending, self._on_pending, self.context.messages.show_fault, self)
 
-    def _take_waiting(self, found: Sequence[Waiting]) -> None:
-        self.waiting = list(found)
-        self._say()
+    def _on_pending(self, found: Sequence[PendingResult]) -> None:
+        self.pending = list(found)
+        self._emit_progress()
 
-    def show(self, session_id: str, session: Session, row: int) -> None:
-        if self.running:
-            self.open_sheet()
+    def open(self, session_id: str, session: Session, row: int) -> None:
+        if self.running_session_id:
+            self.open_dialog()
             return
-        self._whose = whose(session.header)
-        self.screen.begin(session_id, session, row)
-        self.context.way.go("correct")
+        self._session_label = describe_session(session.header)
+        self.screen.show_session(session_id, session, row)
+        self.context.navigator.switch_screen("correct")
 
     def start(self, session_id: str, corrections: Sequence[Correction]) -> None:
         """Track again in the background."""
-        if self.running:
-            self.open_sheet()
+        if self.running_session_id:
+            self.open_dialog()
             return
-        self.running, self._percent = session_id, 0
-        self._stopping.clear()
+        self.running_session_id, self._percent = session_id, 0
+        self._stop_event.clear()
         trial: list[Path] = []
 
         def work() -> bool:
-            trial.append(self._stored.trial_path(session_id))
+            trial.append(self._corrections.new_pending_path(session_id))
             origin = self.context.library.entry(session_id).path
-            task = task_of(origin, trial[0], corrections, self.context.report.therapist)
-            return correct_in_process(task, self._tell_progress, self._stopping)
+            task = load_task(origin, trial[0], corrections, self.context.report_settings.therapist)
+            return correct_in_process(task, self._report_progress, self._stop_event)
 
-        def done(finished: bool) -> None:
-            one = Waiting(session_id, trial[0])
-            if finished and one not in self.waiting:  # a look has found it already
-                self.waiting.append(one)
-            self._end()
-            if finished and self.sheet.isVisible():  # somebody waits for it there
-                self._show_waiting(one)
+        def on_done(finished: bool) -> None:
+            one = PendingResult(session_id, trial[0])
+            if finished and one not in self.pending:  # a look has found it already
+                self.pending.append(one)
+            self._finish_tracking()
+            if finished and self.dialog.isVisible():  # somebody waits for it there
+                self._show_pending(one)
             if finished:
-                self.look_for_waiting()  # one from before may still come, and know nothing of it
+                self.refresh_pending()  # one from before may still come, and know nothing of it
 
-        def failed(fault: Exception) -> None:
-            self._end()
-            self.context.messages.fault(fault)
+        def on_failed(fault: Exception) -> None:
+            self._finish_tracking()
+            self.context.messages.show_fault(fault)
 
-        self._say()
-        self._tracking.run(work, done, failed, self)
-        self.context.way.back()
+        self._emit_progress()
+        self._tracking.run(work, on_done, on_failed, self)
+        self.context.navigator.navigate_back()
 
-    def up(self) -> None:
-        self.to_session()
+    def navigate_back(self) -> None:
+        self.return_to_session()
 
     def stop(self) -> None:
         """Keep the old result; what runs is given up."""
-        self._stopping.set()
-        self.sheet.close_sheet()
+        self._stop_event.set()
+        self.dialog.close_dialog()
 
-    def open_sheet(self, session_id: str = "") -> None:
+    def open_dialog(self, session_id: str = "") -> None:
         """What runs, or what waits for a decision: of this session first."""
-        if self.running:
-            self.sheet.show_running(self._whose, max(self._percent, 0))
-            self.sheet.begin()
-        elif self.waiting:
-            own = [one for one in self.waiting if one.session_id == session_id]
-            self._show_waiting((own or self.waiting)[-1 if own else 0])
-            self.sheet.begin()
+        if self.running_session_id:
+            self.dialog.show_running(self._session_label, max(self._percent, 0))
+            self.dialog.begin()
+        elif self.pending:
+            own = [one for one in self.pending if one.session_id == session_id]
+            self._show_pending((own or self.pending)[-1 if own else 0])
+            self.dialog.begin()
 
     def close(self) -> None:
         """The program ends; what waits for a decision waits on."""
-        self._stopping.set()
-        self._tracking.wait()
-        self._background.wait()
+        self._stop_event.set()
+        self._tracking.join()
+        self._background.join()
 
-    def _tell_progress(self, done: int, total: int) -> None:
+    def _report_progress(self, done: int, total: int) -> None:
         """Called in the background."""
-        self._at.emit(100 * done // max(total, 1))
+        self._percent_reached.emit(100 * done // max(total, 1))
 
-    def _take_progress(self, percent: int) -> None:
-        if not self.running:
+    def _on_progress(self, percent: int) -> None:
+        if not self.running_session_id:
             return
         self._percent = percent
-        if self.sheet.isVisible():
-            self.sheet.show_running(self._whose, percent)
-        self._say()
+        if self.dialog.isVisible():
+            self.dialog.show_running(self._session_label, percent)
+        self._emit_progress()
 
-    def _end(self) -> None:
-        self.running, self._percent = "", -1
-        if self._stopping.is_set() or not self.waiting:
-            self.sheet.close_sheet()
-        self._say()
+    def _finish_tracking(self) -> None:
+        self.running_session_id, self._percent = "", -1
+        if self._stop_event.is_set() or not self.pending:
+            self.dialog.close_dialog()
+        self._emit_progress()
 
-    def _say(self) -> None:
-        self.changed.emit(self._percent, len(self.waiting))
+    def _emit_progress(self) -> None:
+        self.progress_changed.emit(self._percent, len(self.pending))
 
     # --- old or new ---------------------------------------------------------------------------------------
-    def _show_waiting(self, one: Waiting) -> None:
-        self._shown = one
-        self.sheet.show_reading(self._whose)
+    def _show_pending(self, one: PendingResult) -> None:
+        self._shown_result = one
+        self.dialog.show_reading(self._session_label)
 
-        def read() -> tuple[str, str, BothResults]:
-            old, new = self._stored.both(one.session_id, one.trial)
-            said = [correction for correction, _ in corrections_in(new)]
-            words = difference_words(difference(old, new), not_held(new, read_detections(one.trial), said))
-            both = BothResults(
-                session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new),
-                max((finger_of(marker) for one in said for marker in one.places), default=0),
-            )  # fmt: skip
-            return whose(old.header), words, both
+        def read() -> tuple[str, str, ResultPair]:
+            old, new = self._corrections.read_both(one.session_id, one.path)
+            said = [correction for correction, _ in read_corrections(new)]
+            words = difference_words(
+                compare_results(old, new), find_lost_corrections(new, read_detections(one.path), said)
+            )
+            both = ResultPair(
+                compute_session_results(new),
+                wrist_curves(old),
+                wrist_curves(new),
+                joint_curves(old),
+                joint_curves(new),
+                max((finger_number(marker) for one in said for marker in one.places), default=0),
+            )
+            return describe_session(old.header), words, both
 
-        def show(found: tuple[str, str, BothResults]) -> None:
-            if self._shown == one and self.sheet.isVisible():
-                self.sheet.show_both(*found)
+        def show_results(found: tuple[str, str, ResultPair]) -> None:
+            if self._shown_result == one and self.dialog.isVisible():
+                self.dialog.show_results(*found)
 
-        def failed(fault: Exception) -> None:
-            self.sheet.close_sheet()
-            self.context.messages.fault(fault)
+        def on_failed(fault: Exception) -> None:
+            self.dialog.close_dialog()
+            self.context.messages.show_fault(fault)
 
-        self._background.run(read, show, failed, self)
+        self._background.run(read, show_results, on_failed, self)
 
-    def _decided(self) -> Waiting | None:
+    def _close_decision(self) -> PendingResult | None:
         """The new result that was decided about; it waits no more."""
-        one, self._shown = self._shown, None
-        self.sheet.close_sheet()
-        if one in self.waiting:
-            self.waiting.remove(one)
-            self._say()
+        one, self._shown_result = self._shown_result, None
+        self.dialog.close_dialog()
+        if one in self.pending:
+            self.pending.remove(one)
+            self._emit_progress()
         return one
 
-    def _keep(self) -> None:
-        one = self._decided()
+    def _discard_result(self) -> None:
+        one = self._close_decision()
         if one is None:
             return
         # A look from before may still come, and tell of it once more: the last look is the true one.
         self._background.run(
-            lambda: self._stored.drop(one.trial), lambda _: self.look_for_waiting(), self._not_decided, self
-        )
-
-    def _use(self) -> None:
-        one = self._decided()
-        if one is None:
-            return
-        self._background.run(
-            lambda: self._stored.use(one.session_id, one.trial),
-            lambda new: self._used(one.session_id, str(new)),
-            self._not_decided,
+            lambda: self._corrections.discard(one.path),
+            lambda _: self.refresh_pending(),
+            self._on_decision_failed,
             self,
         )
 
-    def _not_decided(self, fault: Exception) -> None:
-        self.context.messages.fault(fault)
-        self.look_for_waiting()
+    def _accept_result(self) -> None:
+        one = self._close_decision()
+        if one is None:
+            return
+        self._background.run(
+            lambda: self._corrections.accept(one.session_id, one.path),
+            lambda new: self._on_accepted(one.session_id, str(new)),
+            self._on_decision_failed,
+            self,
+        )
 
-    def _used(self, before: str, new: str) -> None:
+    def _on_decision_failed(self, fault: Exception) -> None:
+        self.context.messages.show_fault(fault)
+        self.refresh_pending()
+
+    def _on_accepted(self, before: str, new: str) -> None:
         """A new result counts from now on; where the old one was on the screen the new one is shown."""
-        self.look_for_waiting()
-        if self.context.now.session_id == before and self.context.way.behind in ("review", "correct"):
-            self.context.way.show_behind("review", new)
+        self.refresh_pending()
+        if self.context.current.session_id == before and self.context.navigator.underlying_screen in (
+            "review",
+            "correct",
+        ):
+            self.context.navigator.open_under_overlay("review", new)
 
 
-def whose(header: SessionHeader) -> str:
+def describe_session(header: SessionHeader) -> str:
     """Whose session, from when and of what."""
-    when = numbers.report_date(datetime.fromisoformat(header.recorded or header.created))
-    what = f"{terms.exercise_name(header.exercise)}, {inside(terms.hand_name(header.hand))}"
-    name = practice_name() if header.subject_id == PRACTICE_PATIENT else header.subject_id
+    when = numbers.format_date_time(datetime.fromisoformat(header.recorded or header.created))
+    what = f"{terms.exercise_name(header.exercise)}, {to_mid_sentence(terms.hand_name(header.hand))}"
+    name = practice_patient_name() if header.subject_id == PRACTICE_PATIENT else header.subject_id
     return " · ".join((name, when, what))
 
 
-def difference_words(found: Difference, missed: Sequence[str]) -> str:
+def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str:
     """What a person needs to choose: how much differs, most of all where, and which names did not hold."""
     said = []
-    if missed:
-        names = ", ".join(marker_name(name) for name in missed)
+    if lost_labels:
+        names = ", ".join(marker_title(name) for name in lost_labels)
         said.append(tr("Not held: {names}. Correct a picture soon after too.").format(names=names))
-    if found.lost:
-        names = ", ".join(marker_name(name) for name in found.lost)
+    if found.lost_markers:
+        names = ", ".join(marker_title(name) for name in found.lost_markers)
         said.append(tr("Hardly seen any more: {names}. What they show has no value then.").format(names=names))
-    if found.changed:
+    if found.changed_frames:
         pattern = tr("{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.")
         said.append(
             pattern.format(
-                count=found.changed,
-                common=found.common,
-                time=numbers.clock_tenths(found.at_s),
-                angle=inside(angle_name(found.most_at)),
-                size=numbers.degrees(math.degrees(found.most_rad)),
+                count=found.changed_frames,
+                common=found.compared_frames,
+                time=numbers.format_clock_tenths(found.max_difference_at_s),
+                angle=to_mid_sentence(angle_name(found.max_difference_angle)),
+                size=numbers.format_degrees(math.degrees(found.max_difference_rad)),
             )
         )
     else:
         said.append(tr("No picture differs by more than 2°."))
-    if found.found:
-        said.append(tr("{count} pictures have an angle that had none.").format(count=found.found))
-    if found.live:
+    if found.recovered_frames:
+        said.append(tr("{count} pictures have an angle that had none.").format(count=found.recovered_frames))
+    if found.is_live:
         said.append(tr("As measured live: one of the two was not looked back at."))
     return " ".join(said)

@@ -8,55 +8,55 @@ from collections.abc import Sequence
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QFileDialog
 
-from carpus.core.formats.new_output import TableForm
-from carpus.ui.export.sheet import ExportSheet
+from carpus.core.formats.new_output import TableDialect
+from carpus.ui.export.sheet import ExportDialog
 from carpus.ui.flow import ScreenContext
-from carpus.ui.messages.messages import tell_written
+from carpus.ui.messages.messages import show_files_written
 
 
-class Exporting(QObject):
+class ExportController(QObject):
     """The sheet of formats, and what is written of it."""
 
-    _stepped = Signal(int, int)
+    _progress_changed = Signal(int, int)
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context.shell)
+        super().__init__(context.window)
         self._context = context
-        self._stop = threading.Event()
+        self._stop_event = threading.Event()
         self._session_id = ""
-        self.formats = ExportSheet(context.shell, context.theme)
-        self.formats.wanted.connect(self._export)
-        self.formats.stop.connect(self._stop.set)
-        self.formats.more.connect(lambda: context.way.show("settings", "research"))
-        self._stepped.connect(self.formats.progress, Qt.ConnectionType.QueuedConnection)
+        self.dialog = ExportDialog(context.window, context.theme)
+        self.dialog.export_requested.connect(self._export)
+        self.dialog.stop_requested.connect(self._stop_event.set)
+        self.dialog.more_formats_requested.connect(lambda: context.navigator.open_screen("settings", "research"))
+        self._progress_changed.connect(self.dialog.show_progress, Qt.ConnectionType.QueuedConnection)
 
-    def ask(self, session_id: str) -> None:
+    def choose_formats(self, session_id: str) -> None:
         self._session_id = session_id
-        self.formats.begin()
+        self.dialog.request_formats()
 
-    def _export(self, formats: Sequence[str], deidentified: bool, form: TableForm) -> None:
+    def _export(self, formats: Sequence[str], deidentified: bool, form: TableDialect) -> None:
         """Beside the window; the sheet shows how far it is and stops it."""
         context, session_id = self._context, self._session_id
-        start = context.places.folder("exports")
-        folder = QFileDialog.getExistingDirectory(context.shell, self.tr("Export into a folder"), start)
+        start = context.recent_locations.folder("exports")
+        folder = QFileDialog.getExistingDirectory(context.window, self.tr("Export into a folder"), start)
         if not folder:
             return
-        context.places.keep("exports", folder)
-        self._stop.clear()
-        self.formats.running()
+        context.recent_locations.save_folder("exports", folder)
+        self._stop_event.clear()
+        self.dialog.show_running()
 
         def write() -> Sequence[str]:
             return context.library.export(
-                session_id, folder, formats, self._stepped.emit, self._stop.is_set, deidentified, form
+                session_id, folder, formats, self._progress_changed.emit, self._stop_event.is_set, deidentified, form
             )
 
-        def written(names: Sequence[str]) -> None:
-            self.formats.close_sheet()
+        def on_written(names: Sequence[str]) -> None:
+            self.dialog.close_dialog()
             if names:
-                tell_written(context.messages, folder, names)
+                show_files_written(context.messages, folder, names)
 
-        def refused(fault: Exception) -> None:
-            self.formats.close_sheet()
-            context.messages.fault(fault)
+        def on_failed(fault: Exception) -> None:
+            self.dialog.close_dialog()
+            context.messages.show_fault(fault)
 
-        context.background.run(write, written, refused)
+        context.background.run(write, on_written, on_failed)

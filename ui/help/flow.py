@@ -9,17 +9,17 @@ from carpus.ui.help.screen import HelpScreen
 class HelpFlow(Flow):
     """Beside the way."""
 
-    place = "help"
+    screen_name = "help"
     screen: HelpScreen
 
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, HelpScreen(context.theme))
-        self.screen.back.clicked.connect(context.way.back)
-        self.screen.told.connect(context.messages.fault)
+        self.screen.back_button.clicked.connect(context.navigator.navigate_back)
+        self.screen.fault_raised.connect(context.messages.show_fault)
 
-    def show(self) -> None:
-        way = self.context.way
-        if way.may_aside():
-            self.screen.start_folder = self.context.places.folder("reports")
-            self.screen.show_page(way.here.guide)
-            way.aside("help")
+    def open(self) -> None:
+        way = self.context.navigator
+        if way.can_open_overlay():
+            self.screen.start_folder = self.context.recent_locations.folder("reports")
+            self.screen.show_page(way.current_flow.guide_page)
+            way.open_overlay("help")

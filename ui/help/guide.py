@@ -11,7 +11,7 @@ from carpus.ui import language
 from carpus.ui.fonts import TEXT_FAMILY
 from carpus.ui.theme import Theme
 
-FIRST_LANGUAGE = "en"
+DEFAULT_LANGUAGE = "en"
 """The guide is written in it; it stands in for a language that has none."""
 PAGES = (
     "session", "discs", "camera", "cameracheck", "calibration", "exercises", "measuring", "patient", "figures",
@@ -25,16 +25,16 @@ _PICTURE = re.compile(r"!\[(.*)\]\((.+)\)")
 _NUMBERED = re.compile(r"\d+\. ")
 
 
-def source(page: str) -> str:
+def load_page(page: str) -> str:
     """A page in the language that is spoken, as it was written, in a small part of Markdown: headings, paragraphs,
     lists, bold, links, pictures."""
-    return _read(language.spoken(), page)
+    return _read_page(language.current_language(), page)
 
 
 @lru_cache(maxsize=len(language.LANGUAGES) * len(PAGES))
-def _read(code: str, page: str) -> str:
+def _read_page(code: str, page: str) -> str:
     guides = files("carpus.resources") / "guide"
-    written = code if (guides / code).is_dir() else FIRST_LANGUAGE
+    written = code if (guides / code).is_dir() else DEFAULT_LANGUAGE
     return (guides / written / f"{page}.md").read_text("utf-8")
 
 
@@ -43,24 +43,24 @@ def picture_path(name: str) -> str:
     return str(files("carpus.resources").joinpath("guide", "pictures", name))
 
 
-def title(page: str) -> str:
+def page_title(page: str) -> str:
     """The first line of a page."""
-    return source(page).splitlines()[0].removeprefix("# ")
+    return load_page(page).splitlines()[0].removeprefix("# ")
 
 
-def pictures(page: str) -> list[str]:
+def page_pictures(page: str) -> list[str]:
     """Names of the pictures of a page."""
-    return [name for _, name in _PICTURE.findall(source(page))]
+    return [name for _, name in _PICTURE.findall(load_page(page))]
 
 
-def links(page: str) -> list[str]:
+def page_links(page: str) -> list[str]:
     """The pages that a page leads to."""
-    return [name for _, name in _LINK.findall(source(page))]
+    return [name for _, name in _LINK.findall(load_page(page))]
 
 
 def page_html(page: str, theme: Theme, width_px: int) -> str:
     """A page in the colours and sizes of a theme; pictures are at most ``width_px`` wide."""
-    return _styled(_body(source(page), width_px), theme)
+    return _apply_style(_markdown_to_html(load_page(page), width_px), theme)
 
 
 def keys_html(heading: str, rows: list[tuple[str, str]], theme: Theme) -> str:
@@ -69,10 +69,10 @@ def keys_html(heading: str, rows: list[tuple[str, str]], theme: Theme) -> str:
         f'<tr><td class="key">{html.escape(key)}</td><td>{html.escape(words).replace(chr(10), "<br>")}</td></tr>'
         for key, words in rows
     )
-    return _styled(f"<h1>{html.escape(heading)}</h1><table cellpadding='6'>{lines}</table>", theme)
+    return _apply_style(f"<h1>{html.escape(heading)}</h1><table cellpadding='6'>{lines}</table>", theme)
 
 
-def _body(text: str, width_px: int) -> str:
+def _markdown_to_html(text: str, width_px: int) -> str:
     out: list[str] = []
     listed = ""
     for line in text.splitlines():
@@ -82,26 +82,26 @@ def _body(text: str, width_px: int) -> str:
             out += [f"<{kind}>"] if kind else []
             listed = kind
         if kind:
-            out.append(f"<li>{_inline(line.split(' ', 1)[1])}</li>")
+            out.append(f"<li>{_format_inline(line.split(' ', 1)[1])}</li>")
         elif line.startswith("## "):
-            out.append(f"<h2>{_inline(line[3:])}</h2>")
+            out.append(f"<h2>{_format_inline(line[3:])}</h2>")
         elif line.startswith("# "):
-            out.append(f"<h1>{_inline(line[2:])}</h1>")
+            out.append(f"<h1>{_format_inline(line[2:])}</h1>")
         elif found := _PICTURE.fullmatch(line):
             out.append(f'<p><img src="{html.escape(found[2])}" width="{width_px}"></p>')
-            out.append(f'<p class="caption">{_inline(found[1])}</p>')
+            out.append(f'<p class="caption">{_format_inline(found[1])}</p>')
         elif line.strip():
-            out.append(f"<p>{_inline(line)}</p>")
+            out.append(f"<p>{_format_inline(line)}</p>")
     out += [f"</{listed}>"] if listed else []
     return "".join(out)
 
 
-def _inline(text: str) -> str:
+def _format_inline(text: str) -> str:
     words = html.escape(text, quote=False)
     return _LINK.sub(r'<a href="\2">\1</a>', _MARK.sub(r"<b>\1</b>", words))
 
 
-def _styled(body: str, theme: Theme) -> str:
+def _apply_style(body: str, theme: Theme) -> str:
     tokens, px = theme.tokens, theme.px
     style = (
         f"body {{ font-family: '{TEXT_FAMILY}'; font-size: {px(16)}px; color: {tokens.text}; }}"

@@ -12,7 +12,7 @@ from carpus.core.errors import CarpusFault
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import in_column, in_line, scrolled
+from carpus.ui.controls.layouts import column_layout, row_layout, scroll_column
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.help import cards, guide
 from carpus.ui.keys import KEYS, action_words
@@ -30,9 +30,9 @@ def actions_by_key() -> dict[str, list[str]]:
 
 
 class HelpScreen(QWidget):
-    """``told`` carries a fault of saving the cards."""
+    """``fault_raised`` carries a fault of saving the cards."""
 
-    told = Signal(object)
+    fault_raised = Signal(object)
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -40,42 +40,42 @@ class HelpScreen(QWidget):
         self.page = guide.PAGES[0]
         self.start_folder = ""
         """Where saving begins."""
-        self.back = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
+        self.back_button = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
         self.cards_button = Button(theme, self.tr("Cards to print…"), icon="download")
-        self.cards_button.clicked.connect(self._ask_cards)
+        self.cards_button.clicked.connect(self._choose_cards_file)
         self.tour_button = Button(theme, self.tr("Show me around"), icon="arrow-right")
-        self.text = _GuidePage(theme)
-        self.text.wanted.connect(self.show_page)
-        self.pages: dict[str, Button] = {}
+        self.page_view = _PageView(theme)
+        self.page_view.page_requested.connect(self.show_page)
+        self.page_buttons: dict[str, Button] = {}
         self._group = QButtonGroup(self)
-        column = in_column(gap=2)
+        column = column_layout(gap=2)
         for name in (*guide.PAGES, guide.KEYS_PAGE):
-            words = self.tr("Keys") if name == guide.KEYS_PAGE else guide.title(name)
+            words = self.tr("Keys") if name == guide.KEYS_PAGE else guide.page_title(name)
             button = Button(theme, words, "well", height_px=36)
             button.setCheckable(True)
             button.clicked.connect(lambda _=False, name=name: self.show_page(name))
             self._group.addButton(button)
-            self.pages[name] = button
+            self.page_buttons[name] = button
             column.addWidget(button)
         column.addStretch(1)
-        head = in_line((heading(theme, self.tr("Guide")), 1), self.tour_button, self.cards_button, self.back)
+        head = row_layout((heading(theme, self.tr("Guide")), 1), self.tour_button, self.cards_button, self.back_button)
         card = Card(theme, 8)
-        card.body.addWidget(self.text, 1)
-        self._index = scrolled(column)
-        columns = in_line(self._index, (card, 1), gap=GAP_PX)
-        in_column(
+        card.body.addWidget(self.page_view, 1)
+        self._index = scroll_column(column)
+        columns = row_layout(self._index, (card, 1), gap=GAP_PX)
+        column_layout(
             head,
             (columns, 1),
             Text(theme, terms.legal_notice(), 12, token="text2", wrap=True),
             gap=12,
             margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
-            within=self,
+            parent=self,
         )
         theme.changed.connect(self._fit)
         self._fit()
 
-    def first(self) -> QWidget:
-        return self.text
+    def initial_focus(self) -> QWidget:
+        return self.page_view
 
     def _fit(self) -> None:
         self._index.setFixedWidth(self._theme.px(272))
@@ -83,12 +83,12 @@ class HelpScreen(QWidget):
 
     def show_page(self, name: str) -> None:
         self.page = name
-        self.pages[name].setChecked(True)
+        self.page_buttons[name].setChecked(True)
         if name == guide.KEYS_PAGE:
             rows = [(key, "\n".join(words)) for key, words in actions_by_key().items()]
-            self.text.show_html(guide.keys_html(self.tr("Keys"), rows, self._theme))
+            self.page_view.show_html(guide.keys_html(self.tr("Keys"), rows, self._theme))
         else:
-            self.text.show_html(guide.page_html(name, self._theme, self._picture_px()))
+            self.page_view.show_html(guide.page_html(name, self._theme, self._picture_px()))
 
     def _picture_px(self) -> int:
         return max(200, min(self._theme.px(PICTURE_PX), self.width() - self._theme.px(272) - 120))
@@ -97,7 +97,7 @@ class HelpScreen(QWidget):
         if event.oldSize().width() != self.width():
             self.show_page(self.page)
 
-    def _ask_cards(self) -> None:
+    def _choose_cards_file(self) -> None:
         start = str(Path(self.start_folder) / cards.FILE_NAME)
         path, _ = QFileDialog.getSaveFileName(self, self.tr("Save the cards"), start, "PDF (*.pdf)")
         if path:
@@ -107,13 +107,13 @@ class HelpScreen(QWidget):
         try:
             cards.write_cards(Path(path))
         except CarpusFault as fault:
-            self.told.emit(fault)
+            self.fault_raised.emit(fault)
 
 
-class _GuidePage(QTextBrowser):
-    """Shows one page; ``wanted`` carries the page of a link."""
+class _PageView(QTextBrowser):
+    """Shows one page; ``page_requested`` carries the page of a link."""
 
-    wanted = Signal(str)
+    page_requested = Signal(str)
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -122,7 +122,7 @@ class _GuidePage(QTextBrowser):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.document().setDocumentMargin(16)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.anchorClicked.connect(lambda url: self.wanted.emit(url.toString()))
+        self.anchorClicked.connect(lambda url: self.page_requested.emit(url.toString()))
 
     def show_html(self, text: str) -> None:
         """Show from the beginning, on the colour of a card."""

@@ -9,74 +9,84 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from carpus.core.records.set_up import next_part
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Surface
-from carpus.ui.controls.layouts import fill, in_line
+from carpus.ui.controls.layouts import fill, row_layout
 from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.icons import paint_state
-from carpus.ui.live.light import Lamp
-from carpus.ui.live.recording import Recording
+from carpus.ui.live.light import StatusLight
+from carpus.ui.live.recording import RecordingController
 from carpus.ui.theme import MARGIN_PX, Theme
 
 
-class Controls(Surface):
+class RecordingControls(Surface):
     """Shows how the recording stands; buttons take no keyboard, for the space bar (or the pedal that sends it) stops
     whatever has it."""
 
-    def __init__(self, theme: Theme, recording: Recording) -> None:
+    def __init__(self, theme: Theme, recording: RecordingController) -> None:
         super().__init__(theme)
-        self._recording, self._tight = recording, False
-        self.light = LightView(theme)
-        self.note = Button(theme, self.tr("Note"), "quiet", icon="notebook-pen", hint="F5")
-        self.pain = Button(theme, self.tr("Pain"), "quiet", hint="F6")
-        self.pause = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
-        self.main = Button(theme, "", "primary", height_px=56)
-        row = in_line(
-            (self.light, 1), 8, self.note, self.pain, 8, self.pause, gap=4, margins=(0, 0, MARGIN_PX, 0), within=self
+        self._recording, self._is_tight = recording, False
+        self.light_view = StatusLightView(theme)
+        self.note_button = Button(theme, self.tr("Note"), "quiet", icon="notebook-pen", hint="F5")
+        self.pain_button = Button(theme, self.tr("Pain"), "quiet", hint="F6")
+        self.pause_button = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
+        self.main_button = Button(theme, "", "primary", height_px=56)
+        row = row_layout(
+            (self.light_view, 1),
+            8,
+            self.note_button,
+            self.pain_button,
+            8,
+            self.pause_button,
+            gap=4,
+            margins=(0, 0, MARGIN_PX, 0),
+            parent=self,
         )
-        fill(row, 12, self.main)
-        for button in (self.note, self.pain, self.pause, self.main):
+        fill(row, 12, self.main_button)
+        for button in (self.note_button, self.pain_button, self.pause_button, self.main_button):
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         recording.changed.connect(self.refresh)
 
     def fit(self, *, tight: bool, large: bool) -> None:
         """With large text on a small screen hints give way; beside one large figure all buttons but one, whose keys go
         on working."""
-        self._tight = tight
-        for button, hint in ((self.note, "F5"), (self.pain, "F6"), (self.pause, "F7")):
+        self._is_tight = tight
+        for button, hint in ((self.note_button, "F5"), (self.pain_button, "F6"), (self.pause_button, "F7")):
             button.setVisible(not large)
-            button.set_face(button.text(), hint="" if tight else hint)
+            button.set_label(button.text(), hint="" if tight else hint)
         self.refresh()
 
-    def begin(self) -> None:
-        self.pain.set_face(self.tr("Pain"), icon="")
+    def reset(self) -> None:
+        self.pain_button.set_label(self.tr("Pain"), icon="")
 
-    def noted_pain(self, score: int) -> None:
-        self.pain.set_face(self.tr("Pain {score}").format(score=score), icon="check")
+    def show_pain(self, score: int) -> None:
+        self.pain_button.set_label(self.tr("Pain {score}").format(score=score), icon="check")
 
-    def say_storing(self, words: str = "") -> None:
+    def show_storing(self, words: str = "") -> None:
         """It was stopped: that it is stored, or how long it takes until all that waits is tracked."""
-        self.main.set_face(words or self.tr("Storing…"), icon="", hint="")
+        self.main_button.set_label(words or self.tr("Storing…"), icon="", hint="")
 
     def refresh(self) -> None:
         recording = self._recording
         state = recording.state
-        runs = state != "off" and not recording.storing  # what is stopped takes no more notes
-        self.note.set_face(self.tr("Passive") if recording.passive else self.tr("Note"))
-        self.note.setEnabled(runs)
-        self.pain.setEnabled(runs)
-        self.pause.setEnabled(runs and not recording.camera_lost)  # nothing can go on without pictures
+        runs = state != "off" and not recording.is_storing  # what is stopped takes no more notes
+        self.note_button.set_label(self.tr("Passive") if recording.is_passive else self.tr("Note"))
+        self.note_button.setEnabled(runs)
+        self.pain_button.setEnabled(runs)
+        self.pause_button.setEnabled(runs and not recording.camera_lost)  # nothing can go on without pictures
         paused = state == "paused" and not recording.camera_lost
-        self.pause.set_face(self.tr("Go on") if paused else self.tr("Pause"), icon="play" if paused else "pause")
-        self.main.setEnabled(not recording.storing)
-        if recording.under_way:
+        self.pause_button.set_label(
+            self.tr("Go on") if paused else self.tr("Pause"), icon="play" if paused else "pause"
+        )
+        self.main_button.setEnabled(not recording.is_storing)
+        if recording.is_busy:
             return
-        words = self.tr("Play and record") if recording.plays else self.tr("Record")
+        words = self.tr("Play and record") if recording.is_playback else self.tr("Record")
         if runs:
             follows = recording.set_up is not None and next_part(recording.set_up) is not None
             words = self.tr("Stop and go on") if follows else self.tr("Stop and review")
-        elif recording.left_s:
-            words = self.tr("Starts in {seconds}: not yet").format(seconds=recording.left_s)
-        hint = "" if self._tight else self.tr("Space · pedal")
-        self.main.set_face(words, icon="square" if runs else "", hint=hint)
+        elif recording.countdown_s:
+            words = self.tr("Starts in {seconds}: not yet").format(seconds=recording.countdown_s)
+        hint = "" if self._is_tight else self.tr("Space · pedal")
+        self.main_button.set_label(words, icon="square" if runs else "", hint=hint)
 
 
 HEIGHT_PX = 72
@@ -87,25 +97,25 @@ BANDS = {
     "idle": ("sunken", "text2", "text2", "border", "sunken"),
 }
 """Ground, state word, remedy, icon body, icon sign."""
-WRAPPED = int(Qt.TextFlag.TextWordWrap)
-SHARES = [0.95 - 0.05 * step for step in range(10)]
+WRAP_FLAG = int(Qt.TextFlag.TextWordWrap)
+TEXT_SHARES = [0.95 - 0.05 * step for step in range(10)]
 
 
-class LightView(QWidget):
-    """Shows a :class:`Lamp`."""
+class StatusLightView(QWidget):
+    """Shows a :class:`StatusLight`."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.lamp = Lamp("idle", "", "")
+        self.status_light = StatusLight("idle", "", "")
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         theme.changed.connect(self.updateGeometry)
 
-    def show_lamp(self, lamp: Lamp) -> None:
+    def show_light(self, status_light: StatusLight) -> None:
         """Change what is shown; screen readers get both lines."""
-        if lamp != self.lamp:
-            self.lamp = lamp
-            self.setAccessibleName(f"{lamp.state}. {lamp.remedy}")
+        if status_light != self.status_light:
+            self.status_light = status_light
+            self.setAccessibleName(f"{status_light.state}. {status_light.remedy}")
             self.update()
 
     def sizeHint(self) -> QSize:
@@ -114,39 +124,48 @@ class LightView(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         color, scale = self._theme.color, self._theme.text_scale
-        ground, word, remedy, body, sign = BANDS[self.lamp.rank]
+        ground, word, remedy, body, sign = BANDS[self.status_light.rank]
         painter.fillRect(self.rect(), color(ground))
         size = 36 * scale
         icon = QRectF(34, (self.height() - size) / 2, size, size)
-        paint_state(painter, "open" if self.lamp.rank == "idle" else self.lamp.rank, icon, color(body), color(sign))
+        paint_state(
+            painter,
+            "open" if self.status_light.rank == "idle" else self.status_light.rank,
+            icon,
+            color(body),
+            color(sign),
+        )
         left = icon.right() + 18
         room = QRectF(left, 4, self.width() - left - 12, self.height() - 8)
-        for (text, face, place), ink in zip(self._placed(room), (word, remedy), strict=True):
+        for (text, face, place), ink in zip(self._place_lines(room), (word, remedy), strict=True):
             painter.setFont(face)
             painter.setPen(color(ink))
-            painter.drawText(place, WRAPPED, text)
+            painter.drawText(place, WRAP_FLAG, text)
 
-    def _placed(self, room: QRectF) -> list[tuple[str, QFont, QRectF]]:
+    def _place_lines(self, room: QRectF) -> list[tuple[str, QFont, QRectF]]:
         """State and remedy: on one line where that holds both, else one above the other, as large as there is room to
         read them whole."""
-        (state, large, _), (remedy, small, _) = above = self._above(room, 1.0)
+        (state, large, _), (remedy, small, _) = above = self._stack_lines(room, 1.0)
         upper, lower = QFontMetricsF(large), QFontMetricsF(small)
         beside = upper.horizontalAdvance(state) + 18
         if beside + lower.horizontalAdvance(remedy) <= room.width():
             baseline = room.center().y() + 10 * self._theme.text_scale
             left = room.translated(0, baseline - upper.ascent() - room.top())
             return [(state, large, left), (remedy, small, left.translated(beside, upper.ascent() - lower.ascent()))]
-        for share in SHARES:
+        for share in TEXT_SHARES:
             if all(room.contains(place) for *_, place in above):
                 break
-            above = self._above(room, share)
+            above = self._stack_lines(room, share)
         return above
 
-    def _above(self, room: QRectF, share: float) -> list[tuple[str, QFont, QRectF]]:
+    def _stack_lines(self, room: QRectF, share: float) -> list[tuple[str, QFont, QRectF]]:
         """Both one above the other in the middle, in such a share of their size."""
         placed, size = [], share * self._theme.text_scale
-        for text, face in ((self.lamp.state, font(28 * size, SEMIBOLD)), (self.lamp.remedy, font(20 * size, MEDIUM))):
-            placed.append((text, face, QFontMetricsF(face).boundingRect(room, WRAPPED, text)))
+        for text, face in (
+            (self.status_light.state, font(28 * size, SEMIBOLD)),
+            (self.status_light.remedy, font(20 * size, MEDIUM)),
+        ):
+            placed.append((text, face, QFontMetricsF(face).boundingRect(room, WRAP_FLAG, text)))
         (*_, upper), (*_, lower) = placed
         upper.moveTop(room.center().y() - (upper.height() + lower.height()) / 2)
         lower.moveTop(upper.bottom())

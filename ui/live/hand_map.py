@@ -10,15 +10,15 @@ from carpus.core.hand.protocols import SITES
 from carpus.core.types import Side
 from carpus.ui.controls.card import paint_card
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from carpus.ui.hand_drawing import PLACES, outline, placement
+from carpus.ui.hand_drawing import MARKER_POSITIONS, hand_outline, placement
 from carpus.ui.icons import paint_state
-from carpus.ui.live.light import map_words
-from carpus.ui.plot.history import Seen
+from carpus.ui.live.light import hand_map_words
+from carpus.ui.plot.history import MarkerVisibility
 from carpus.ui.theme import Theme
 
 RADIUS_PX = 7.0
 WORDS_PX = 172
-MOST_LINES = 4.2
+MAX_LINES = 4.2
 """Lines of the sentence beside the map, below which the keys have room."""
 
 
@@ -29,8 +29,8 @@ class HandMap(QWidget):
         super().__init__()
         self._theme = theme
         self._side: Side = "right"
-        self.seen: dict[str, Seen] = {}
-        self._infers_ends = False
+        self.visibility: dict[str, MarkerVisibility] = {}
+        self._dip_inferred = False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         theme.changed.connect(self.update)
 
@@ -38,15 +38,15 @@ class HandMap(QWidget):
         self._side = side
         self.update()
 
-    def show_seen(self, seen: dict[str, Seen], *, infers_ends: bool = False) -> None:
+    def show_visibility(self, visibility: dict[str, MarkerVisibility], *, dip_inferred: bool = False) -> None:
         """How well each disc is seen; screen readers get the sentence."""
-        if (seen, infers_ends) != (self.seen, self._infers_ends):
-            self.seen, self._infers_ends = seen, infers_ends
-            self.setAccessibleName(self.words())
+        if (visibility, dip_inferred) != (self.visibility, self._dip_inferred):
+            self.visibility, self._dip_inferred = visibility, dip_inferred
+            self.setAccessibleName(self.summary())
             self.update()
 
-    def words(self) -> str:
-        return map_words(self.seen, infers_ends=self._infers_ends) if self.seen else ""
+    def summary(self) -> str:
+        return hand_map_words(self.visibility, dip_inferred=self._dip_inferred) if self.visibility else ""
 
     def sizeHint(self) -> QSize:
         return QSize(440, 300)
@@ -59,29 +59,29 @@ class HandMap(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         frame = paint_card(painter, theme, QRectF(self.rect()))
-        words_left = self.width() - max(WORDS_PX * scale, self._words_px()) - 16 * scale
+        words_left = self.width() - max(WORDS_PX * scale, self._words_width_px()) - 16 * scale
         to = placement(QRectF(12, 8, words_left - 24, self.height() - 9), self._side)
         painter.setClipRect(frame)
         painter.setPen(QPen(theme.color("border"), 1.3))
         painter.setBrush(theme.color("sunken"))
-        painter.drawPath(to.map(outline()))
+        painter.drawPath(to.map(hand_outline()))
         painter.setClipping(False)
-        for name in self.seen or SITES:
-            self._paint_disc(painter, to.map(QPointF(*PLACES[name])), self.seen.get(name, "hidden"))
+        for name in self.visibility or SITES:
+            self._paint_marker(painter, to.map(QPointF(*MARKER_POSITIONS[name])), self.visibility.get(name, "hidden"))
         self._paint_words(painter, words_left)
 
-    def _words_px(self) -> float:
+    def _words_width_px(self) -> float:
         """What the words beside the counts need, up to half of the map."""
         metrics = QFontMetricsF(font(14 * self._theme.text_scale, REGULAR))
-        longest = max(metrics.horizontalAdvance(words) for _, words in self._counts())
+        longest = max(metrics.horizontalAdvance(words) for _, words in self._legend())
         return min(18 + 24 * self._theme.text_scale + 7 + longest + 4, 0.5 * self.width())
 
-    def _counts(self) -> tuple[tuple[Seen, str], ...]:
+    def _legend(self) -> tuple[tuple[MarkerVisibility, str], ...]:
         return (
             ("seen", self.tr("seen")), ("partly", self.tr("partly seen")), ("hidden", self.tr("hidden, predicted")),
         )  # fmt: skip
 
-    def _paint_disc(self, painter: QPainter, at: QPointF, state: Seen) -> None:
+    def _paint_marker(self, painter: QPainter, at: QPointF, state: MarkerVisibility) -> None:
         color = self._theme.color
         if state == "seen":
             painter.setPen(Qt.PenStyle.NoPen)
@@ -100,9 +100,9 @@ class HandMap(QWidget):
         y = 16.0
         painter.drawText(QPointF(left, y + QFontMetricsF(painter.font()).ascent()), self.tr("Markers"))
         y += 34 * scale
-        for state, words in self._counts():
-            self._paint_disc(painter, QPointF(left + 8, y + 9 * scale), state)
-            count = sum(one == state for one in self.seen.values())
+        for state, words in self._legend():
+            self._paint_marker(painter, QPointF(left + 8, y + 9 * scale), state)
+            count = sum(one == state for one in self.visibility.values())
             painter.setFont(font(14 * scale, SEMIBOLD))
             painter.setPen(theme.color("text"))
             box = QRectF(left + 18, y, 24 * scale, 18 * scale)
@@ -121,11 +121,11 @@ class HandMap(QWidget):
         below = QFontMetricsF(small).height() * 2 + 12
         room = QRectF(left, y, self.width() - left - 14, self.height() - y - 8)
         painter.setFont(font(14 * scale, MEDIUM))
-        wrapped = QFontMetricsF(painter.font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self.words())
+        wrapped = QFontMetricsF(painter.font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self.summary())
         if wrapped.height() > room.height():  # a language that says it in more words
             painter.setFont(font(12 * scale, MEDIUM))
-        painter.drawText(room, int(Qt.TextFlag.TextWordWrap), self.words())
-        lines_px = max(QFontMetricsF(painter.font()).height() * MOST_LINES, wrapped.height())
+        painter.drawText(room, int(Qt.TextFlag.TextWordWrap), self.summary())
+        lines_px = max(QFontMetricsF(painter.font()).height() * MAX_LINES, wrapped.height())
         if self.height() - below > y + lines_px and keys_px <= self.width() - left - 8:
             painter.setFont(small)
             painter.setPen(theme.color("text2"))

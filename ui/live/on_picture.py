@@ -7,28 +7,30 @@ from PySide6.QtGui import QPainter
 
 from carpus.core.pipeline.live_values import TrackedView
 from carpus.core.types import TrackedFrame, TrackStatus
-from carpus.ui.figures import Figure
-from carpus.ui.live.doubt import doubt_of
-from carpus.ui.live.question import SpotQuestion, paint_question
-from carpus.ui.live.recording import Recording
+from carpus.ui.figures import FingerAngle
+from carpus.ui.live.doubt import find_doubt
+from carpus.ui.live.question import MarkerQuestion, paint_question
+from carpus.ui.live.recording import RecordingController
 from carpus.ui.marker_words import long_finger_name
 from carpus.ui.picture import overlay, skeleton
-from carpus.ui.picture.view import PictureView
+from carpus.ui.picture.view import FrameView
 from carpus.ui.theme import Theme
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import to_mid_sentence, tr
 
 
-class OnPicture:
-    """``view`` is what is drawn, None for nothing; ``figure`` the finger that may be shown from the side."""
+class FrameOverlay:
+    """``tracked_view`` is what is drawn, None for nothing; ``figure`` the finger that may be shown from the side."""
 
-    def __init__(self, theme: Theme, picture: PictureView, question: SpotQuestion, recording: Recording) -> None:
+    def __init__(
+        self, theme: Theme, picture: FrameView, question: MarkerQuestion, recording: RecordingController
+    ) -> None:
         self._theme, self._picture, self._question, self._recording = theme, picture, question, recording
-        self.view: TrackedView | None = None
-        self.figure: Figure | None = None
-        self.late = False
+        self.tracked_view: TrackedView | None = None
+        self.figure: FingerAngle | None = None
+        self.is_late = False
         """Whether the picture is newer than what was tracked."""
-        self.research = True
-        self._is_on, self._side_on = True, False
+        self.shows_research = True
+        self._is_on, self._shows_side = True, False
         picture.overlay = self._paint
 
     def toggle(self) -> None:
@@ -36,41 +38,41 @@ class OnPicture:
         self._picture.update()
 
     def toggle_side(self) -> None:
-        self._side_on = not self._side_on
+        self._shows_side = not self._shows_side
         self._picture.update()
 
-    def _paint(self, painter: QPainter, picture: PictureView) -> None:
-        if not self._question.covers_head:
+    def _paint(self, painter: QPainter, picture: FrameView) -> None:
+        if not self._question.is_at_head:
             picture.paint_area_label(painter)
         measuring, set_up = self._recording.measuring, self._recording.set_up
-        if not self._is_on or self.view is None or measuring is None or set_up is None or self.late:
+        if not self._is_on or self.tracked_view is None or measuring is None or set_up is None or self.is_late:
             return
-        frame, camera, calibration = self.view.tracked, measuring.camera, measuring.calibration
+        frame, camera, calibration = self.tracked_view.tracked, measuring.camera, measuring.calibration
         if set_up.protocol.has_fingers:
             skeleton.paint_skeleton(painter, frame, set_up.protocol, camera, picture.to_screen, picture.scale)
-            if self._side_on and self.figure is not None:
-                name = _side_name(str(self.figure.finger))
-                skeleton.paint_side(
+            if self._shows_side and self.figure is not None:
+                name = _side_view_words(str(self.figure.finger))
+                skeleton.paint_finger_side(
                     painter, self._theme, frame, set_up.protocol, self.figure.finger, name, QRectF(picture.rect()),
                     set_up.side,
                 )  # fmt: skip
         else:
-            overlay.paint_links(painter, frame, camera, picture.to_screen)
+            overlay.paint_palm_links(painter, frame, camera, picture.to_screen)
             overlay.paint_markers(painter, frame, picture.to_screen, picture.scale)
-            asked = self._question.doubt is not None  # then the discs are what is to be looked at
-            if self.research and calibration is not None and frame.status != TrackStatus.LOST and not asked:
+            asked = self._question.asked_doubt is not None  # then the discs are what is to be looked at
+            if self.shows_research and calibration is not None and frame.status != TrackStatus.LOST and not asked:
                 shown = QRectF(picture.rect())
                 overlay.paint_axes(painter, self._theme, frame, calibration, camera, picture.to_screen, shown)
         self._paint_question(painter, picture, frame)
 
-    def _paint_question(self, painter: QPainter, picture: PictureView, frame: TrackedFrame) -> None:
-        asked, measuring = self._question.doubt, self._recording.measuring
+    def _paint_question(self, painter: QPainter, picture: FrameView, frame: TrackedFrame) -> None:
+        asked, measuring = self._question.asked_doubt, self._recording.measuring
         if asked is None or measuring is None or measuring.calibration is None:
             return
-        now = doubt_of(frame, measuring.calibration.clicks.protocol.markers, measuring.camera)
-        if now is not None and now.marker == asked.marker and now.has_spot and now.hidden == asked.hidden:
+        now = find_doubt(frame, measuring.calibration.clicks.protocol.markers, measuring.camera)
+        if now is not None and now.marker == asked.marker and now.has_other and now.is_hidden == asked.is_hidden:
             paint_question(painter, self._theme, now, picture, QRectF(self._question.geometry()))
 
 
-def _side_name(finger: str) -> str:
-    return tr("Side · {finger}").format(finger=inside(long_finger_name(finger)))
+def _side_view_words(finger: str) -> str:
+    return tr("Side · {finger}").format(finger=to_mid_sentence(long_finger_name(finger)))

@@ -12,54 +12,54 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import fill, in_grid
+from carpus.ui.controls.layouts import fill, grid_layout
 from carpus.ui.controls.text import Text
 from carpus.ui.fonts import SEMIBOLD
-from carpus.ui.keys import KEYS, bind
-from carpus.ui.live.doubt import Chosen, Doubt, SteadyDoubt, lower_name
-from carpus.ui.picture.overlay import haloed
+from carpus.ui.keys import KEYS, bind_key
+from carpus.ui.live.doubt import Choice, MarkerDoubt, SteadyDoubt, marker_in_sentence
+from carpus.ui.picture.overlay import draw_with_halo
 from carpus.ui.picture.photo import label_size, paint_label
-from carpus.ui.picture.view import PictureView
+from carpus.ui.picture.view import FrameView
 from carpus.ui.theme import DARK, Theme
 from carpus.ui.translate import tr
 
-AWAY_PX, PADDING_PX, GAP_PX = 12, 12, 8
+EDGE_PX, PADDING_PX, GAP_PX = 12, 12, 8
 RING_PX = 15.0
-SETTLES_S = 0.5
+ANSWER_DELAY_S = 0.5
 """A question that has only just come takes no answer: the key was meant for something else."""
 
 
-class SpotQuestion(Card):
-    """Stands over the picture while a :class:`Doubt` with another spot is open; ``answered`` carries the
-    :class:`SpotAnswer`, ``changed`` when another question stands, or none.
+class MarkerQuestion(Card):
+    """Stands over the picture while a :class:`MarkerDoubt` with another spot is open; ``answered`` carries the
+    :class:`MarkerLabel`, ``changed`` when another question stands, or none.
 
-    Its keys, bound on ``host``, answer while it stands and do nothing else; ``now_s`` is the recording's own time.
+    Its keys, bound on ``host``, answer while it stands and do nothing else; ``get_time_s`` is the recording's own time.
     """
 
     answered = Signal(object)
     changed = Signal()
 
-    def __init__(self, picture: PictureView, theme: Theme, host: QWidget, now_s: Callable[[], float]) -> None:
+    def __init__(self, picture: FrameView, theme: Theme, host: QWidget, get_time_s: Callable[[], float]) -> None:
         super().__init__(theme, PADDING_PX, "surface", "warn")
         self._picture = picture
         self._steady = SteadyDoubt()
-        self.open_doubt: Doubt | None = None
+        self.open_doubt: MarkerDoubt | None = None
         """What is in question, also where there is nothing to choose."""
-        self.other_keys: Sequence[QShortcut] = ()
+        self.host_shortcuts: Sequence[QShortcut] = ()
         """Of the host: a question takes the same keys from them."""
-        self._now_s = now_s
+        self._get_time_s = get_time_s
         self.setParent(picture)
         self.set_colors("surface", "warn", 2.0)
         self.setProperty("floats", True)  # over the picture, which goes on under it
-        self.doubt: Doubt | None = None
+        self.asked_doubt: MarkerDoubt | None = None
         """What is asked."""
-        self._since_s = math.nan
-        self._at_top = False
+        self._shown_at_s = math.nan
+        self._is_at_top = False
         self.words = Text(theme, "", 16, SEMIBOLD, wrap=True)
-        self.buttons: dict[Chosen, Button] = {
+        self.buttons: dict[Choice, Button] = {
             name: Button(theme, "", height_px=32) for name in ("disc", "spot", "none")
         }
-        self._grid = in_grid(GAP_PX, GAP_PX)
+        self._grid = grid_layout(GAP_PX, GAP_PX)
         for name, button in self.buttons.items():
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
             button.clicked.connect(lambda _=False, name=name: self.answer(name))
@@ -67,86 +67,90 @@ class SpotQuestion(Card):
         fill(self.body, self.words, self._grid)
         self.hide()
         names = ("answer_first", "answer_second", "answer_none")
-        self._answer_keys = {name: bind(host, name, partial(self._answer_by_key, name)) for name in names}
-        self._arm_keys()
+        self._answer_keys = {name: bind_key(host, name, partial(self._answer_by_key, name)) for name in names}
+        self._enable_keys()
 
-    def look(self, doubt: Doubt | None) -> Doubt | None:
-        self.open_doubt = self._steady.show(doubt, self._now_s())
-        self._ask(self.open_doubt)
+    def update_doubt(self, doubt: MarkerDoubt | None) -> MarkerDoubt | None:
+        self.open_doubt = self._steady.update(doubt, self._get_time_s())
+        self._show_question(self.open_doubt)
         return self.open_doubt
 
     def withdraw(self) -> None:
-        self._steady.answered()
+        self._steady.clear()
         self.open_doubt = None
-        self._ask(None)
+        self._show_question(None)
 
-    def _ask(self, doubt: Doubt | None) -> None:
-        if doubt is not None and not doubt.has_spot:
+    def _show_question(self, doubt: MarkerDoubt | None) -> None:
+        if doubt is not None and not doubt.has_other:
             doubt = None
-        before, self.doubt = self.doubt, doubt
-        same = before is not None and doubt is not None and self._key(before) == self._key(doubt)
+        before, self.asked_doubt = self.asked_doubt, doubt
+        same = before is not None and doubt is not None and self._question_key(before) == self._question_key(doubt)
         if same or (before is None and doubt is None):
             return
         if doubt is None:
             self.hide()
         else:
-            self._since_s = self._now_s()
+            self._shown_at_s = self._get_time_s()
             self._set_faces(doubt)
-            self.place()
+            self.reposition()
             self.show()
             self.raise_()
-        self._arm_keys()
+        self._enable_keys()
         self.changed.emit()
 
-    def _arm_keys(self) -> None:
-        armed = [key for name, key in self._answer_keys.items() if self.key_of(name) is not None]
+    def _enable_keys(self) -> None:
+        armed = [key for name, key in self._answer_keys.items() if self.choice_for_key(name) is not None]
         for key in self._answer_keys.values():
             key.setEnabled(key in armed)
-        for key in self.other_keys:
+        for key in self.host_shortcuts:
             key.setEnabled(key.key() not in [one.key() for one in armed])
 
     def _answer_by_key(self, name: str) -> None:
         """Only once the question has stood long enough to be what an answer means."""
-        chosen = self.key_of(name)
-        if chosen is not None and self._now_s() - self._since_s >= SETTLES_S - 1e-9:
+        chosen = self.choice_for_key(name)
+        if chosen is not None and self._get_time_s() - self._shown_at_s >= ANSWER_DELAY_S - 1e-9:
             self.answer(chosen)
 
-    def answer(self, chosen: Chosen) -> None:
+    def answer(self, choice: Choice) -> None:
         """What a person says; the question goes."""
-        if self.doubt is not None:
-            answer = self.doubt.answer(chosen)
+        if self.asked_doubt is not None:
+            answer = self.asked_doubt.answer(choice)
             self.withdraw()
             self._picture.update()
             self.answered.emit(answer)
 
-    def key_of(self, name: str) -> Chosen | None:
+    def choice_for_key(self, name: str) -> Choice | None:
         """What the key of an action answers now, None for nothing."""
-        if self.doubt is None:
+        if self.asked_doubt is None:
             return None
-        told: dict[str, Chosen] = {"answer_none": "none"}
-        told |= {"answer_first": "spot"} if self.doubt.hidden else {"answer_first": "disc", "answer_second": "spot"}
+        told: dict[str, Choice] = {"answer_none": "none"}
+        told |= (
+            {"answer_first": "spot"}
+            if self.asked_doubt.is_hidden
+            else {"answer_first": "disc", "answer_second": "spot"}
+        )
         return told.get(name)
 
     @property
-    def covers_head(self) -> bool:
+    def is_at_head(self) -> bool:
         """Whether it stands at the head of the picture, where its size is told."""
-        return self._at_top and not self.isHidden()
+        return self._is_at_top and not self.isHidden()
 
-    def place(self) -> None:
+    def reposition(self) -> None:
         """At the foot of the picture, or at its head where the foot shows what is asked about.
 
         Told when the question comes and when the window changes, not for every picture.
         """
         host = self._picture
-        width = host.width() - 2 * AWAY_PX
-        self._arrange(width - 2 * PADDING_PX)
+        width = host.width() - 2 * EDGE_PX
+        self._arrange_buttons(width - 2 * PADDING_PX)
         height = self.body.totalHeightForWidth(width)
-        if self.doubt is not None:
-            self._at_top = self._would_cover(self.doubt, height)
-        top = AWAY_PX if self._at_top else host.height() - AWAY_PX - height
-        self.setGeometry(AWAY_PX, top, width, height)
+        if self.asked_doubt is not None:
+            self._is_at_top = self._is_covering(self.asked_doubt, height)
+        top = EDGE_PX if self._is_at_top else host.height() - EDGE_PX - height
+        self.setGeometry(EDGE_PX, top, width, height)
 
-    def _arrange(self, room_px: int) -> None:
+    def _arrange_buttons(self, room_px: int) -> None:
         shown = [button for button in self.buttons.values() if not button.isHidden()]
         needed = sum(button.sizeHint().width() for button in shown) + GAP_PX * max(len(shown) - 1, 0)
         columns = len(shown) if needed <= room_px else 2
@@ -156,12 +160,12 @@ class SpotQuestion(Card):
             self._grid.addWidget(button, number // columns, number % columns)
 
     @staticmethod
-    def _key(doubt: Doubt) -> tuple[str, bool]:
-        return doubt.marker, doubt.hidden
+    def _question_key(doubt: MarkerDoubt) -> tuple[str, bool]:
+        return doubt.marker, doubt.is_hidden
 
-    def _set_faces(self, doubt: Doubt) -> None:
-        name = lower_name(doubt.marker)
-        if doubt.hidden:
+    def _set_faces(self, doubt: MarkerDoubt) -> None:
+        name = marker_in_sentence(doubt.marker)
+        if doubt.is_hidden:
             self.words.setText(self.tr("Is this blue spot the {marker}?").format(marker=name))
             faces = {"spot": (self.tr("Yes"), "answer_first"), "none": (self.tr("No"), "answer_none")}
         else:
@@ -175,50 +179,60 @@ class SpotQuestion(Card):
             button.setVisible(which in faces)
             if which in faces:
                 words, key = faces[which]
-                button.set_face(words, hint=KEYS[key])
+                button.set_label(words, hint=KEYS[key])
 
-    def _would_cover(self, doubt: Doubt, height_px: int) -> bool:
+    def _is_covering(self, doubt: MarkerDoubt, height_px: int) -> bool:
         """Whether at the foot of the picture it would lie over what is asked about."""
-        foot_px = self._picture.height() - 2 * AWAY_PX - height_px - RING_PX * self._theme.text_scale
+        foot_px = self._picture.height() - 2 * EDGE_PX - height_px - RING_PX * self._theme.text_scale
         return any(
             math.isfinite(place[0]) and self._picture.to_screen(float(place[0]), float(place[1])).y() > foot_px
-            for place in (doubt.disc_px, doubt.spot_px)
+            for place in (doubt.assigned_px, doubt.other_px)
         )
 
 
-def _beside(at: QPointF, away: QPointF, radius: float, size: QSizeF) -> QRectF:
-    """A plate next to a ring in the direction ``away``."""
-    middle = at + away * (radius + 5.0) + QPointF(0.5 * size.width() * away.x(), 0.5 * size.height() * away.y())
+def _place_plate(center: QPointF, direction: QPointF, radius: float, size: QSizeF) -> QRectF:
+    """A plate next to a ring in the direction ``direction``."""
+    middle = (
+        center
+        + direction * (radius + 5.0)
+        + QPointF(0.5 * size.width() * direction.x(), 0.5 * size.height() * direction.y())
+    )
     return QRectF(QPointF(middle.x() - 0.5 * size.width(), middle.y() - 0.5 * size.height()), size)
 
 
-def paint_question(painter: QPainter, theme: Theme, doubt: Doubt, picture: PictureView, covered: QRectF) -> None:
+def paint_question(painter: QPainter, theme: Theme, doubt: MarkerDoubt, picture: FrameView, covered: QRectF) -> None:
     """Rings about what is asked about; where there are two, each has its number on the side away from the other.
 
     ``covered`` is what the card hides of the picture.
     """
-    spot = picture.to_screen(float(doubt.spot_px[0]), float(doubt.spot_px[1]))
-    if doubt.hidden:
-        _ring(painter, theme, picture, covered, spot, QPointF(1.0, 0.0), tr("Another blue spot"))
+    spot = picture.to_screen(float(doubt.other_px[0]), float(doubt.other_px[1]))
+    if doubt.is_hidden:
+        _paint_ring(painter, theme, picture, covered, spot, QPointF(1.0, 0.0), tr("Another blue spot"))
         return
-    disc = picture.to_screen(float(doubt.disc_px[0]), float(doubt.disc_px[1]))
+    disc = picture.to_screen(float(doubt.assigned_px[0]), float(doubt.assigned_px[1]))
     away = spot - disc
     away /= math.hypot(away.x(), away.y()) or 1.0
-    _ring(painter, theme, picture, covered, disc, -away, "1")
-    _ring(painter, theme, picture, covered, spot, away, "2")
+    _paint_ring(painter, theme, picture, covered, disc, -away, "1")
+    _paint_ring(painter, theme, picture, covered, spot, away, "2")
 
 
-def _ring(
-    painter: QPainter, theme: Theme, picture: PictureView, covered: QRectF, at: QPointF, away: QPointF, words: str
+def _paint_ring(
+    painter: QPainter,
+    theme: Theme,
+    picture: FrameView,
+    covered: QRectF,
+    center: QPointF,
+    direction: QPointF,
+    words: str,
 ) -> None:
-    """A ring with words beside it in the direction ``away``, within the picture."""
+    """A ring with words beside it in the direction ``direction``, within the picture."""
     radius = RING_PX * theme.text_scale
-    haloed(painter, DARK.warn, 2.5, lambda: painter.drawEllipse(at, radius, radius))
+    draw_with_halo(painter, DARK.warn, 2.5, lambda: painter.drawEllipse(center, radius, radius))
     size = label_size(theme, words)
-    plate = _beside(at, away, radius, size)
+    plate = _place_plate(center, direction, radius, size)
     if plate.intersects(covered):
-        plate = _beside(at, QPointF(1.0 if away.x() >= 0.0 else -1.0, 0.0), radius, size)
+        plate = _place_plate(center, QPointF(1.0 if direction.x() >= 0.0 else -1.0, 0.0), radius, size)
     left, top = plate.left(), plate.top()
     if left + size.width() > picture.width() - 8:
-        left, top = picture.width() - 8 - size.width(), at.y() - radius - 5 - size.height()
+        left, top = picture.width() - 8 - size.width(), center.y() - radius - 5 - size.height()
     paint_label(painter, theme, words, max(8.0, left), max(8.0, top))

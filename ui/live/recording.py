@@ -11,104 +11,104 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from carpus.core.pipeline.live_values import StartMode
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import SessionSetup
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE
-from carpus.core.types import FloatArray, SpotAnswer, TrackStatus
+from carpus.core.types import FloatArray, MarkerLabel, TrackStatus
 from carpus.ui.background import Background
-from carpus.ui.figures import FIGURES, FINGERS, Figure
-from carpus.ui.live.counting import RunningCount
+from carpus.ui.figures import FINGER_ANGLES, FINGERS, FingerAngle
+from carpus.ui.live.counting import RepetitionCounter
 from carpus.ui.patient.guide import RecordingState
 from carpus.ui.plot.history import History
 
 if TYPE_CHECKING:
-    from carpus.core.pipeline.measuring import SourceMeasuring
+    from carpus.core.pipeline.measuring import MeasurementController
 
-HASTY_S = 3.0
+MIN_RECORDING_S = 3.0
 """So soon after a recording began nobody is taken to mean its end without being asked."""
 
 
-class Recording(QObject):
+class RecordingController(QObject):
     """One after the other on a source. ``changed`` when its state, or what is counted down to it, is another;
-    ``begun`` or ``not_begun`` with a fault; ``stopping``, then ``stopped`` with
+    ``begun`` or ``start_failed`` with a fault; ``stopping``, then ``stopped`` with
     the session, or ``stop_failed`` with a fault."""
 
     changed = Signal()
-    begun = Signal()
-    not_begun = Signal(object)
+    started = Signal()
+    start_failed = Signal(object)
     stopped = Signal(str)
     stop_failed = Signal(object)
     stopping = Signal()
-    hasty = Signal()
+    early_stop_requested = Signal()
     """A person ends a recording that has only just begun: is it meant?"""
 
     def __init__(self, background: Background, history: History) -> None:
         super().__init__()
         self._background, self._history = background, history
-        self.measuring: SourceMeasuring | None = None
-        self.set_up: SetUp | None = None
-        self.count: RunningCount | None = None
+        self.measuring: MeasurementController | None = None
+        self.set_up: SessionSetup | None = None
+        self.counter: RepetitionCounter | None = None
         self.start_mode: StartMode = "key"
-        self.beginning = Beginning()
-        self.left_s = 0
+        self.start_trigger = StartTrigger()
+        self.countdown_s = 0
         """Seconds that are still counted down."""
-        self.camera_lost = self.passive = self._rests = False
-        self.under_way = False
+        self.camera_lost = self.is_passive = self._is_resting = False
+        self.is_busy = False
         """Whether it is being started or stopped, which waits for the disk."""
-        self._begun_at_s = -HASTY_S
+        self._started_at_s = -MIN_RECORDING_S
 
-    def open(self, measuring: SourceMeasuring, set_up: SetUp) -> None:
-        self.measuring, self.set_up, self.count = measuring, set_up, None
-        self.camera_lost = self.under_way = self._rests = False
-        self._arm()
+    def set_source(self, measuring: MeasurementController, set_up: SessionSetup) -> None:
+        self.measuring, self.set_up, self.counter = measuring, set_up, None
+        self.camera_lost = self.is_busy = self._is_resting = False
+        self._arm_start_trigger()
 
     @property
     def state(self) -> RecordingState:
         feed = self.measuring.feed if self.measuring else None
-        if feed is None or not feed.recording or (self.under_way and self.count is None):
+        if feed is None or not feed.is_recording or (self.is_busy and self.counter is None):
             return "off"  # also while it is being started: nothing can be noted in it yet
-        return "paused" if feed.paused or self.camera_lost else "recording"
+        return "paused" if feed.is_paused or self.camera_lost else "recording"
 
     @property
-    def storing(self) -> bool:
+    def is_storing(self) -> bool:
         """Whether it is being stored: nobody needs to stop it once more."""
-        return self.under_way and self.count is not None
+        return self.is_busy and self.counter is not None
 
     @property
-    def plays(self) -> bool:
+    def is_playback(self) -> bool:
         """Whether the source is a stored recording, which plays from its first picture."""
-        return self.measuring is not None and self.measuring.starts_with_recording
+        return self.measuring is not None and self.measuring.is_playback
 
     @property
-    def recorded_s(self) -> float:
-        return self.count.recorded_s if self.count else 0.0
+    def duration_s(self) -> float:
+        return self.counter.duration_s if self.counter else 0.0
 
     @property
     def repetitions(self) -> int:
-        return self.count.repetitions if self.count else 0
+        return self.counter.repetitions if self.counter else 0
 
     @property
-    def now_s(self) -> float:
+    def time_s(self) -> float:
         """Its own time, 0 before the first picture."""
-        now = self._history.now_s
+        now = self._history.end_s
         return now if math.isfinite(now) else 0.0
 
     # --- how it begins ------------------------------------------------------------------------------------
     def toggle(self) -> None:
         """Start, or stop and go to the review: the same on every source. A hasty end asks; what is counted down is
         taken back."""
-        if self.measuring is None or self.under_way:
+        if self.measuring is None or self.is_busy:
             return
-        if self.measuring.feed.recording:
-            if time.monotonic() - self._begun_at_s < HASTY_S:
-                self.hasty.emit()
+        if self.measuring.feed.is_recording:
+            if time.monotonic() - self._started_at_s < MIN_RECORDING_S:
+                self.early_stop_requested.emit()
             else:
                 self.stop()
-        elif self.beginning.counts:
-            self.beginning.stop()
-            self._show_left()
-        elif self.start_mode == "countdown" and not self.plays and len(self._history):
-            self.beginning.count(self.now_s)
-            self._show_left()
+        elif self.start_trigger.is_counting:
+            self.start_trigger.stop()
+            self._update_countdown()
+        elif self.start_mode == "countdown" and not self.is_playback and len(self._history):
+            self.start_trigger.start_countdown(self.time_s)
+            self._update_countdown()
         else:
             self._record()
 
@@ -116,167 +116,171 @@ class Recording(QObject):
         assert self.measuring is not None
         assert self.set_up is not None
         set_up = self.set_up
-        self.beginning.stop()
-        self.under_way = True
+        self.start_trigger.stop()
+        self.is_busy = True
 
-        def begun(_: object) -> None:
-            self.under_way = self.passive = False
-            self._begun_at_s = time.monotonic()
-            self.count = RunningCount(set_up.exercise, set_up.protocol)
+        def on_started(_: object) -> None:
+            self.is_busy = self.is_passive = False
+            self._started_at_s = time.monotonic()
+            self.counter = RepetitionCounter(set_up.exercise, set_up.protocol)
             self._history.set_home()
-            self.begun.emit()
+            self.started.emit()
             self.changed.emit()
 
-        def failed(fault: Exception) -> None:
-            self.under_way = False
+        def on_failed(fault: Exception) -> None:
+            self.is_busy = False
             self.changed.emit()
-            self.not_begun.emit(fault)
+            self.start_failed.emit(fault)
 
-        self._background.run(self.measuring.start_recording, begun, failed, self)
+        self._background.run(self.measuring.start_recording, on_started, on_failed, self)
 
-    def rest(self, *, on: bool) -> None:
+    def set_resting(self, *, resting: bool) -> None:
         """Between two exercises of a set nothing begins by itself."""
-        if on != self._rests:
-            self._rests = on
-            self._arm()
+        if resting != self._is_resting:
+            self._is_resting = resting
+            self._arm_start_trigger()
 
     def set_camera_lost(self, *, lost: bool) -> None:
         self.camera_lost = lost
-        self._arm()
+        self._arm_start_trigger()
         self.changed.emit()
 
-    def _arm(self) -> None:
+    def _arm_start_trigger(self) -> None:
         """A hand that lies still begins from now on, where that is wanted."""
-        self.beginning.stop()
-        if self.start_mode == "still" and not (self.plays or self._rests or self.camera_lost):
-            self.beginning.wait()
+        self.start_trigger.stop()
+        if self.start_mode == "still" and not (self.is_playback or self._is_resting or self.camera_lost):
+            self.start_trigger.start_waiting()
 
-    def look_for_start(self) -> None:
+    def check_start_trigger(self) -> None:
         """One look at the hand while a recording may begin without a hand at the keyboard."""
         history, set_up = self._history, self.set_up
-        if self.measuring is None or self.measuring.feed.recording or self.under_way or not len(history):
+        if self.measuring is None or self.measuring.feed.is_recording or self.is_busy or not len(history):
             return
         fingers = FINGERS[1:] if set_up is not None and set_up.protocol.has_fingers else ()
-        bent = [history.figure_value(FIGURES.index(Figure(finger, "middle")))[0] for finger in fingers]
+        bent = [history.angle_value(FINGER_ANGLES.index(FingerAngle(finger, "middle")))[0] for finger in fingers]
         angles = np.array([*history.angles_deg, *bent], dtype=float)
-        if self.beginning.take(angles if history.status == TrackStatus.TRACKED else None, self.now_s):
+        if self.start_trigger.update(angles if history.status == TrackStatus.TRACKED else None, self.time_s):
             self._record()
-        self._show_left()
+        self._update_countdown()
 
-    def _show_left(self) -> None:
+    def _update_countdown(self) -> None:
         """The seconds on the button, as soon as they change."""
-        left_s = self.beginning.left_s(self.now_s)
-        if left_s != self.left_s:
-            self.left_s = left_s
+        left_s = self.start_trigger.remaining_s(self.time_s)
+        if left_s != self.countdown_s:
+            self.countdown_s = left_s
             self.changed.emit()
 
     # --- while it runs, and its end -----------------------------------------------------------------------
     def toggle_pause(self) -> None:
-        if self.measuring is not None and self.measuring.feed.recording and not (self.camera_lost or self.storing):
+        if (
+            self.measuring is not None
+            and self.measuring.feed.is_recording
+            and not (self.camera_lost or self.is_storing)
+        ):
             feed = self.measuring.feed
-            (feed.resume_recording if feed.paused else feed.pause_recording)()
+            (feed.resume_recording if feed.is_paused else feed.pause_recording)()
             self.changed.emit()
 
-    def note(self, kind: str, text: str) -> bool:
+    def add_event(self, kind: str, text: str) -> bool:
         """Write something down at this moment; whether it could be."""
         return self.measuring is not None and self.measuring.feed.add_event(kind, text)
 
-    def answer_spot(self, answer: SpotAnswer) -> None:
+    def answer_spot(self, answer: MarkerLabel) -> None:
         if self.measuring is not None:
-            self.measuring.answer_spot(answer)
+            self.measuring.add_label(answer)
 
-    def say_way(self, *, passive: bool) -> None:
-        if self.note(PASSIVE if passive else ACTIVE, ""):
-            self.passive = passive
-            if self.count is not None:
-                self.count.say_way(self.now_s, passive=passive)
+    def set_passive(self, *, passive: bool) -> None:
+        if self.add_event(PASSIVE if passive else ACTIVE, ""):
+            self.is_passive = passive
+            if self.counter is not None:
+                self.counter.set_passive(self.time_s, passive=passive)
             self.changed.emit()
 
     def stop(self) -> None:
         """Close the file in the background; the answer leads to the review."""
-        if self.measuring is None or self.under_way or not self.measuring.feed.recording:
+        if self.measuring is None or self.is_busy or not self.measuring.feed.is_recording:
             return
-        self.under_way = True
+        self.is_busy = True
         self.changed.emit()
         self.stopping.emit()
 
-        def failed(fault: Exception) -> None:
-            self.under_way = False
+        def on_failed(fault: Exception) -> None:
+            self.is_busy = False
             self.changed.emit()
             self.stop_failed.emit(fault)
 
-        def done(session_id: object) -> None:
-            self.under_way, self.count = False, None
+        def on_stopped(session_id: object) -> None:
+            self.is_busy, self.counter = False, None
             self.changed.emit()
             self.stopped.emit(str(session_id))
 
-        self._background.run(self.measuring.stop_recording, done, failed, self)
+        self._background.run(self.measuring.stop_recording, on_stopped, on_failed, self)
 
 
-COUNT_S = 3.0
+COUNTDOWN_S = 3.0
 STILL_S, STILL_DEG = 1.5, 4.0
 """A hand lies still whose angles have stayed within this for so long: less than the smallest movement, more than the
 tracker's noise."""
-TWITCH_DEG = 2.0 * STILL_DEG
+MAX_MOVEMENT_DEG = 2.0 * STILL_DEG
 """A hand that goes so far while it is counted down does not lie still any more."""
 
 
-class Beginning:
-    """``waits`` for a hand that lies still, or counts down; all by the time of the pictures, in seconds."""
+class StartTrigger:
+    """``is_waiting`` for a hand that lies still, or counts down; all by the time of the pictures, in seconds."""
 
     def __init__(self) -> None:
-        self.waits = False
-        self._begins_s = math.nan
-        self._watches = False
-        self._lately: deque[tuple[float, FloatArray]] = deque()
+        self.is_waiting = False
+        self._start_time_s = math.nan
+        self._is_watching = False
+        self._recent_angles: deque[tuple[float, FloatArray]] = deque()
 
     def stop(self) -> None:
-        self.waits, self._begins_s = False, math.nan
-        self._lately.clear()
+        self.is_waiting, self._start_time_s = False, math.nan
+        self._recent_angles.clear()
 
-    def wait(self) -> None:
+    def start_waiting(self) -> None:
         self.stop()
-        self.waits = True
+        self.is_waiting = True
 
-    def count(self, now_s: float) -> None:
+    def start_countdown(self, now_s: float) -> None:
         self.stop()
-        self._begins_s, self._watches = now_s + COUNT_S, False
+        self._start_time_s, self._is_watching = now_s + COUNTDOWN_S, False
 
     @property
-    def counts(self) -> bool:
-        return math.isfinite(self._begins_s)
+    def is_counting(self) -> bool:
+        return math.isfinite(self._start_time_s)
 
-    def left_s(self, now_s: float) -> int:
+    def remaining_s(self, now_s: float) -> int:
         """Whole seconds that are still counted, 0 where nothing is."""
-        return max(1, math.ceil(self._begins_s - now_s)) if self.counts else 0
+        return max(1, math.ceil(self._start_time_s - now_s)) if self.is_counting else 0
 
-    def take(self, angles_deg: FloatArray | None, now_s: float) -> bool:
+    def update(self, angles_deg: FloatArray | None, now_s: float) -> bool:
         """One look at the hand, its angles or None where it is not surely seen; whether the recording begins now.
 
         Angles that are not known (NaN) are not looked at.
         """
-        if self.counts and not self._watches:
-            begins = now_s >= self._begins_s
-        elif self.waits or self.counts:
-            moved_deg = self._moved_deg(angles_deg, now_s)
-            if self.counts and not moved_deg <= TWITCH_DEG:
-                self.wait()
-            elif self.waits and moved_deg <= STILL_DEG and now_s - self._lately[0][0] >= 0.9 * STILL_S:
-                self.waits, self._begins_s, self._watches = False, now_s + COUNT_S, True
-            begins = self.counts and now_s >= self._begins_s
+        if self.is_counting and not self._is_watching:
+            begins = now_s >= self._start_time_s
+        elif self.is_waiting or self.is_counting:
+            moved_deg = self._recent_change_deg(angles_deg, now_s)
+            if self.is_counting and not moved_deg <= MAX_MOVEMENT_DEG:
+                self.start_waiting()
+            elif self.is_waiting and moved_deg <= STILL_DEG and now_s - self._recent_angles[0][0] >= 0.9 * STILL_S:
+                self.is_waiting, self._start_time_s, self._is_watching = False, now_s + COUNTDOWN_S, True
+            begins = self.is_counting and now_s >= self._start_time_s
         else:
             return False
         if begins:
             self.stop()
         return begins
 
-    def _moved_deg(self, angles_deg: FloatArray | None, now_s: float) -> float:
+    def _recent_change_deg(self, angles_deg: FloatArray | None, now_s: float) -> float:
         """By how much the angles differed lately; infinite where the hand was not seen."""
         if angles_deg is None or not np.isfinite(angles_deg).any():
-            self._lately.clear()
+            self._recent_angles.clear()
             return math.inf
-        self._lately.append((now_s, angles_deg))
-        while now_s - self._lately[0][0] > STILL_S:
-            self._lately.popleft()
-        seen = np.array([angles for _, angles in self._lately])
+        self._recent_angles.append((now_s, angles_deg))
+        while now_s - self._recent_angles[0][0] > STILL_S:
+            self._recent_angles.popleft()
+        seen = np.array([angles for _, angles in self._recent_angles])
         return float(np.nanmax(seen.max(axis=0) - seen.min(axis=0)))

@@ -11,154 +11,168 @@ from PySide6.QtWidgets import QHBoxLayout, QLayout, QWidget
 
 from carpus.core.hand.protocols import PROTOCOLS
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import SessionSetup
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Line
-from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line
-from carpus.ui.controls.progress_bar import ThinBar
+from carpus.ui.controls.card import Separator
+from carpus.ui.controls.layouts import STRETCH, FittedWidget, column_layout, fill, row_layout
+from carpus.ui.controls.progress_bar import ThinProgressBar
 from carpus.ui.controls.text import SEMIBOLD, Text
-from carpus.ui.figures import figure_of
-from carpus.ui.keys import bind_screen
-from carpus.ui.live.controls import Controls
-from carpus.ui.live.doubt import doubt_lamp, doubt_of
+from carpus.ui.figures import find_finger_angle
+from carpus.ui.keys import bind_screen_keys
+from carpus.ui.live.controls import RecordingControls
+from carpus.ui.live.doubt import find_doubt, question_light
 from carpus.ui.live.hand_map import HandMap
-from carpus.ui.live.light import Behind, Lamp, SteadyLight, behind_lamp, hand_lamp, lamp_for, words_left
-from carpus.ui.live.notes import NoteSheet, PainSheet
+from carpus.ui.live.light import (
+    StatusLight,
+    SteadyLight,
+    TrackingLag,
+    catch_up_words,
+    hand_light,
+    lag_light,
+    wrist_light,
+)
+from carpus.ui.live.notes import NoteDialog, PainDialog
 from carpus.ui.live.number_card import NumberCard, Reading
-from carpus.ui.live.on_picture import OnPicture
-from carpus.ui.live.question import SpotQuestion
-from carpus.ui.live.readings import Readings
-from carpus.ui.live.recording import Recording
-from carpus.ui.patient.guide import Glance
-from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
+from carpus.ui.live.on_picture import FrameOverlay
+from carpus.ui.live.question import MarkerQuestion
+from carpus.ui.live.readings import LiveReadings
+from carpus.ui.live.recording import RecordingController
+from carpus.ui.patient.guide import ExerciseSnapshot
+from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR, FrameView
 from carpus.ui.plot.chart import Chart
 from carpus.ui.plot.finger_curves import FingerCurves
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.ways import PathView
+from carpus.ui.plot.ways import LivePathChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
-from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+from carpus.ui.tour.bubble import MIN_SCREEN_PX, BubbleView
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.core.pipeline.measuring import SourceMeasuring
+    from carpus.core.pipeline.measuring import MeasurementController
 
-LOOK_EVERY_MS = 8
+CHECK_EVERY_MS = 8
 """So often the screen looks for a new picture: the curves are as old as this, not as the time between two drawings."""
-DRAW_AFTER_MS = 25
+MIN_DRAW_INTERVAL_MS = 25
 """Never sooner after the last drawing; what arrives in between is in the curves, not drawn on its own."""
-DRAWING_SHARE = 0.5
+MAX_DRAWING_SHARE = 0.5
 """At most this part of a processor goes to drawing: on a slow computer fewer drawings, not fewer pictures tracked."""
-STORING_EVERY_MS = 500
+STORING_INTERVAL_MS = 500
 """While what was recorded is stored, which is waited for, and needs the processor."""
-TICK_EVERY_MS = 40
+MAX_TICK_INTERVAL_MS = 40
 """So often figures and state go on where no pictures come."""
 VALUES_EVERY = 3
 SLOW_EVERY = 30
 WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
-GLANCE_EVERY_S = 0.09
+SNAPSHOT_EVERY_S = 0.09
 STALE_S = 0.4
 """Without a new picture for so long, what was tracked last is not the hand of now."""
 
 
-class LiveScreen(Fitted):
-    """``recording_changed`` (state, seconds) and ``counted`` feed the top bar; ``told`` carries events of the source
+class LiveScreen(FittedWidget):
+    """``recording_changed`` (state, seconds) and ``counters_changed`` feed the top bar; ``event_received`` carries
+    events of the source
     and faults of commands."""
 
     recording_changed = Signal(str, float)
-    counted = Signal(LiveCounters)
-    told = Signal(object)
-    patient_wanted = Signal()
+    counters_changed = Signal(LiveCounters)
+    event_received = Signal(object)
+    patient_view_requested = Signal()
     """A person opens or closes the patient's own view."""
-    glanced = Signal(Glance)
+    snapshot_taken = Signal(ExerciseSnapshot)
     """How the trained angle stands, as often as the figures change."""
 
     def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
         self._theme = theme
         self.history = History(PROTOCOLS[0])
-        self.recording = Recording(background, self.history)
-        self.readings = Readings(self.history, self.recording)
-        self._light, self._behind = SteadyLight(), Behind()
-        self._view: TrackedView | None = None
-        self._tick = 0
-        self._ticked_at_s, self._ticked_cpu_s = -math.inf, 0.0
+        self.recording = RecordingController(background, self.history)
+        self.readings = LiveReadings(self.history, self.recording)
+        self._steady_light, self._lag = SteadyLight(), TrackingLag()
+        self._tracked_view: TrackedView | None = None
+        self._draw_count = 0
+        self._drawn_at_s, self._drawn_cpu_s = -math.inf, 0.0
         self._drawing_ms: float | None = 0.0
-        self._fresh_at_s = self._glanced_at_s = -math.inf
-        self._whole_hand = self._large = False
-        self._research = True
+        self._new_frame_at_s = self._snapshot_at_s = -math.inf
+        self._is_whole_hand = self._is_large = False
+        self._shows_research = True
         self.stage = QWidget()
         """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
-        self.picture = PictureView(theme)
-        self.question = SpotQuestion(self.picture, theme, self, lambda: self.recording.now_s)
-        self.on_picture = OnPicture(theme, self.picture, self.question, self.recording)
-        self.path = PathView(theme, self.history)
-        self.number = NumberCard(theme)
+        self.picture = FrameView(theme)
+        self.question = MarkerQuestion(self.picture, theme, self, lambda: self.recording.time_s)
+        self.frame_overlay = FrameOverlay(theme, self.picture, self.question, self.recording)
+        self.path_view = LivePathChart(theme, self.history)
+        self.number_card = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
-        self.fingers = FingerCurves(theme, self.history)
+        self.finger_curves = FingerCurves(theme, self.history)
         self.hand_map = HandMap(theme)
-        self.controls = Controls(theme, self.recording)
-        self.speeds = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
-        self.patient = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
-        self.course = Text(theme, "", 16, SEMIBOLD, wrap=True)
-        self.course.hide()
-        self.catching_up = ThinBar(theme, self.tr("Catching up"))
-        self.catching_up.hide()
+        self.controls = RecordingControls(theme, self.recording)
+        self.speeds_button = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
+        self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
+        self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self.course_label.hide()
+        self.catch_up_bar = ThinProgressBar(theme, self.tr("Catching up"))
+        self.catch_up_bar.hide()
         self.bubble = BubbleView(theme, wide=True, keys=False)
-        self.note_sheet = NoteSheet(self.stage, theme)
-        self.pain_sheet = PainSheet(self.stage, theme)
-        self._lay_out()
+        self.note_dialog = NoteDialog(self.stage, theme)
+        self.pain_dialog = PainDialog(self.stage, theme)
+        self._build_layout()
         self._connect()
         self.picture.installEventFilter(self)
         theme.changed.connect(self._fit)
-        self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer, interval=LOOK_EVERY_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer, interval=CHECK_EVERY_MS)
+        self._timer.timeout.connect(self.draw_if_due)
 
-    def _lay_out(self) -> None:
-        left = in_column((self.picture, 390), (self.path, 242), (self.hand_map, 300), gap=12)
-        right = in_column(self.number, (self.curves, 1), (self.fingers, 1), gap=12)
+    def _build_layout(self) -> None:
+        left = column_layout((self.picture, 390), (self.path_view, 242), (self.hand_map, 300), gap=12)
+        right = column_layout(self.number_card, (self.curves, 1), (self.finger_curves, 1), gap=12)
         self._columns = columns = QHBoxLayout(self.stage)
         columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
         columns.setSpacing(GAP_PX)
         fill(columns, (left, 520), (right, 696))
         # Over the corner of the curves that nothing is written in, and over the picture.
-        for button, host, top_px, right_px in ((self.speeds, self.curves, 4, 6), (self.patient, self.picture, 8, 8)):
+        for button, host, top_px, right_px in (
+            (self.speeds_button, self.curves, 4, 6),
+            (self.patient_view_button, self.picture, 8, 8),
+        ):
             button.setProperty("floats", True)
-            in_line(STRETCH, (button, 0, Qt.AlignmentFlag.AlignTop), margins=(0, top_px, right_px, 0), within=host)
-        whole = in_column((self.stage, 1), _between_margins(self.course, 8), gap=0, margins=(0, 0, 0, 0), within=self)
-        fill(whole, _between_margins(self.bubble, 4), self.catching_up, Line(self._theme), self.controls)
+            row_layout(STRETCH, (button, 0, Qt.AlignmentFlag.AlignTop), margins=(0, top_px, right_px, 0), parent=host)
+        whole = column_layout(
+            (self.stage, 1), _with_margins(self.course_label, 8), gap=0, margins=(0, 0, 0, 0), parent=self
+        )
+        fill(whole, _with_margins(self.bubble, 4), self.catch_up_bar, Separator(self._theme), self.controls)
 
     def _connect(self) -> None:
         recording, controls = self.recording, self.controls
-        controls.note.clicked.connect(lambda: self.note_sheet.begin(passive=recording.passive))
-        controls.pain.clicked.connect(self.pain_sheet.begin)
-        controls.pause.clicked.connect(recording.toggle_pause)
-        controls.main.clicked.connect(recording.toggle)
-        self.note_sheet.kept.connect(lambda words: recording.note("note", words))
-        self.note_sheet.moved.connect(lambda passive: recording.say_way(passive=passive))
-        self.pain_sheet.kept.connect(self._keep_pain)
-        self.speeds.clicked.connect(self.toggle_speeds)
-        self.patient.clicked.connect(self.patient_wanted)
-        for button in (self.speeds, self.patient):
+        controls.note_button.clicked.connect(lambda: self.note_dialog.open_note(passive=recording.is_passive))
+        controls.pain_button.clicked.connect(self.pain_dialog.open_pain)
+        controls.pause_button.clicked.connect(recording.toggle_pause)
+        controls.main_button.clicked.connect(recording.toggle)
+        self.note_dialog.note_entered.connect(lambda words: recording.add_event("note", words))
+        self.note_dialog.passive_changed.connect(lambda passive: recording.set_passive(passive=passive))
+        self.pain_dialog.pain_entered.connect(self._add_pain)
+        self.speeds_button.clicked.connect(self.toggle_speeds)
+        self.patient_view_button.clicked.connect(self.patient_view_requested)
+        for button in (self.speeds_button, self.patient_view_button):
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        recording.begun.connect(lambda: self._behind.begin())
-        recording.not_begun.connect(self.told)
-        recording.stopping.connect(controls.say_storing)
+        recording.started.connect(lambda: self._lag.reset())
+        recording.start_failed.connect(self.event_received)
+        recording.stopping.connect(controls.show_storing)
         for ended in (recording.stopped, recording.stop_failed):
-            ended.connect(self.catching_up.hide)
-        picture, number = self.picture, self.number
+            ended.connect(self.catch_up_bar.hide)
+        picture, number = self.picture, self.number_card
         actions = {
-            "record": recording.toggle, "pedal": recording.toggle, "note": controls.note.click,
-            "pain": controls.pain.click, "pause": recording.toggle_pause, "overlay": self.on_picture.toggle,
-            "whole_picture": lambda: picture.show_whole(not picture.shows_whole), "speeds": self.toggle_speeds,
-            "next_angle": lambda: self.choose(number.reading.with_next_angle()),
-            "next_finger": lambda: self.choose(number.reading.with_next_finger()),
-            "side_view": self.on_picture.toggle_side, "patient_view": self.patient_wanted.emit,
+            "record": recording.toggle, "pedal": recording.toggle, "note": controls.note_button.click,
+            "pain": controls.pain_button.click, "pause": recording.toggle_pause, "overlay": self.frame_overlay.toggle,
+            "whole_picture": lambda: picture.set_whole(not picture.is_whole), "speeds": self.toggle_speeds,
+            "next_angle": lambda: self.show_angle(number.reading.with_next_angle()),
+            "next_finger": lambda: self.show_angle(number.reading.with_next_finger()),
+            "side_view": self.frame_overlay.toggle_side, "patient_view": self.patient_view_requested.emit,
             "large_view": self.toggle_large,
         }  # fmt: skip
-        self.fingers.chosen.connect(lambda figure: self.choose(Reading(figure=figure)))
-        self._shortcuts = bind_screen(self, actions)
-        self.question.other_keys = list(self._shortcuts.values())
+        self.finger_curves.angle_chosen.connect(lambda figure: self.show_angle(Reading(figure=figure)))
+        self._shortcuts = bind_screen_keys(self, actions)
+        self.question.host_shortcuts = list(self._shortcuts.values())
         self.question.changed.connect(self._place_question)
         self.question.answered.connect(recording.answer_spot)
 
@@ -170,13 +184,15 @@ class LiveScreen(Fitted):
 
     def _place_question(self) -> None:
         """A question over the head of the picture takes the place of the button there, whose key goes on working."""
-        self.question.place()
-        self.patient.setVisible(self.question.isHidden() or self.question.y() > self.patient.geometry().bottom())
+        self.question.reposition()
+        self.patient_view_button.setVisible(
+            self.question.isHidden() or self.question.y() > self.patient_view_button.geometry().bottom()
+        )
 
     def show_research(self, *, on: bool) -> None:
         """The path with its axes and the speeds, or neither; that the forearm lies still is watched all the same."""
-        self._research = self.on_picture.research = on
-        if not on and self.curves.shows_speeds:
+        self._shows_research = self.frame_overlay.shows_research = on
+        if not on and self.curves.is_showing_speeds:
             self.toggle_speeds()
         self._shortcuts["speeds"].setEnabled(on)
         self._fit()
@@ -184,216 +200,220 @@ class LiveScreen(Fitted):
     def _fit(self) -> None:
         """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
         tight = is_tight(self, self._theme)
-        small, hand = not self._large, self._whole_hand
+        small, hand = not self._is_large, self._is_whole_hand
         self.picture.setVisible(small)
-        self.path.setVisible(small and not tight and not hand and self._research)
-        self.speeds.setVisible(self._research)
+        self.path_view.setVisible(small and not tight and not hand and self._shows_research)
+        self.speeds_button.setVisible(self._shows_research)
         self.hand_map.setVisible(small and not tight and hand)
         self.curves.setVisible(small and not hand)
-        self.fingers.setVisible(small and hand)
+        self.finger_curves.setVisible(small and hand)
         for place, share in enumerate(HAND_COLUMNS if hand else WRIST_COLUMNS):
             self._columns.setStretch(place, share if small or place else 0)
-        self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale and not (tight and hand))
+        self.bubble.set_room(self.height() >= MIN_SCREEN_PX * self._theme.text_scale and not (tight and hand))
         self.curves.show_single(tight)
         self._place_question()
-        self.controls.fit(tight=tight, large=self._large)
+        self.controls.fit(tight=tight, large=self._is_large)
 
     # --- life ---------------------------------------------------------------------------------------------
-    def begin(self, measuring: SourceMeasuring, set_up: SetUp) -> None:
+    def open_source(self, measuring: MeasurementController, set_up: SessionSetup) -> None:
         exercise, calibration = set_up.exercise, measuring.calibration
         self.history.clear(set_up.protocol, exercise, None if calibration is None else calibration.start_angles_rad)
-        self.number.exercise = exercise
-        self._whole_hand = set_up.protocol.has_fingers
-        self._light, self._behind, self._view = SteadyLight(), Behind(), None
-        self.on_picture.view = None
+        self.number_card.exercise = exercise
+        self._is_whole_hand = set_up.protocol.has_fingers
+        self._steady_light, self._lag, self._tracked_view = SteadyLight(), TrackingLag(), None
+        self.frame_overlay.tracked_view = None
         self.question.withdraw()
-        self.recording.open(measuring, set_up)
+        self.recording.set_source(measuring, set_up)
         self.curves.set_exercise(exercise, set_up.target_positive_deg, set_up.target_negative_deg)
-        self.path.set_exercise(set_up.side, exercise.pure_wrist)
+        self.path_view.set_exercise(set_up.side, exercise.is_forearm_fixed)
         angle = 1 if exercise.angle is None else exercise.angle
-        self.choose(Reading(angle=angle, figure=figure_of(exercise.joint) if self._whole_hand else None))
-        self.controls.begin()
+        self.show_angle(Reading(angle=angle, figure=find_finger_angle(exercise.joint) if self._is_whole_hand else None))
+        self.controls.reset()
         self.hand_map.set_side(set_up.side)
         self._fit()
         waits, plays = self.tr("Waiting for a picture"), self.tr("The recording plays from its first picture")
-        self.picture.clear(plays if self.recording.plays else waits)
-        room = HAND_ROOM if self._whole_hand else PALM_ROOM
+        self.picture.clear(plays if self.recording.is_playback else waits)
+        room = HAND_AREA_FACTOR if self._is_whole_hand else PALM_AREA_FACTOR
         self.picture.set_hand_area(None if calibration is None else calibration.clicks.pixel, room)
         self._timer.start()
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def end(self) -> None:
+    def close_source(self) -> None:
         self._timer.stop()
         self.recording.measuring = None
         self.recording_changed.emit("off", 0.0)
 
     def toggle_large(self) -> None:
         """One figure and the light, to be read from across the room, or everything."""
-        self._large = not self._large
-        self.number.set_large(self._large)
+        self._is_large = not self._is_large
+        self.number_card.set_large(self._is_large)
         self._fit()
 
     def toggle_speeds(self) -> None:
-        self.curves.show_speeds(not self.curves.shows_speeds)
-        self.fingers.show_speeds(self.curves.shows_speeds)
-        self.speeds.set_face(self.tr("Angles") if self.curves.shows_speeds else self.tr("Speeds"))
+        self.curves.show_speeds(not self.curves.is_showing_speeds)
+        self.finger_curves.show_speeds(self.curves.is_showing_speeds)
+        self.speeds_button.set_label(self.tr("Angles") if self.curves.is_showing_speeds else self.tr("Speeds"))
 
-    def choose(self, reading: Reading) -> None:
+    def show_angle(self, reading: Reading) -> None:
         reading = self.readings.with_targets(reading)
-        self.on_picture.figure = reading.figure
+        self.frame_overlay.figure = reading.figure
         if reading.figure is not None:
-            self.fingers.set_figure(reading.figure, reading.target_positive_deg)
-        self.number.show_reading(reading)
+            self.finger_curves.set_angle(reading.figure, reading.target_positive_deg)
+        self.number_card.show_reading(reading)
         if reading.figure is not None and self.recording.measuring is not None and len(self.history):
-            self.number.show_reading(self.readings.now(reading))
+            self.number_card.show_reading(self.readings.current_reading(reading))
 
     def set_camera_lost(self, lost: bool) -> None:
         """The camera went or came back; while it is gone nothing old is shown as if it were now."""
         self.recording.set_camera_lost(lost=lost)
-        self.fingers.set_waiting(lost)
+        self.finger_curves.set_waiting(lost)
         if lost:
             self.question.withdraw()
             self.picture.clear(self.tr("No picture"))
-            self._view = self.on_picture.view = None
+            self._tracked_view = self.frame_overlay.tracked_view = None
 
     def set_patient_view(self, is_open: bool) -> None:
-        self.patient.set_face(self.patient.text(), icon="check" if is_open else "monitor")
+        self.patient_view_button.set_label(self.patient_view_button.text(), icon="check" if is_open else "monitor")
         words = self.tr("Close the patient’s view") if is_open else self.tr("Open the patient’s view")
-        self.patient.setAccessibleName(words)
+        self.patient_view_button.setAccessibleName(words)
 
     def show_course(self, words: str) -> None:
         """Which part of a set it is, and how long the rest still is; empty outside a set."""
-        self.course.say(words)
+        self.course_label.show_text(words)
 
-    def _keep_pain(self, score: int) -> None:
-        if self.recording.note("pain", str(score)):
-            self.controls.noted_pain(score)
+    def _add_pain(self, score: int) -> None:
+        if self.recording.add_event("pain", str(score)):
+            self.controls.show_pain(score)
 
     # --- drawing ------------------------------------------------------------------------------------------
-    def look(self) -> None:
+    def draw_if_due(self) -> None:
         """Draw as soon as there is a new picture, and go on without one now and then."""
         if self.recording.measuring is None:
             return
-        since_ms = 1e3 * (time.monotonic() - self._ticked_at_s)
+        since_ms = 1e3 * (time.monotonic() - self._drawn_at_s)
         if self._drawing_ms is None:  # the first look since: all that was asked for has been painted
-            self._drawing_ms = 1e3 * (time.thread_time() - self._ticked_cpu_s)
-        least_ms = STORING_EVERY_MS if self.recording.storing else DRAW_AFTER_MS
-        if since_ms < max(least_ms, self._drawing_ms / DRAWING_SHARE):
+            self._drawing_ms = 1e3 * (time.thread_time() - self._drawn_cpu_s)
+        least_ms = STORING_INTERVAL_MS if self.recording.is_storing else MIN_DRAW_INTERVAL_MS
+        if since_ms < max(least_ms, self._drawing_ms / MAX_DRAWING_SHARE):
             return
-        is_new = self._is_new(self.recording.measuring.feed.newest())
-        if since_ms >= TICK_EVERY_MS or (is_new and not self.recording.camera_lost):
-            self.tick()
+        is_new = self._is_new(self.recording.measuring.feed.current_view())
+        if since_ms >= MAX_TICK_INTERVAL_MS or (is_new and not self.recording.camera_lost):
+            self.draw()
 
     def _is_new(self, view: TrackedView | None) -> bool:
-        return view is not None and (self._view is None or view.tracked.index != self._view.tracked.index)
+        return view is not None and (
+            self._tracked_view is None or view.tracked.index != self._tracked_view.tracked.index
+        )
 
-    def tick(self) -> None:
+    def draw(self) -> None:
         recording, measuring = self.recording, self.recording.measuring
         if measuring is None:
             return
-        passed_s = min(time.monotonic() - self._ticked_at_s, 0.001 * STORING_EVERY_MS)
-        self._ticked_at_s, self._ticked_cpu_s, self._drawing_ms = time.monotonic(), time.thread_time(), None
+        passed_s = min(time.monotonic() - self._drawn_at_s, 0.001 * STORING_INTERVAL_MS)
+        self._drawn_at_s, self._drawn_cpu_s, self._drawing_ms = time.monotonic(), time.thread_time(), None
         feed, lost = measuring.feed, recording.camera_lost
-        fresh = feed.tracked_since(self.history.last_index)
+        fresh = feed.frames_since(self.history.last_index)
         self.history.append(fresh)
         if fresh:
-            self._fresh_at_s = self._ticked_at_s
-        begin = feed.recorded_from
-        if recording.count is not None and begin is not None and not feed.paused:
-            recording.count.append([tracked for tracked in fresh if tracked.index >= begin])
-        view, newest = feed.newest(), feed.newest_frame()
-        is_new, behind = self._is_new(view), self._behind.look(newest, view)
-        self.on_picture.late = behind
+            self._new_frame_at_s = self._drawn_at_s
+        begin = feed.first_recorded_index
+        if recording.counter is not None and begin is not None and not feed.is_paused:
+            recording.counter.append([tracked for tracked in fresh if tracked.index >= begin])
+        view, newest = feed.current_view(), feed.current_frame()
+        is_new, behind = self._is_new(view), self._lag.update(newest, view)
+        self.frame_overlay.is_late = behind
         if behind and newest is not None and not lost:
             self.picture.show_frame(newest.color_rgb)
         if view is not None and is_new and fresh and not lost:
-            self._view = self.on_picture.view = view
+            self._tracked_view = self.frame_overlay.tracked_view = view
             if not behind:
                 self.picture.show_frame(view.frame.color_rgb)
-            self.plots().draw()
+            self.current_chart().draw()
         if fresh and not lost:
-            recording.look_for_start()
+            recording.check_start_trigger()
         if lost:
-            self.history.wait(passed_s)
-            self.plots().draw()
-        if self._tick % VALUES_EVERY == 0 or recording.storing:
+            self.history.add_waiting_time(passed_s)
+            self.current_chart().draw()
+        if self._draw_count % VALUES_EVERY == 0 or recording.is_storing:
             self._show_values()
-        if self._ticked_at_s - self._glanced_at_s >= GLANCE_EVERY_S:
-            self._glanced_at_s = self._ticked_at_s
-            self.glanced.emit(self.glance())
-        if self._tick % SLOW_EVERY == 0:
-            self._show_slow()
-        self._tick += 1
+        if self._drawn_at_s - self._snapshot_at_s >= SNAPSHOT_EVERY_S:
+            self._snapshot_at_s = self._drawn_at_s
+            self.snapshot_taken.emit(self.exercise_snapshot())
+        if self._draw_count % SLOW_EVERY == 0:
+            self._show_counters()
+        self._draw_count += 1
         for event in feed.drain_events():
-            self.told.emit(event)
+            self.event_received.emit(event)
 
-    def plots(self) -> Chart:
-        return self.fingers if self._whole_hand else self.curves
+    def current_chart(self) -> Chart:
+        return self.finger_curves if self._is_whole_hand else self.curves
 
-    def glance(self) -> Glance:
+    def exercise_snapshot(self) -> ExerciseSnapshot:
         """The trained angle of this moment, whichever figure is the large one."""
-        stale = time.monotonic() - self._fresh_at_s > STALE_S
-        return self.readings.glance(is_now=not (self._behind.late_s or stale))
+        stale = time.monotonic() - self._new_frame_at_s > STALE_S
+        return self.readings.exercise_snapshot(is_current=not (self._lag.lag_s or stale))
 
     def _show_values(self) -> None:
         measuring = self.recording.measuring
         if measuring is None:
             return
-        if self._whole_hand:
-            self.fingers.refresh_values()
-            self.hand_map.show_seen(self.history.seen(), infers_ends=self.history.infers)
+        if self._is_whole_hand:
+            self.finger_curves.update_values()
+            self.hand_map.show_visibility(
+                self.history.marker_visibility(), dip_inferred=self.history.has_inferred_angles
+            )
         else:
-            self.curves.refresh_values()
-            self.path.draw()
-        self.controls.light.show_lamp(self._lamp(measuring))
-        if self.recording.storing:  # how long it takes until all that waits is tracked
+            self.curves.update_values()
+            self.path_view.draw()
+        self.controls.light_view.show_light(self._current_light(measuring))
+        if self.recording.is_storing:  # how long it takes until all that waits is tracked
             counters = measuring.feed.counters()
-            left = self._behind.catching_up(counters)
-            self.catching_up.setVisible(left is not None)
-            self.controls.say_storing(words_left(counters) if left else "")
+            left = self._lag.catch_up_progress(counters)
+            self.catch_up_bar.setVisible(left is not None)
+            self.controls.show_storing(catch_up_words(counters) if left else "")
             if left is not None:
-                self.catching_up.show_progress(*left)
-        self.number.show_reading(self.readings.now(self.number.reading))
-        self.recording_changed.emit(self.recording.state, self.recording.recorded_s)
+                self.catch_up_bar.show_progress(*left)
+        self.number_card.show_reading(self.readings.current_reading(self.number_card.reading))
+        self.recording_changed.emit(self.recording.state, self.recording.duration_s)
 
-    def _lamp(self, measuring: SourceMeasuring) -> Lamp:
+    def _current_light(self, measuring: MeasurementController) -> StatusLight:
         """What the light says: of the camera, else of the computer, of a question, of how it begins."""
-        recording, calibration, view = self.recording, measuring.calibration, self._view
+        recording, calibration, view = self.recording, measuring.calibration, self._tracked_view
         if recording.camera_lost:
-            return Lamp("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
+            return StatusLight("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
         markers = calibration.clicks.protocol.markers if calibration else ()
         frame = None if view is None else view.tracked
-        if self._whole_hand:
-            lamp = hand_lamp(frame, self.hand_map.seen)
+        if self._is_whole_hand:
+            lamp = hand_light(frame, self.hand_map.visibility)
         else:
-            pure = recording.set_up is not None and recording.set_up.exercise.pure_wrist
-            now = lamp_for(frame, markers, pure and self.history.forearm_moved())
-            lamp = self._light.show(now, recording.now_s)
-        if self._behind.late_s:  # what is asked would be about a picture of a while ago
+            pure = recording.set_up is not None and recording.set_up.exercise.is_forearm_fixed
+            now = wrist_light(frame, markers, pure and self.history.has_forearm_moved())
+            lamp = self._steady_light.update(now, recording.time_s)
+        if self._lag.lag_s:  # what is asked would be about a picture of a while ago
             self.question.withdraw()
-            return behind_lamp(self._behind, recording=recording.state != "off")
-        doubt = self.question.look(doubt_of(frame, markers, measuring.camera))
+            return lag_light(self._lag, recording=recording.state != "off")
+        doubt = self.question.update_doubt(find_doubt(frame, markers, measuring.camera))
         if doubt is not None and lamp.rank in ("good", "warn"):
-            return doubt_lamp(doubt)
-        if lamp.rank == "good" and recording.left_s:
-            return Lamp("good", self.tr("Starts in {seconds}").format(seconds=recording.left_s), "")
-        if lamp.rank == "good" and recording.beginning.waits and recording.state == "off":
-            return Lamp("good", lamp.state, self.tr("Starts by itself when the hand lies still"))
+            return question_light(doubt)
+        if lamp.rank == "good" and recording.countdown_s:
+            return StatusLight("good", self.tr("Starts in {seconds}").format(seconds=recording.countdown_s), "")
+        if lamp.rank == "good" and recording.start_trigger.is_waiting and recording.state == "off":
+            return StatusLight("good", lamp.state, self.tr("Starts by itself when the hand lies still"))
         return lamp
 
-    def _show_slow(self) -> None:
-        measuring, count = self.recording.measuring, self.recording.count
+    def _show_counters(self) -> None:
+        measuring, count = self.recording.measuring, self.recording.counter
         if measuring is None:
             return
         counters = measuring.feed.counters()
-        self._behind.count(counters)
-        self.counted.emit(counters)
+        self._lag.count_missing(counters)
+        self.counters_changed.emit(counters)
         if count is not None:
             before = count.repetitions
-            if count.count() > before:
-                measuring.feed.tell("repetition", count.last_end_s)
+            if count.update_count() > before:
+                measuring.feed.notify_listener("repetition", count.last_end_s)
         self.controls.refresh()
 
 
-def _between_margins(widget: QWidget, below_px: int) -> QLayout:
-    return in_line(widget, margins=(MARGIN_PX, 0, MARGIN_PX, below_px))
+def _with_margins(widget: QWidget, below_px: int) -> QLayout:
+    return row_layout(widget, margins=(MARGIN_PX, 0, MARGIN_PX, below_px))

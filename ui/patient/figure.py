@@ -34,7 +34,7 @@ class Arc:
     gain: float = 1.0
     """Above 1 a small angle is drawn larger than the hand shows it, so that its way can be seen from afar."""
 
-    def at(self, value_deg: float) -> QPointF:
+    def point(self, value_deg: float) -> QPointF:
         turned = math.radians(self.zero_deg + self.sense * self.gain * value_deg)
         return self.pivot + QPointF(math.cos(turned), math.sin(turned)) * self.radius
 
@@ -49,50 +49,51 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class DrawnPose:
-    """A drawn pose: ``arm`` stays, ``hand`` moves, ``whole`` is both in one line; ``dots`` are the blue discs on it,
+    """A drawn pose: ``arm`` stays, ``hand`` moves, ``hand_and_arm`` is both in one line; ``dots`` are the blue discs
+    on it,
     with their radius."""
 
     arm: QPainterPath
     hand: QPainterPath
-    whole: QPainterPath
+    hand_and_arm: QPainterPath
     dots: tuple[QPointF, ...]
     dot_radius: float
 
 
-def figure_at(exercise: Exercise, value_deg: float) -> DrawnPose:
+def build_pose(exercise: Exercise, value_deg: float) -> DrawnPose:
     """The hand with its trained angle at a value, to half a degree: less cannot be seen."""
-    return _figure_at(exercise, round(2.0 * value_deg) / 2.0)
+    return _build_pose(exercise, round(2.0 * value_deg) / 2.0)
 
 
 @lru_cache(maxsize=512)
-def _figure_at(exercise: Exercise, value_deg: float) -> DrawnPose:
+def _build_pose(exercise: Exercise, value_deg: float) -> DrawnPose:
     if exercise.angle == FLEXION:
-        return side_figure(wrist_deg=value_deg)
+        return draw_side_view(wrist_deg=value_deg)
     if exercise.angle == DEVIATION:
-        return above_figure(deviation_deg=value_deg)
+        return draw_top_view(deviation_deg=value_deg)
     if exercise.angle == PRONOSUPINATION:
-        return turned_figure(value_deg)
+        return draw_forearm_view(value_deg)
     if exercise.joint.startswith("MCP") and exercise.joint.endswith("flexion"):
-        return side_figure(
+        return draw_side_view(
             knuckle_deg=value_deg, middle_deg=1.1 * value_deg, end_deg=0.7 * value_deg, thumb_deg=_THUMB_AWAY_DEG
         )
     if exercise.joint.startswith("PIP"):
-        return side_figure(middle_deg=value_deg, end_deg=0.66 * value_deg, thumb_deg=_THUMB_AWAY_DEG)
+        return draw_side_view(middle_deg=value_deg, end_deg=0.66 * value_deg, thumb_deg=_THUMB_AWAY_DEG)
     if exercise.joint.startswith("CMC1"):
-        return side_figure(thumb_deg=value_deg)
-    return above_figure(spread_deg=value_deg)
+        return draw_side_view(thumb_deg=value_deg)
+    return draw_top_view(spread_deg=value_deg)
 
 
-def free_figure(exercise: Exercise, wrist_deg: tuple[float, float, float], bent_deg: float) -> DrawnPose:
+def build_free_pose(exercise: Exercise, wrist_deg: tuple[float, float, float], bent_deg: float) -> DrawnPose:
     """The hand of an exercise without a trained angle: the wrist from above, fingers from the side."""
     deviation, flexion, _ = wrist_deg
     if not exercise.digits:
-        return above_figure(deviation_deg=deviation, lifted_deg=flexion)
+        return draw_top_view(deviation_deg=deviation, lifted_deg=flexion)
     bent = bent_deg if math.isfinite(bent_deg) else 0.0
-    return side_figure(wrist_deg=flexion, knuckle_deg=0.8 * bent, middle_deg=bent, end_deg=0.6 * bent)
+    return draw_side_view(wrist_deg=flexion, knuckle_deg=0.8 * bent, middle_deg=bent, end_deg=0.6 * bent)
 
 
-def arc_of(exercise: Exercise) -> Arc:
+def find_arc(exercise: Exercise) -> Arc:
     """The way of the trained angle."""
     if exercise.angle == FLEXION:
         return Arc(QPointF(0, 0), 1.2 * LENGTH, 0.0, 1.0)
@@ -119,27 +120,27 @@ _THUMB_AWAY_DEG = 40.0
 """Where the fingers close past it."""
 
 
-def side_figure(
+def draw_side_view(
     *, wrist_deg: float = 0.0, knuckle_deg: float = 0.0, middle_deg: float = 0.0, end_deg: float = 0.0,
     thumb_deg: float = 22.0,
 ) -> DrawnPose:  # fmt: skip
     """From the side, the palm below: bending goes down, the thumb is lifted away from the palm."""
-    hand = _capsule(QPointF(0, 0), 46.0, _KNUCKLE, 36.0)
+    hand = _draw_capsule(QPointF(0, 0), 46.0, _KNUCKLE, 36.0)
     at, turned = _KNUCKLE, 0.0
     for (length, first, last), bent in zip(_FINGER, (knuckle_deg, middle_deg, end_deg), strict=True):
         turned += math.radians(bent)
         then = at + QPointF(math.cos(turned), math.sin(turned)) * length
-        hand = hand.united(_capsule(at, first, then, last))
+        hand = hand.united(_draw_capsule(at, first, then, last))
         at = then
     turned = math.radians(_THUMB_REST_DEG + thumb_deg)
     along = QPointF(math.cos(turned), math.sin(turned))
     middle = _THUMB_BASE + along * (0.19 * LENGTH)
-    hand = hand.united(_capsule(_THUMB_BASE, 30.0, middle, 24.0))
-    hand = hand.united(_capsule(middle, 24.0, middle + along * (0.16 * LENGTH), 18.0))
+    hand = hand.united(_draw_capsule(_THUMB_BASE, 30.0, middle, 24.0))
+    hand = hand.united(_draw_capsule(middle, 24.0, middle + along * (0.16 * LENGTH), 18.0))
     hand = _without_holes(hand)
     to = QTransform().rotate(wrist_deg)
     dots = (to.map(QPointF(4, -36)), to.map(_KNUCKLE + QPointF(0, -28)))
-    return _figure(_arm(False), to.map(hand), dots, 9.0)
+    return _make_pose(_draw_arm(False), to.map(hand), dots, 9.0)
 
 
 # --- from above -------------------------------------------------------------------------------------------
@@ -150,38 +151,38 @@ _LEAN_DEG = {2: 4.0, 3: 1.0, 4: -3.0, 5: -8.0}
 _SPREADS = {2: 1.0, 3: 0.0, 4: -0.8, 5: -1.5}
 
 
-def above_figure(*, deviation_deg: float = 0.0, spread_deg: float = 0.0, lifted_deg: float = 0.0) -> DrawnPose:
+def draw_top_view(*, deviation_deg: float = 0.0, spread_deg: float = 0.0, lifted_deg: float = 0.0) -> DrawnPose:
     """From above, the fingers up: towards the thumb is to the left. ``lifted_deg`` shortens what points out of the
     plane."""
     hand = QPainterPath()
     for finger, knuckle in _KNUCKLES.items():
-        hand = hand.united(_capsule(QPointF(0.35 * knuckle.x(), -10), 44.0, knuckle, 25.0))
+        hand = hand.united(_draw_capsule(QPointF(0.35 * knuckle.x(), -10), 44.0, knuckle, 25.0))
         turned = math.radians(_LEAN_DEG[finger] + _SPREADS[finger] * spread_deg)
         tip = knuckle + QPointF(-math.sin(turned), -math.cos(turned)) * _FINGERS[finger]
-        hand = hand.united(_capsule(knuckle, 23.0, tip, 17.0))
-    hand = hand.united(_capsule(QPointF(-26, -40), 34.0, QPointF(-98, -104), 24.0))
-    hand = hand.united(_capsule(QPointF(-98, -104), 24.0, QPointF(-136, -176), 19.0))
+        hand = hand.united(_draw_capsule(knuckle, 23.0, tip, 17.0))
+    hand = hand.united(_draw_capsule(QPointF(-26, -40), 34.0, QPointF(-98, -104), 24.0))
+    hand = hand.united(_draw_capsule(QPointF(-98, -104), 24.0, QPointF(-136, -176), 19.0))
     to = QTransform().rotate(-deviation_deg).scale(1.0, math.cos(math.radians(min(abs(lifted_deg), 85.0))))
     places = (QPointF(0, -12), QPointF(-44, -52), *_KNUCKLES.values())
-    return _figure(_arm(True), to.map(hand), tuple(to.map(place) for place in places))
+    return _make_pose(_draw_arm(True), to.map(hand), tuple(to.map(place) for place in places))
 
 
 # --- along the forearm ------------------------------------------------------------------------------------
-def turned_figure(supination_deg: float) -> DrawnPose:
+def draw_forearm_view(supination_deg: float) -> DrawnPose:
     """Along the forearm as one sees it oneself, the palm down: turning the palm up lifts the thumb."""
-    hand = _capsule(QPointF(-120, 6), 58.0, QPointF(120, 12), 50.0)
+    hand = _draw_capsule(QPointF(-120, 6), 58.0, QPointF(120, 12), 50.0)
     for x, y, half in ((-128, -24, 44.0), (-46, -38, 46.0), (38, -34, 45.0), (116, -18, 40.0)):
         knuckle = QPainterPath()
         knuckle.addEllipse(QPointF(x, y), half, half)
         hand = hand.united(knuckle)
-    hand = hand.united(_capsule(QPointF(-150, 40), 40.0, QPointF(-226, 22), 30.0))
-    hand = hand.united(_capsule(QPointF(-226, 22), 30.0, QPointF(-272, -4), 24.0))
+    hand = hand.united(_draw_capsule(QPointF(-150, 40), 40.0, QPointF(-226, 22), 30.0))
+    hand = hand.united(_draw_capsule(QPointF(-226, 22), 30.0, QPointF(-272, -4), 24.0))
     to = QTransform().rotate(supination_deg)
     dots = tuple(to.map(QPointF(x, y)) for x, y in ((-128, -40), (-46, -56), (38, -52), (116, -34)))
-    return _figure(QPainterPath(), to.map(hand), dots)
+    return _make_pose(QPainterPath(), to.map(hand), dots)
 
 
-def _figure(arm: QPainterPath, hand: QPainterPath, dots: tuple[QPointF, ...], dot_radius: float = 11.0) -> DrawnPose:
+def _make_pose(arm: QPainterPath, hand: QPainterPath, dots: tuple[QPointF, ...], dot_radius: float = 11.0) -> DrawnPose:
     return DrawnPose(arm, hand, arm.united(hand), dots, dot_radius)
 
 
@@ -197,12 +198,12 @@ def _without_holes(path: QPainterPath) -> QPainterPath:
 
 
 @cache
-def _arm(upright: bool) -> QPainterPath:
+def _draw_arm(upright: bool) -> QPainterPath:
     end = QPointF(0, FOREARM) if upright else QPointF(-FOREARM, 0)
-    return _capsule(QPointF(0, 0), 44.0, end, 100.0)
+    return _draw_capsule(QPointF(0, 0), 44.0, end, 100.0)
 
 
-def _capsule(first: QPointF, first_half: float, last: QPointF, last_half: float) -> QPainterPath:
+def _draw_capsule(first: QPointF, first_half: float, last: QPointF, last_half: float) -> QPainterPath:
     """Two round ends and what lies between them."""
     path = QPainterPath()
     path.addEllipse(first, first_half, first_half)

@@ -12,22 +12,22 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPaintE
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import SessionSetup
 from carpus.ui import numbers
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.icons import paint_icon, paint_state
-from carpus.ui.patient.figure import Arc, DrawnPose, arc_of, figure_at, free_figure
+from carpus.ui.patient.figure import Arc, DrawnPose, build_free_pose, build_pose, find_arc
 from carpus.ui.patient.guide import GuideScene
-from carpus.ui.patient.words import Audience, Said, rest_words, said, then_words
+from carpus.ui.patient.words import Audience, PatientWords, next_task_words, patient_words, remaining_rest_words
 from carpus.ui.theme import Theme
 
-HEIGHT, LEAST_WIDTH = 1080.0, 1440.0
+HEIGHT, MIN_WIDTH = 1080.0, 1440.0
 MARGIN = 96.0
-TASK_PX, NOW_PX, SMALL_PX = 64.0, 128.0, 44.0
-LEAST_PX = 36.0
-WAY_WIDTH, WAY_WIDTH_CHILD = 46.0, 58.0
-MOST_MARKS = 20
-END_DEG = 80.0
+TASK_PX, STATE_PX, SMALL_PX = 64.0, 128.0, 44.0
+MIN_TEXT_PX = 36.0
+ARC_WIDTH, ARC_WIDTH_CHILD = 46.0, 58.0
+MAX_MARKS = 20
+MAX_ARC_DEG = 80.0
 """Without a goal the way has no end that is shown; it goes on as far as here."""
 
 
@@ -37,7 +37,7 @@ class PatientView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self._set_up: SetUp | None = None
+        self._set_up: SessionSetup | None = None
         self.audience: Audience = "adult"
         self.sound_on = False
         self.scene = GuideScene()
@@ -47,7 +47,7 @@ class PatientView(QWidget):
     def sizeHint(self) -> QSize:
         return QSize(1280, 720)
 
-    def begin(self, set_up: SetUp | None) -> None:
+    def show_set_up(self, set_up: SessionSetup | None) -> None:
         self._set_up = set_up
         self.audience = "child" if set_up is not None and set_up.for_child else "adult"
         self.show_scene(GuideScene())
@@ -56,18 +56,18 @@ class PatientView(QWidget):
         if scene != self.scene:
             self.scene = scene
             words = self.words()
-            self.setAccessibleName(" ".join(part for part in (words.task, words.now) if part))
+            self.setAccessibleName(" ".join(part for part in (words.task, words.state) if part))
             self.update()
 
-    def words(self) -> Said:
-        return said(self._set_up.exercise.id if self._set_up else "", self.scene, self.audience)
+    def words(self) -> PatientWords:
+        return patient_words(self._set_up.exercise.id if self._set_up else "", self.scene, self.audience)
 
     # --- painting -----------------------------------------------------------------------------------------
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.fillRect(self.rect(), self._theme.color("canvas"))
-        scale = min(self.width() / LEAST_WIDTH, self.height() / HEIGHT)
+        scale = min(self.width() / MIN_WIDTH, self.height() / HEIGHT)
         if scale <= 0.0:
             return
         painter.scale(scale, scale)
@@ -84,20 +84,22 @@ class PatientView(QWidget):
         words, scene, color = self.words(), self.scene, self._theme.color
         if not shown:
             box = QRectF(MARGIN, 300, width - 2 * MARGIN, 220)
-            _fitted(painter, box, words.now, NOW_PX * self._theme.text_scale, color("text"))
-            _fitted(painter, box.translated(0, 210), words.task, TASK_PX * self._theme.text_scale, color("text2"))
+            _draw_fitted_text(painter, box, words.state, STATE_PX * self._theme.text_scale, color("text"))
+            _draw_fitted_text(
+                painter, box.translated(0, 210), words.task, TASK_PX * self._theme.text_scale, color("text2")
+            )
             if scene.asked and scene.phase in ("done", "rest"):
                 self._paint_marks(painter, QPointF(MARGIN, 800), 0.45 * width)
             if scene.phase == "rest":
                 self._paint_rest(painter, width)
             return
         task_width = 0.5 * width
-        _fitted(
+        _draw_fitted_text(
             painter, QRectF(MARGIN, 72, task_width, 170), words.task, TASK_PX * self._theme.text_scale, color("text2")
         )
         token = "good" if scene.phase == "there" else "text"
         now = QRectF(MARGIN, 840, width * 0.5, 190)
-        _fitted(painter, now, words.now, NOW_PX * self._theme.text_scale, color(token), bottom=True)
+        _draw_fitted_text(painter, now, words.state, STATE_PX * self._theme.text_scale, color(token), bottom=True)
         if scene.asked:
             self._paint_marks(painter, QPointF(MARGIN, 760), 0.4 * width)
 
@@ -110,19 +112,26 @@ class PatientView(QWidget):
             painter.setPen(QPen(color(token), 44, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap))
             painter.drawArc(ring, 90 * 16, round(-360 * 16 * share))
         box = QRectF(0.73 * width - 0.24 * width, 740, 0.48 * width, 100)
-        _fitted(painter, box, rest_words(scene.rest_s), TASK_PX * self._theme.text_scale, color("text"), middle=True)
+        _draw_fitted_text(
+            painter,
+            box,
+            remaining_rest_words(scene.rest_s),
+            TASK_PX * self._theme.text_scale,
+            color("text"),
+            middle=True,
+        )
         if self._set_up is not None:
-            words = then_words(self._set_up.exercise.id, self.audience)
+            words = next_task_words(self._set_up.exercise.id, self.audience)
             size = SMALL_PX * self._theme.text_scale
-            _fitted(painter, box.translated(0, 110), words, size, color("text2"), middle=True)
+            _draw_fitted_text(painter, box.translated(0, 110), words, size, color("text2"), middle=True)
 
     def _paint_marks(self, painter: QPainter, at: QPointF, room: float) -> None:
         """What is done, as checks or flowers; many as a number."""
         scene, color = self.scene, self._theme.color
         size = 52.0 if self.audience == "child" else 44.0
-        if scene.asked > MOST_MARKS:
+        if scene.asked > MAX_MARKS:
             words = self.tr("{done} of {asked}").format(done=scene.done, asked=scene.asked)
-            _fitted(painter, QRectF(at.x(), at.y(), room, 70), words, SMALL_PX, color("text2"))
+            _draw_fitted_text(painter, QRectF(at.x(), at.y(), room, 70), words, SMALL_PX, color("text2"))
             return
         in_row = max(1, min(scene.asked, int(room // (size + 14))))
         rows = -(-scene.asked // in_row)
@@ -136,24 +145,24 @@ class PatientView(QWidget):
                 token = "accent" if is_done else "border"
                 paint_state(painter, "good" if is_done else "open", box, color(token), color("on_accent"))
 
-    def _paint_exercise(self, painter: QPainter, set_up: SetUp, width: float) -> None:
+    def _paint_exercise(self, painter: QPainter, set_up: SessionSetup, width: float) -> None:
         exercise, scene = set_up.exercise, self.scene
         to = _placement(exercise, width, mirrored=set_up.side == "left")
         hand: DrawnPose | None = None
         if scene.phase == "free":
             if all(math.isfinite(value) for value in scene.wrist_deg):
-                hand = free_figure(exercise, scene.wrist_deg, scene.bent_deg)
+                hand = build_free_pose(exercise, scene.wrist_deg, scene.mean_flexion_deg)
             self._paint_hand(painter, to, hand)
             return
         if math.isfinite(scene.value_deg):
-            hand = figure_at(exercise, scene.value_deg)
-        self._paint_way(painter, to, arc_of(exercise))
-        goal = figure_at(exercise, scene.goal_deg) if math.isfinite(scene.goal_deg) else None
+            hand = build_pose(exercise, scene.value_deg)
+        self._paint_arc(painter, to, find_arc(exercise))
+        goal = build_pose(exercise, scene.goal_deg) if math.isfinite(scene.goal_deg) else None
         if goal is not None and scene.phase != "there":
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(self._theme.color("accent"), 4, Qt.PenStyle.DashLine))
             painter.drawPath(to.map(goal.hand))
-        self._paint_hand(painter, to, hand if hand is not None else None, arm=figure_at(exercise, 0.0))
+        self._paint_hand(painter, to, hand if hand is not None else None, arm=build_pose(exercise, 0.0))
         self._paint_goal(painter, to, exercise)
 
     def _paint_hand(
@@ -173,44 +182,44 @@ class PatientView(QWidget):
         painter.setPen(
             QPen(color("text2"), line, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
         )
-        painter.setBrush(_skin(self._theme, self.audience))
-        painter.drawPath(to.map(hand.whole))
+        painter.setBrush(_skin_color(self._theme, self.audience))
+        painter.drawPath(to.map(hand.hand_and_arm))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(color("curve_a"))
         for dot in hand.dots:
             painter.drawEllipse(to.map(dot), hand.dot_radius, hand.dot_radius)
         painter.restore()
 
-    def _paint_way(self, painter: QPainter, to: QTransform, arc: Arc) -> None:
+    def _paint_arc(self, painter: QPainter, to: QTransform, arc: Arc) -> None:
         scene, color = self.scene, self._theme.color
         child = self.audience == "child"
-        wide = WAY_WIDTH_CHILD if child else WAY_WIDTH
+        wide = ARC_WIDTH_CHILD if child else ARC_WIDTH
         if math.isfinite(scene.goal_deg):
             self._stroke(painter, to.map(arc.path(0.0, scene.goal_deg)), wide, color("norm"))
         if not math.isfinite(scene.value_deg):
             return
-        end = abs(scene.goal_deg) if math.isfinite(scene.goal_deg) else END_DEG
-        along = min(max(scene.aim * scene.value_deg, 0.0), end)
-        way = to.map(arc.path(0.0, scene.aim * along))
+        end = abs(scene.goal_deg) if math.isfinite(scene.goal_deg) else MAX_ARC_DEG
+        along = min(max(scene.direction * scene.value_deg, 0.0), end)
+        way = to.map(arc.path(0.0, scene.direction * along))
         painter.save()
         painter.setOpacity(scene.opacity)
         if child:
             paint_stem(painter, self._theme, way, wide)
-            ahead = to.map(arc.at(scene.aim * (along + 1.0))) - to.map(arc.at(scene.aim * along))
-            paint_climber(painter, self._theme, to.map(arc.at(scene.aim * along)), ahead, 0.85 * wide)
+            ahead = to.map(arc.point(scene.direction * (along + 1.0))) - to.map(arc.point(scene.direction * along))
+            paint_climber(painter, self._theme, to.map(arc.point(scene.direction * along)), ahead, 0.85 * wide)
         else:
             token = "good" if scene.phase == "there" else "accent"
             self._stroke(painter, way, wide, color(token))
             painter.setPen(QPen(color(token), 8))
             painter.setBrush(color("surface"))
-            painter.drawEllipse(to.map(arc.at(scene.aim * along)), 0.8 * wide, 0.8 * wide)
+            painter.drawEllipse(to.map(arc.point(scene.direction * along)), 0.8 * wide, 0.8 * wide)
         painter.restore()
 
     def _paint_goal(self, painter: QPainter, to: QTransform, exercise: Exercise) -> None:
-        scene, color, arc = self.scene, self._theme.color, arc_of(exercise)
+        scene, color, arc = self.scene, self._theme.color, find_arc(exercise)
         if not math.isfinite(scene.goal_deg):
             return
-        at = to.map(arc.at(scene.goal_deg))
+        at = to.map(arc.point(scene.goal_deg))
         reached = scene.phase == "there"
         if self.audience == "child":
             paint_flower(painter, self._theme, at, 78.0, open_share=1.0 if reached else 0.45)
@@ -224,11 +233,11 @@ class PatientView(QWidget):
                 painter.drawEllipse(at, radius, radius)
         painter.setFont(font(SMALL_PX * min(self._theme.text_scale, 1.25), SEMIBOLD))
         painter.setPen(color("good" if reached else "accent"))
-        words = self.tr("Goal {angle}").format(angle=numbers.degrees(scene.goal_deg))
+        words = self.tr("Goal {angle}").format(angle=numbers.format_degrees(scene.goal_deg))
         if exercise.angle == PRONOSUPINATION:  # drawn from palm down, while its number counts from thumb up
             words = self.tr("Goal")
         metrics = QFontMetricsF(painter.font())
-        beyond = to.map(arc.at(1.05 * scene.goal_deg)) - at
+        beyond = to.map(arc.point(1.05 * scene.goal_deg)) - at
         # Away from the joint, unless the way comes from there.
         aside = beyond if abs(beyond.x()) > abs(beyond.y()) else at - to.map(arc.pivot)
         left = at.x() + 84 if aside.x() > 0 else at.x() - 84 - metrics.horizontalAdvance(words)
@@ -241,7 +250,7 @@ class PatientView(QWidget):
         painter.drawPath(path)
 
 
-def _skin(theme: Theme, audience: Audience) -> QColor:
+def _skin_color(theme: Theme, audience: Audience) -> QColor:
     return theme.color("warn_soft" if audience == "child" else "soft")
 
 
@@ -265,7 +274,7 @@ def _is_seen_from_above(exercise: Exercise) -> bool:
     return exercise.joint.startswith("MCP") and exercise.joint.endswith("abduction")
 
 
-def _fitted(
+def _draw_fitted_text(
     painter: QPainter,
     box: QRectF,
     words: str,
@@ -284,7 +293,7 @@ def _fitted(
     while True:
         face = font(size, SEMIBOLD)
         needed = QFontMetricsF(face).boundingRect(QRectF(0, 0, box.width(), 10_000), flags, words)
-        if size <= LEAST_PX or (needed.height() <= box.height() and needed.width() <= box.width()):
+        if size <= MIN_TEXT_PX or (needed.height() <= box.height() and needed.width() <= box.width()):
             break
         size -= 4.0
     painter.setFont(face)

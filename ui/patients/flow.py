@@ -7,61 +7,63 @@ from dataclasses import replace
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
-from carpus.core.records.new_sessions import NewSessions
+from carpus.core.records.new_sessions import SessionIntake
 from carpus.core.records.store import new_id
 from carpus.core.records.values import Patient
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.messages import put_off_last
+from carpus.ui.messages.messages import postpone_last_notice
 from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.patients.stored import StoredPatients
+from carpus.ui.patients.stored import PatientStore
 
 
 class PatientsFlow(Flow):
     """Whatever was open is closed."""
 
-    place = "patients"
+    screen_name = "patients"
     screen: PatientsScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, PatientsScreen(context.theme, StoredPatients(context.library), context.today))
-        screen, way, camera = self.screen, context.way, context.camera
-        camera.when_looked(lambda: screen.set_camera_ready(camera.there))
-        screen.start.connect(lambda patient_id: way.show("camera", patient_id))
-        screen.unlisted.connect(self._measure_unlisted)
-        screen.set_up.connect(lambda patient_id: way.show("exercise", patient_id))
-        screen.review.connect(lambda patient_id: way.show("review", "", patient_id))
-        screen.progress.connect(lambda patient_id: way.show("progress", patient_id))
-        screen.sessions.connect(lambda patient_id: way.show("sessions", patient_id))
-        context.shell.key.connect(self._take_key)
+        super().__init__(context, PatientsScreen(context.theme, PatientStore(context.library), context.today))
+        screen, way, camera = self.screen, context.navigator, context.camera
+        camera.notify_availability(lambda: screen.set_camera_ready(camera.is_connected))
+        screen.start_requested.connect(lambda patient_id: way.open_screen("camera", patient_id))
+        screen.unlisted_start_requested.connect(self._measure_unlisted)
+        screen.setup_requested.connect(lambda patient_id: way.open_screen("exercise", patient_id))
+        screen.review_requested.connect(lambda patient_id: way.open_screen("review", "", patient_id))
+        screen.progress_requested.connect(lambda patient_id: way.open_screen("progress", patient_id))
+        screen.sessions_requested.connect(lambda patient_id: way.open_screen("sessions", patient_id))
+        context.window.key_pressed.connect(self._on_key)
 
-    def show(self, choose: str = "") -> None:
+    def open(self, choose: str = "") -> None:
         """The list; ``choose`` who is chosen in it."""
         self.close_patient()
-        NewSessions(self.context.library).cut_short()  # what a full disk kept from the list is taken into it
+        SessionIntake(
+            self.context.library
+        ).recover_interrupted()  # what a full disk kept from the list is taken into it
         self.screen.refresh(choose)
-        self.context.way.go("patients")
+        self.context.navigator.switch_screen("patients")
 
-    def first(self) -> QWidget:
+    def initial_focus(self) -> QWidget:
         return self.screen.search
 
-    def server_back(self) -> None:
-        if self.context.way.place == "patients":
+    def on_server_reconnected(self) -> None:
+        if self.context.navigator.screen_name == "patients":
             self.screen.refresh()
 
     def _measure_unlisted(self, row: Patient) -> None:
         """Somebody whom the list cannot tell now: the file says who it is, by identity and pseudonym."""
         row = row if row.patient_id else replace(row, patient_id=new_id())
-        self.context.now.patient = row
-        self.context.way.show("exercise", row.patient_id)
+        self.context.current.patient = row
+        self.context.navigator.open_screen("exercise", row.patient_id)
 
-    def up(self) -> None:
+    def navigate_back(self) -> None:
         if self.screen.search.text():
             self.screen.search.clear()
-        elif not put_off_last(self.screen):
-            self.to_patient()
+        elif not postpone_last_notice(self.screen):
+            self.return_to_patients()
 
-    def _take_key(self, name: str) -> None:
-        if self.context.way.place == "patients" and name == "search":
+    def _on_key(self, name: str) -> None:
+        if self.context.navigator.screen_name == "patients" and name == "search":
             self.screen.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
-        elif self.context.way.place == "patients" and name == "new_patient":
+        elif self.context.navigator.screen_name == "patients" and name == "new_patient":
             self.screen.new_patient()

@@ -23,30 +23,30 @@ COLUMNS = (0.024, 0.206, 0.3, 0.526, 0.645)
 LARGE_COLUMNS = (0.024, 0.235, 0.368, 0.65, 0.65)
 """Left edge of name, hand, diagnosis, time since and last session as a share of the width; the count ends at the right.
 With large text the card alone says how long it is since."""
-LARGE_FROM = 1.25
+LARGE_TEXT_SCALE = 1.25
 RIGHT_PAD_PX = 28
 
 
-class PatientModel(QAbstractListModel):
+class PatientListModel(QAbstractListModel):
     """The rows as Qt's views and screen readers see them."""
 
     def __init__(self, today: Callable[[], date]) -> None:
         super().__init__()
         self._rows: tuple[Patient, ...] = ()
-        self.found_by: Mapping[str, str] = {}
+        self.matched_names: Mapping[str, str] = {}
         """Real names of those that a search found by it alone, by identity."""
         self.today = today
 
-    def show_rows(self, rows: Sequence[Patient], found_by: Mapping[str, str] = MappingProxyType({})) -> None:
+    def show_rows(self, rows: Sequence[Patient], matched_names: Mapping[str, str] = MappingProxyType({})) -> None:
         self.beginResetModel()
-        self.found_by = found_by
+        self.matched_names = matched_names
         self._rows = tuple(rows)
         self.endResetModel()
 
     def row(self, number: int) -> Patient:
         return self._rows[number]
 
-    def find(self, patient_id: str) -> int:
+    def find_row(self, patient_id: str) -> int:
         """Row of a patient, -1 when not shown."""
         return next((number for number, row in enumerate(self._rows) if row.patient_id == patient_id), -1)
 
@@ -58,40 +58,40 @@ class PatientModel(QAbstractListModel):
             return None
         row = self._rows[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            return ", ".join(part for part in self.cells(row) if part)
+            return ", ".join(part for part in self.row_cells(row) if part)
         return row if role == Qt.ItemDataRole.UserRole else None
 
-    def cells(self, row: Patient) -> tuple[str, str, str, str, str, str, str]:
-        """As :func:`cells`, today."""
-        return cells(row, self.today(), self.found_by.get(row.patient_id, ""))
+    def row_cells(self, row: Patient) -> tuple[str, str, str, str, str, str, str]:
+        """As :func:`row_cells`, today."""
+        return row_cells(row, self.today(), self.matched_names.get(row.patient_id, ""))
 
 
-def cells(row: Patient, today: date, found_by: str = "") -> tuple[str, str, str, str, str, str, str]:
+def row_cells(row: Patient, today: date, matched_name: str = "") -> tuple[str, str, str, str, str, str, str]:
     """Pseudonym, hand, diagnosis (after the name that it was found by), how long since, date of the last session, how
     long ago, number of sessions."""
     side = terms.side_name(row.side)
     if row.patient_id == PRACTICE_PATIENT:
         return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
-    about = " · ".join(part for part in (found_by, row.diagnosis) if part)
-    since = numbers.weeks_since(row.onset_day, today) if row.onset_day is not None else ""
+    about = " · ".join(part for part in (matched_name, row.diagnosis) if part)
+    since = numbers.format_weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
         return row.pseudonym, side, about, since, tr("No session counted yet"), "", ""
     when = row.last_session
     return (
-        row.pseudonym, side, about, since, numbers.short_date(when), numbers.days_ago(when, today),
+        row.pseudonym, side, about, since, numbers.format_short_date(when), numbers.format_days_ago(when, today),
         str(row.session_count),
     )  # fmt: skip
 
 
-def columns(text_scale: float) -> tuple[float, ...]:
+def column_edges(text_scale: float) -> tuple[float, ...]:
     """The left edges for a size of text."""
-    return LARGE_COLUMNS if text_scale > LARGE_FROM else COLUMNS
+    return LARGE_COLUMNS if text_scale > LARGE_TEXT_SCALE else COLUMNS
 
 
 class PatientRowPainter(QStyledItemDelegate):
     """Paints one row from the tokens, and its part of the rounded surface."""
 
-    def __init__(self, theme: Theme, model: PatientModel) -> None:
+    def __init__(self, theme: Theme, model: PatientListModel) -> None:
         super().__init__()
         self._theme, self._model = theme, model
 
@@ -131,23 +131,23 @@ class PatientRowPainter(QStyledItemDelegate):
 
     def _paint_cells(self, painter: QPainter, box: QRectF, row: Patient) -> None:
         scale = self._theme.text_scale
-        *texts, when, ago, count = self._model.cells(row)
+        *texts, when, ago, count = self._model.row_cells(row)
         end = box.right() - RIGHT_PAD_PX
-        edges = [*(box.left() + share * box.width() for share in columns(scale)), end]
+        edges = [*(box.left() + share * box.width() for share in column_edges(scale)), end]
         for number, text in enumerate(texts):
             face = font(14 * scale) if number else font(16 * scale, MEDIUM)
             last = next((later for later, one in enumerate([*texts, when]) if later > number and one), len(edges) - 1)
             room = QRectF(edges[number], box.top(), edges[last] - edges[number] - 8, box.height())
             if edges[number + 1] > edges[number]:
-                self._text(painter, face, text, room, "text")
+                self._paint_text(painter, face, text, room, "text")
         face = font(14 * scale)
         plain = not ago
         room = QRectF(edges[4], box.top(), end - edges[4] - (0 if plain else 36), box.height())
-        self._text(painter, face, when, room, "text2" if plain else "text")
+        self._paint_text(painter, face, when, room, "text2" if plain else "text")
         date_width = max(self._theme.px(92), QFontMetricsF(face).horizontalAdvance(when) + 10)
         beside = room.adjusted(date_width, 0, 0, 0)
         if QFontMetricsF(face).horizontalAdvance(ago) <= beside.width():
-            self._text(painter, face, ago, beside, "text2")
+            self._paint_text(painter, face, ago, beside, "text2")
         painter.setPen(self._theme.color("text"))
         painter.setFont(face)
         painter.drawText(
@@ -155,7 +155,7 @@ class PatientRowPainter(QStyledItemDelegate):
             int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), count,
         )  # fmt: skip
 
-    def _text(self, painter: QPainter, face: QFont, text: str, box: QRectF, token: str) -> None:
+    def _paint_text(self, painter: QPainter, face: QFont, text: str, box: QRectF, token: str) -> None:
         painter.setFont(face)
         painter.setPen(self._theme.color(token))
         shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, box.width())
@@ -175,22 +175,22 @@ class ListHeader(QWidget):
         self._names = [ElidedText(theme, name, 12, MEDIUM, "text2") for name in names]
         for name in self._names:
             name.setParent(self)
-        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self._place())
-        theme.follow(self, lambda: self.setFixedHeight(theme.px(28)))
-        theme.changed.connect(self._place)
+        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self._update_columns())
+        theme.on_change(self, lambda: self.setFixedHeight(theme.px(28)))
+        theme.changed.connect(self._update_columns)
 
-    def _place(self) -> None:
+    def _update_columns(self) -> None:
         bar = self._rows.verticalScrollBar()
         width = self.width() - (bar.sizeHint().width() if bar.maximum() else 0)
         end = width - RIGHT_PAD_PX
         count = self._names[-1].fontMetrics().horizontalAdvance(self._names[-1].text()) + 2
-        edges = [round(share * width) for share in columns(self._theme.text_scale)]
+        edges = [round(share * width) for share in column_edges(self._theme.text_scale)]
         lefts = [*edges, end - count]
         for name, left, right in zip(self._names, lefts, [*(edge - 8 for edge in lefts[1:]), end], strict=True):
             name.setGeometry(left, 0, max(right - left, 0), self.height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        self._place()
+        self._update_columns()
 
 
 class PatientList(QListView):
@@ -199,10 +199,10 @@ class PatientList(QListView):
     def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
         super().__init__()
         self._theme = theme
-        self.rows = PatientModel(today)
-        self.setModel(self.rows)
-        self._painter_of_rows = PatientRowPainter(theme, self.rows)
-        self.setItemDelegate(self._painter_of_rows)
+        self.patient_model = PatientListModel(today)
+        self.setModel(self.patient_model)
+        self._delegate = PatientRowPainter(theme, self.patient_model)
+        self.setItemDelegate(self._delegate)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setMouseTracking(True)
         self.setVerticalScrollMode(QListView.ScrollMode.ScrollPerItem)
@@ -212,23 +212,23 @@ class PatientList(QListView):
         self.setUniformItemSizes(True)
         self.viewport().setAutoFillBackground(False)
         self.setStyleSheet("QListView { background: transparent; border: 0; }")
-        theme.changed.connect(self._take_theme)
-        self.rows.modelReset.connect(self._take_theme)
+        theme.changed.connect(self._apply_theme)
+        self.patient_model.modelReset.connect(self._apply_theme)
 
-    def _take_theme(self) -> None:
-        self.setMaximumHeight(max(1, self.rows.rowCount()) * self._theme.px(ROW_PX))
+    def _apply_theme(self) -> None:
+        self.setMaximumHeight(max(1, self.patient_model.rowCount()) * self._theme.px(ROW_PX))
         self.scheduleDelayedItemsLayout()
         self.updateGeometry()
         self.viewport().update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         row = self._theme.px(ROW_PX)
-        rest = self.height() % row if self.height() < self.rows.rowCount() * row else 0
+        rest = self.height() % row if self.height() < self.patient_model.rowCount() * row else 0
         self.setViewportMargins(0, 0, 0, rest)
         super().resizeEvent(event)
 
     def sizeHint(self) -> QSize:
-        return QSize(600, max(1, self.rows.rowCount()) * self._theme.px(ROW_PX))
+        return QSize(600, max(1, self.patient_model.rowCount()) * self._theme.px(ROW_PX))
 
     def minimumSizeHint(self) -> QSize:
         return QSize(300, 2 * self._theme.px(ROW_PX))

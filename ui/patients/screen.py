@@ -11,45 +11,46 @@ from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from carpus.core.errors import ServerGone
-from carpus.core.names import folded, name_of
+from carpus.core.errors import ServerUnavailable
+from carpus.core.names import fold_name, normalize_name
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import KeyCaps, Line
+from carpus.ui.controls.card import KeyCaps, Separator
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, page
+from carpus.ui.controls.layouts import STRETCH, column_layout, fill, row_layout, scroll_page
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.patients.listing import ListHeader, PatientList
-from carpus.ui.ports import MOST_ROWS
+from carpus.ui.ports import MAX_LISTED_PATIENTS
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.patients.stored import StoredPatients
+    from carpus.ui.patients.stored import PatientStore
 
-LOOK_AT_DAY_MS = 30_000
-ARCHIVED_NAMED = 3
+DATE_CHECK_INTERVAL_MS = 30_000
+MAX_ARCHIVED_SHOWN = 3
 LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
 
 class PatientsScreen(QWidget):
-    """Signals carry the patient's identity, but for ``unlisted``; ``start`` keeps the last set-up, ``set_up`` asks for
-    another; ``erase_wanted`` a patient to be archived or erased."""
+    """Signals carry the patient's identity, but for ``unlisted_start_requested``; ``start_requested`` keeps the last
+    set-up, ``setup_requested`` asks for
+    another; ``delete_requested`` a patient to be archived or erased."""
 
-    start = Signal(str)
-    set_up = Signal(str)
-    review = Signal(str)
-    progress = Signal(str)
-    sessions = Signal(str)
-    erase_wanted = Signal(str)
-    unlisted = Signal(object)
+    start_requested = Signal(str)
+    setup_requested = Signal(str)
+    review_requested = Signal(str)
+    progress_requested = Signal(str)
+    sessions_requested = Signal(str)
+    delete_requested = Signal(str)
+    unlisted_start_requested = Signal(object)
     """A :class:`Patient` is to be measured while the list cannot be read, without identity for a typed name."""
 
-    def __init__(self, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
+    def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
         super().__init__()
         self._theme, self._store, self._today = theme, store, today
@@ -60,41 +61,41 @@ class PatientsScreen(QWidget):
         self.list = PatientList(theme, today)
         self.header = ListHeader(theme, self.list)
         self.card = PatientCardView(theme, today)
-        self.day = Text(theme, "", 14, REGULAR, "text2")
-        self._day_timer = QTimer(self, interval=LOOK_AT_DAY_MS)
-        self._day_timer.timeout.connect(self.look_at_day)
-        self._day_timer.start()
-        self.notice_place = QVBoxLayout()
+        self.date_text = Text(theme, "", 14, REGULAR, "text2")
+        self._date_timer = QTimer(self, interval=DATE_CHECK_INTERVAL_MS)
+        self._date_timer.timeout.connect(self.refresh_date)
+        self._date_timer.start()
+        self.notice_layout = QVBoxLayout()
         self.welcome: WelcomePanel | None = None
-        self._nobody = _Nobody(theme)
-        self._away = _Away(theme)
-        self._chosen_last: Patient | None = None
+        self._empty_view = _EmptyView(theme)
+        self._offline_view = _OfflineView(theme)
+        self._last_selected: Patient | None = None
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
-        self._archived: tuple[str, ...] = ()
+        self._archived_names: tuple[str, ...] = ()
         self.form = PatientForm(self, theme, store.register, today)
-        self._lay_out()
+        self._build_layout()
         self._connect()
-        self.look_at_day()
+        self.refresh_date()
 
-    def _lay_out(self) -> None:
+    def _build_layout(self) -> None:
         theme, foot_line = self._theme, Qt.AlignmentFlag.AlignBottom
         self._above_welcome = QWidget()
         self._above_welcome.setFixedHeight(GAP_PX)
         self._above_welcome.hide()
-        self._left = in_column(
-            in_line(
+        self._left = column_layout(
+            row_layout(
                 heading(theme, self.tr("Patients")),
                 STRETCH,
-                (self.day, 0, foot_line),
+                (self.date_text, 0, foot_line),
             ),
             8,
-            in_line((self.search, 1), self.new_button, gap=GAP_PX),
+            row_layout((self.search, 1), self.new_button, gap=GAP_PX),
             14,
             self.header,
             (self.list, 1),
-            self._nobody,
-            self._away,
+            self._empty_view,
+            self._offline_view,
             (self.archive_button, 0, Qt.AlignmentFlag.AlignLeft),
             self._above_welcome,
             gap=0,
@@ -103,83 +104,83 @@ class PatientsScreen(QWidget):
         policy = self.card.sizePolicy()
         policy.setRetainSizeWhenHidden(True)  # the search field keeps its width while nobody is found
         self.card.setSizePolicy(policy)
-        columns = in_line((self._left, 824), (self.card, 384), gap=MARGIN_PX)
-        whole = in_column(self.notice_place, (columns, 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 12))
+        columns = row_layout((self._left, 824), (self.card, 384), gap=MARGIN_PX)
+        whole = column_layout(self.notice_layout, (columns, 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 12))
         keys = [("↑ ↓", self.tr("choose")), (self.tr("Enter"), self.tr("start")), ("F1", self.tr("help"))]
         legal = Text(theme, terms.legal_notice(), 12, REGULAR, "text2", wrap=True)
-        foot = in_line((legal, 1), KeyCaps(theme, keys), gap=32, margins=(MARGIN_PX, 6, MARGIN_PX, 6))
-        in_column((page(whole), 1), Line(theme), foot, gap=0, margins=(0, 0, 0, 0), within=self)
+        foot = row_layout((legal, 1), KeyCaps(theme, keys), gap=32, margins=(MARGIN_PX, 6, MARGIN_PX, 6))
+        column_layout((scroll_page(whole), 1), Separator(theme), foot, gap=0, margins=(0, 0, 0, 0), parent=self)
 
     def _connect(self) -> None:
         self.search.installEventFilter(self)
         self.list.installEventFilter(self)
-        self.search.textChanged.connect(lambda: self._filter(self._chosen_id()))
+        self.search.textChanged.connect(lambda: self._apply_filter(self._selected_patient_id()))
         self.new_button.clicked.connect(self.new_patient)
-        self._nobody.button.clicked.connect(lambda: self.new_patient(self.search.text()))
-        self._away.button.clicked.connect(self._measure_unlisted)
-        self.list.selectionModel().currentChanged.connect(self._show_chosen)
+        self._empty_view.button.clicked.connect(lambda: self.new_patient(self.search.text()))
+        self._offline_view.button.clicked.connect(self._measure_unlisted)
+        self.list.selectionModel().currentChanged.connect(self._show_selected)
         self.list.doubleClicked.connect(lambda: self._start())
         self.card.start_button.clicked.connect(self._start)
-        self.card.change_button.clicked.connect(lambda: self.set_up.emit(self._chosen_id()))
-        self.card.review_button.clicked.connect(lambda: self.review.emit(self._chosen_id()))
-        self.card.progress_button.clicked.connect(lambda: self.progress.emit(self._chosen_id()))
-        self.card.sessions_button.clicked.connect(lambda: self.sessions.emit(self._chosen_id()))
-        self.card.edit_button.clicked.connect(lambda: self.change_patient(self._chosen_id()))
-        self.form.kept.connect(self._show_kept)
-        self.form.remove.clicked.connect(self._erase)
+        self.card.change_button.clicked.connect(lambda: self.setup_requested.emit(self._selected_patient_id()))
+        self.card.review_button.clicked.connect(lambda: self.review_requested.emit(self._selected_patient_id()))
+        self.card.progress_button.clicked.connect(lambda: self.progress_requested.emit(self._selected_patient_id()))
+        self.card.sessions_button.clicked.connect(lambda: self.sessions_requested.emit(self._selected_patient_id()))
+        self.card.edit_button.clicked.connect(lambda: self.change_patient(self._selected_patient_id()))
+        self.form.saved.connect(self._show_saved)
+        self.form.remove_button.clicked.connect(self._request_delete)
 
-    def _erase(self) -> None:
-        self.erase_wanted.emit(self.form.patient.patient_id)
+    def _request_delete(self) -> None:
+        self.delete_requested.emit(self.form.patient.patient_id)
 
-    def look_at_day(self) -> None:
+    def refresh_date(self) -> None:
         """After midnight another day stands here, and everything is a day longer ago."""
-        words = numbers.long_date(self._today())
-        if words != self.day.text():
-            self.day.setText(words)
+        words = numbers.format_long_date(self._today())
+        if words != self.date_text.text():
+            self.date_text.setText(words)
             self.list.viewport().update()
 
-    def refresh(self, choose: str = "") -> None:
-        self.look_at_day()
+    def refresh(self, selected_id: str = "") -> None:
+        self.refresh_date()
         practice = Patient(self.tr("Practice patient"), "right", patient_id=PRACTICE_PATIENT)
-        was_away = not self._away.isHidden()
+        was_away = not self._offline_view.isHidden()
         try:
-            rows, archived = (*self._store.patients(), practice), tuple(self._store.archived())
-        except ServerGone:
-            self._show_away(choose or self._chosen_id())
+            rows, archived = (*self._store.list_patients(), practice), tuple(self._store.list_archived_names())
+        except ServerUnavailable:
+            self._show_offline(selected_id or self._selected_patient_id())
             return
         if was_away:
-            self._away.hide()
+            self._offline_view.hide()
             self.search.clear()
             self.search.setPlaceholderText(self.tr("Name or diagnosis"))
             self.new_button.setEnabled(True)
-        self._rows, self._archived = rows, archived
-        self._filter(choose or self._chosen_id())
+        self._rows, self._archived_names = rows, archived
+        self._apply_filter(selected_id or self._selected_patient_id())
 
-    def _show_away(self, chosen: str) -> None:
+    def _show_offline(self, selected_id: str) -> None:
         """Nothing that may be old; who was chosen last, or is typed, can be measured."""
-        rows = [row for row in self._rows if row.patient_id == chosen]
-        self._rows, self._archived = (), ()
-        if self._away.isHidden():
-            self._chosen_last = next(iter(rows), None)
-            name = self._chosen_last.pseudonym if self._chosen_last is not None else ""
-            self._away.show()
+        rows = [row for row in self._rows if row.patient_id == selected_id]
+        self._rows, self._archived_names = (), ()
+        if self._offline_view.isHidden():
+            self._last_selected = next(iter(rows), None)
+            name = self._last_selected.pseudonym if self._last_selected is not None else ""
+            self._offline_view.show()
             self.new_button.setEnabled(False)
             self.search.setPlaceholderText(self.tr("Made-up name"))
             self.search.setText(name)
-        self._filter("")
+        self._apply_filter("")
 
     def _measure_unlisted(self) -> None:
-        if (name := name_of(self.search.text())) == "":
+        if (name := normalize_name(self.search.text())) == "":
             return
-        last = self._chosen_last
-        is_last = last is not None and folded(last.pseudonym) == folded(name)
-        self.unlisted.emit(last if is_last else Patient(name, "both"))
+        last = self._last_selected
+        is_last = last is not None and fold_name(last.pseudonym) == fold_name(name)
+        self.unlisted_start_requested.emit(last if is_last else Patient(name, "both"))
 
     def set_camera_ready(self, ready: bool) -> None:
         """Whether a camera answers; without one the button says that only files can be used."""
         if ready != self._camera_ready:
             self._camera_ready = ready
-            self._show_chosen()
+            self._show_selected()
 
     def show_welcome(self, panel: WelcomePanel | None) -> None:
         """What the first start says, below the list; None takes it away."""
@@ -195,56 +196,60 @@ class PatientsScreen(QWidget):
 
     def new_patient(self, name: str | bool = "") -> None:
         """Open the form. What a button sends with its click is no name."""
-        taken = frozenset(name.casefold() for name in (*(row.pseudonym for row in self._rows), *self._archived))
-        self.form.begin(None, taken, name if isinstance(name, str) else "")
+        taken = frozenset(name.casefold() for name in (*(row.pseudonym for row in self._rows), *self._archived_names))
+        self.form.edit_patient(None, taken, name if isinstance(name, str) else "")
 
     def change_patient(self, patient_id: str) -> None:
         row = next(row for row in self._rows if row.patient_id == patient_id)
         others = (other.pseudonym for other in self._rows if other is not row)
-        taken = frozenset(name.casefold() for name in (*others, *self._archived))
-        self.form.begin(row, taken)
+        taken = frozenset(name.casefold() for name in (*others, *self._archived_names))
+        self.form.edit_patient(row, taken)
 
-    def _show_kept(self, chosen: str) -> None:
+    def _show_saved(self, chosen: str) -> None:
         self.search.clear()
         self.refresh(chosen)
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _filter(self, choose: str) -> None:
+    def _apply_filter(self, selected_id: str) -> None:
         wanted = self.search.text().casefold().split()
         rows = self._rows
-        if not self._away.isHidden():
-            self._away.show_for(self.search.text())
-            for one in (self.list, self.header, self._nobody, self.archive_button):
+        if not self._offline_view.isHidden():
+            self._offline_view.show_search(self.search.text())
+            for one in (self.list, self.header, self._empty_view, self.archive_button):
                 one.hide()
             self.card.show_card(None, self._camera_ready)
             return
-        if wanted and len(rows) > MOST_ROWS:  # with the practice patient: there may be more than are shown
-            rows = (*self._store.patients(self.search.text()), rows[-1])
+        if wanted and len(rows) > MAX_LISTED_PATIENTS:  # with the practice patient: there may be more than are shown
+            rows = (*self._store.list_patients(self.search.text()), rows[-1])
         shown = [row for row in rows if _matches(row, wanted)]
-        self.list.rows.show_rows(shown, {row.patient_id: row.name for row in shown if _by_name(row, wanted)})
+        self.list.patient_model.show_rows(
+            shown, {row.patient_id: row.name for row in shown if _is_name_match(row, wanted)}
+        )
         self.list.setVisible(bool(shown))
         self.header.setVisible(bool(shown))
         only_practice = len(self._rows) == 1 and self.welcome is None
-        self._nobody.show_for("" if shown and not only_practice else self.search.text(), only_practice, bool(shown))
+        self._empty_view.show_search(
+            "" if shown and not only_practice else self.search.text(), only_practice, bool(shown)
+        )
         self._show_archived(wanted)
-        row = max(0, self.list.rows.find(choose))
+        row = max(0, self.list.patient_model.find_row(selected_id))
         if shown:
-            self.list.setCurrentIndex(self.list.rows.index(row))
-        self._show_chosen()
+            self.list.setCurrentIndex(self.list.patient_model.index(row))
+        self._show_selected()
 
     def _show_archived(self, wanted: list[str]) -> None:
         """Who was archived and would be found: said where the row was, and one press away."""
-        found = [name for name in self._archived if all(word in name.casefold() for word in wanted)]
-        names = ", ".join(found[:ARCHIVED_NAMED]) + (" …" if len(found) > ARCHIVED_NAMED else "")
+        found = [name for name in self._archived_names if all(word in name.casefold() for word in wanted)]
+        names = ", ".join(found[:MAX_ARCHIVED_SHOWN]) + (" …" if len(found) > MAX_ARCHIVED_SHOWN else "")
         self.archive_button.setVisible(bool(found))
-        self.archive_button.set_face(self.tr("In the archi&ve: {names}").format(names=names.replace("&", "&&")))
+        self.archive_button.set_label(self.tr("In the archi&ve: {names}").format(names=names.replace("&", "&&")))
 
-    def _chosen_id(self) -> str:
+    def _selected_patient_id(self) -> str:
         index: QModelIndex = self.list.currentIndex()
-        return self.list.rows.row(index.row()).patient_id if index.isValid() else ""
+        return self.list.patient_model.row(index.row()).patient_id if index.isValid() else ""
 
-    def _show_chosen(self, *_: object) -> None:
-        chosen = self._chosen_id()
+    def _show_selected(self, *_: object) -> None:
+        chosen = self._selected_patient_id()
         if not chosen:
             self.card.show_card(None, self._camera_ready)
         elif chosen == PRACTICE_PATIENT:
@@ -252,11 +257,13 @@ class PatientsScreen(QWidget):
             name = self._rows[-1].pseudonym
             self.card.show_card(replace(card, patient=replace(card.patient, pseudonym=name)), self._camera_ready)
         else:
-            self.card.show_card(self._store.card(chosen), self._camera_ready, self.list.rows.found_by.get(chosen, ""))
+            self.card.show_card(
+                self._store.card(chosen), self._camera_ready, self.list.patient_model.matched_names.get(chosen, "")
+            )
 
     def _start(self) -> None:
-        if chosen := self._chosen_id():
-            self.start.emit(chosen)
+        if chosen := self._selected_patient_id():
+            self.start_requested.emit(chosen)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """The arrows move the choice and Enter starts although the search field has the keyboard."""
@@ -265,39 +272,39 @@ class PatientsScreen(QWidget):
                 self.list.keyPressEvent(event)
                 return True
             if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-                if not self._away.isHidden():
+                if not self._offline_view.isHidden():
                     self._measure_unlisted()
-                elif self._chosen_id():
+                elif self._selected_patient_id():
                     self._start()
-                elif self._nobody.isVisible():
+                elif self._empty_view.isVisible():
                     self.new_patient(self.search.text())
                 return True
         return False
 
 
-class _Nobody(QWidget):
+class _EmptyView(QWidget):
     """What stands in place of an empty list."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        row = in_line(margins=(20, 24, 20, 24), within=self)
+        row = row_layout(margins=(20, 24, 20, 24), parent=self)
         self._words = Text(theme, "", 16, MEDIUM, wrap=True)
         self.button = Button(theme, "", icon="plus")
         fill(row, (self._words, 1), self.button)
 
-    def show_for(self, search: str, register_empty: bool, rows_shown: bool) -> None:
+    def show_search(self, search: str, register_empty: bool, rows_shown: bool) -> None:
         self.setVisible(register_empty or not rows_shown)
         self.button.setVisible(not rows_shown)  # beside an empty list there is “New patient” above
         if not rows_shown:
             self._words.setText(self.tr("No patient “{name}”.").format(name=search.strip()))
-            self.button.set_face(self.tr("Create “{name}”").format(name=search.strip()))
+            self.button.set_label(self.tr("Create “{name}”").format(name=search.strip()))
         else:
             self._words.setText(
                 self.tr("No patients yet. Add the first one, or try everything with the practice patient.")
             )
 
 
-class _Away(QWidget):
+class _OfflineView(QWidget):
     """What stands in place of the list while the clinic's server does not answer."""
 
     def __init__(self, theme: Theme) -> None:
@@ -307,34 +314,34 @@ class _Away(QWidget):
             "session is kept, and is in the list when the server answers."
         )
         self.button = Button(theme, "", "primary")
-        row = in_column(
+        row = column_layout(
             Text(theme, words, 16, MEDIUM, wrap=True),
             (self.button, 0, Qt.AlignmentFlag.AlignLeft),
             gap=GAP_PX,
             margins=(20, 24, 20, 24),
-            within=self,
+            parent=self,
         )
         row.addStretch(1)
         self.hide()
 
-    def show_for(self, name: str) -> None:
+    def show_search(self, name: str) -> None:
         self.button.setEnabled(bool(name.strip()))
         words = self.tr("Measure “{name}”").format(name=name.strip().replace("&", "&&"))
-        self.button.set_face(words if name.strip() else self.tr("Measure without the list"))
+        self.button.set_label(words if name.strip() else self.tr("Measure without the list"))
 
 
 def _matches(row: Patient, wanted: list[str]) -> bool:
-    text = f"{_shown_text(row)} {row.name}".casefold()
+    text = f"{_searchable_text(row)} {row.name}".casefold()
     return all(word in text for word in wanted)
 
 
-def _by_name(row: Patient, wanted: list[str]) -> bool:
+def _is_name_match(row: Patient, wanted: list[str]) -> bool:
     """Whether a word was found in the real name alone, which is shown then. One or two letters are in many names, and
     show none, unless they are one."""
-    text, names = _shown_text(row).casefold(), row.name.casefold().split()
+    text, names = _searchable_text(row).casefold(), row.name.casefold().split()
     return any(len(one) > 2 or one in names for one in wanted if one not in text)
 
 
-def _shown_text(row: Patient) -> str:
+def _searchable_text(row: Patient) -> str:
     exercise = terms.exercise_name(row.last_exercise) if row.last_exercise else ""
     return f"{row.pseudonym} {row.diagnosis} {exercise}"

@@ -8,7 +8,7 @@ from PySide6.QtGui import QImage
 from carpus.core.types import ByteImage
 
 
-def image_of(color_rgb: ByteImage) -> QImage:
+def to_qimage(color_rgb: ByteImage) -> QImage:
     """A QImage that owns its pixels. A QImage over the array itself would outlive it: a use after free."""
     picture = np.ascontiguousarray(color_rgb)
     height, width = picture.shape[:2]

@@ -19,13 +19,13 @@ HALO = QColor(0, 0, 0, 150)
 AXIS_LENGTH_M = 0.045
 AXES = ((0, "X", DARK.curve_c), (1, "Y", DARK.curve_a), (2, "Z", DARK.curve_b))
 ELLIPSE_SDS = 2.0
-LEAST_RING_PX = 3.0
+MIN_RING_PX = 3.0
 
 ToScreen = Callable[[float, float], QPointF]
 """Maps a pixel of the camera picture to the widget."""
 
 
-def haloed(
+def draw_with_halo(
     painter: QPainter, color: QColor | str, width: float, draw: Callable[[], object], dash: bool = False
 ) -> None:
     """Draw twice: a wider dark halo, then the line."""
@@ -39,7 +39,7 @@ def haloed(
         draw()
 
 
-def ellipse(covariance_px2: FloatArray) -> tuple[float, float, float]:
+def covariance_ellipse(covariance_px2: FloatArray) -> tuple[float, float, float]:
     """Half axes in pixels and turn in degrees of the 2 sd ellipse of a Gaussian (2, 2) in the picture.
 
     >>> ellipse(np.diag([25.0, 4.0]))
@@ -48,7 +48,7 @@ def ellipse(covariance_px2: FloatArray) -> tuple[float, float, float]:
     a, b, c = float(covariance_px2[0, 0]), float(covariance_px2[0, 1]), float(covariance_px2[1, 1])
     mean, spread = (a + c) / 2.0, math.hypot((a - c) / 2.0, b)
     radii = (ELLIPSE_SDS * math.sqrt(max(value, 0.0)) for value in (mean + spread, mean - spread))
-    longer, shorter = (max(radius, LEAST_RING_PX) for radius in radii)
+    longer, shorter = (max(radius, MIN_RING_PX) for radius in radii)
     return longer, shorter, math.degrees(0.5 * math.atan2(2.0 * b, a - c))
 
 
@@ -58,12 +58,12 @@ def paint_markers(painter: QPainter, frame: TrackedFrame, to_screen: ToScreen, s
         seen = bool(np.isfinite(frame.marker_measured_px[k]).all())
         covariance = frame.marker_predicted_cov_px2[k]
         if np.isfinite(covariance).all() and np.isfinite(frame.marker_predicted_px[k]).all():
-            longer, shorter, turn_deg = ellipse(covariance)
+            longer, shorter, turn_deg = covariance_ellipse(covariance)
             painter.save()
             painter.translate(to_screen(*map(float, frame.marker_predicted_px[k])))
             painter.rotate(turn_deg)
             box = QPointF(0, 0), longer * scale, shorter * scale
-            haloed(painter, ON_PICTURE_LINE, 1.5, lambda box=box: painter.drawEllipse(*box), dash=not seen)  # type: ignore[misc]
+            draw_with_halo(painter, ON_PICTURE_LINE, 1.5, lambda box=box: painter.drawEllipse(*box), dash=not seen)  # type: ignore[misc]
             painter.restore()
         if seen:
             u, v = frame.marker_measured_px[k]
@@ -72,7 +72,7 @@ def paint_markers(painter: QPainter, frame: TrackedFrame, to_screen: ToScreen, s
             painter.drawEllipse(to_screen(float(u), float(v)), 3.2, 3.2)
 
 
-def paint_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_screen: ToScreen) -> None:
+def paint_palm_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_screen: ToScreen) -> None:
     """Thin lines from the wrist to the other palm discs, where the model has them."""
     places = frame.marker_position_cam_m
     if frame.status == TrackStatus.LOST or not np.isfinite(places).all():
@@ -86,16 +86,16 @@ def paint_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_scree
 
 def axis_pixels(frame: TrackedFrame, calibration: Calibration, camera: Camera) -> FloatArray:
     """Pixels (4, 2) of the wrist's origin and of the ends of its X, Y and Z axes."""
-    origin = calibration.rotation_w0_cam @ frame.moment.position_m + calibration.translation_w0_cam_m
-    ends = origin + AXIS_LENGTH_M * (calibration.rotation_w0_cam @ frame.moment.rotation_w2_w0).T
+    origin = calibration.rotation_w0_cam @ frame.kinematics.position_m + calibration.translation_w0_cam_m
+    ends = origin + AXIS_LENGTH_M * (calibration.rotation_w0_cam @ frame.kinematics.rotation_w2_w0).T
     return camera.distort(camera.project(np.vstack((origin, ends))))
 
 
-def within(place: QPointF, box: QRectF) -> QPointF:
+def clamp_to_box(point: QPointF, box: QRectF) -> QPointF:
     """The place itself, or the nearest one inside the box."""
     return QPointF(
-        min(max(place.x(), box.left()), max(box.left(), box.right())),
-        min(max(place.y(), box.top()), max(box.top(), box.bottom())),
+        min(max(point.x(), box.left()), max(box.left(), box.right())),
+        min(max(point.y(), box.top()), max(box.top(), box.bottom())),
     )
 
 
@@ -113,8 +113,8 @@ def paint_axes(
     origin = to_screen(*map(float, pixels[0]))
     for axis, letter, color in AXES:
         end = to_screen(*map(float, pixels[1 + axis]))
-        haloed(painter, color, 3.0, lambda end=end: painter.drawLine(origin, end))  # type: ignore[misc]
+        draw_with_halo(painter, color, 3.0, lambda end=end: painter.drawLine(origin, end))  # type: ignore[misc]
         away = end - origin
         length = math.hypot(away.x(), away.y()) or 1.0
-        place = within(end + away * (14.0 / length), shown.adjusted(16, 16, -16, -16))
+        place = clamp_to_box(end + away * (14.0 / length), shown.adjusted(16, 16, -16, -16))
         paint_label(painter, theme, letter, place.x() - 9, place.y() - 10)

@@ -9,17 +9,17 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from carpus.core.types import ByteImage
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.icons import paint_state
-from carpus.ui.picture.convert import image_of
+from carpus.ui.picture.convert import to_qimage
 from carpus.ui.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
 
 LABEL_ALPHA = 180
 
 
-def fitted(size: QSize, room: QRectF) -> QRectF:
+def fit_box(size: QSize, bounds: QRectF) -> QRectF:
     """The largest box of a picture's shape in the middle of a room: nothing of it is cut or stretched."""
-    scale = min(room.width() / max(size.width(), 1), room.height() / max(size.height(), 1))
+    scale = min(bounds.width() / max(size.width(), 1), bounds.height() / max(size.height(), 1))
     box = QRectF(0.0, 0.0, scale * size.width(), scale * size.height())
-    box.moveCenter(room.center())
+    box.moveCenter(bounds.center())
     return box
 
 
@@ -64,39 +64,39 @@ class Photo(QWidget):
         self._theme = theme
         self._image: QImage | None = None
         self._label = ""
-        self._roomy = True
+        self._has_room = True
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
 
     def show_picture(self, color_rgb: ByteImage | None, label: str) -> None:
         """Show a picture; without one the widget takes no room."""
-        self._image = None if color_rgb is None else image_of(color_rgb)
+        self._image = None if color_rgb is None else to_qimage(color_rgb)
         self._label = label
-        self.setVisible(self._image is not None and self._roomy)
+        self.setVisible(self._image is not None and self._has_room)
         self.setAccessibleName(label)
         self.update()
 
-    def set_roomy(self, roomy: bool) -> None:
+    def set_has_room(self, has_room: bool) -> None:
         """Without room nothing is shown."""
-        self._roomy = roomy
-        self.setVisible(self._image is not None and roomy)
+        self._has_room = has_room
+        self.setVisible(self._image is not None and has_room)
 
     def sizeHint(self) -> QSize:
         return QSize(280, 185)
 
-    def place(self) -> tuple[QRectF, QPointF]:
+    def layout_boxes(self) -> tuple[QRectF, QPointF]:
         """Room of the picture, and where its label is."""
         return QRectF(self.rect()), QPointF(10, 10)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         if self._image is None:
             return
-        room, label = self.place()
+        room, label = self.layout_boxes()
         painter = QPainter(self)
         painter.setRenderHints(QPainter.RenderHint.Antialiasing | QPainter.RenderHint.SmoothPixmapTransform)
         frame = QPainterPath()
         frame.addRoundedRect(QRectF(self.rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)
         painter.setClipPath(frame)
         painter.fillRect(self.rect(), QColor(ON_PICTURE_LABEL))
-        painter.drawImage(fitted(self._image.size(), room), self._image)
+        painter.drawImage(fit_box(self._image.size(), room), self._image)
         if self._label:
             paint_label(painter, self._theme, self._label, label.x(), label.y())

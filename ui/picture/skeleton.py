@@ -12,10 +12,10 @@ from carpus.core.camera import Camera
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import FloatArray, Side, TrackedFrame, TrackStatus
 from carpus.ui.fonts import SEMIBOLD, font
-from carpus.ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed
+from carpus.ui.picture.overlay import HALO, MIN_RING_PX, ToScreen, covariance_ellipse, draw_with_halo
 from carpus.ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
 
-LARGEST_RING_PX = 26.0
+MAX_RING_PX = 26.0
 """Half of the longest ring drawn around the place of a hidden disc, on the screen."""
 SIDE_SPAN_M = 0.105
 """A long finger, straight; bent, it comes back below its knuckle, for which there is room on the left."""
@@ -38,42 +38,42 @@ def paint_skeleton(
     bones = [ends for chain in protocol.chains.values() for ends in pairwise(chain)]
     solid = [(at[a], at[b]) for a, b in bones if seen[a] and seen[b]]
     dashed = [(at[a], at[b]) for a, b in bones if not (seen[a] and seen[b])]
-    haloed(painter, ON_PICTURE_LINE, 2.0, lambda: [painter.drawLine(a, b) for a, b in solid])
-    haloed(painter, ON_PICTURE_LINE, 1.5, lambda: [painter.drawLine(a, b) for a, b in dashed], dash=True)
+    draw_with_halo(painter, ON_PICTURE_LINE, 2.0, lambda: [painter.drawLine(a, b) for a, b in solid])
+    draw_with_halo(painter, ON_PICTURE_LINE, 1.5, lambda: [painter.drawLine(a, b) for a, b in dashed], dash=True)
     for row, spot in enumerate(at):
         if seen[row]:
             painter.setPen(QPen(HALO, 1.5))
             painter.setBrush(QColor(ON_PICTURE_LINE))
             painter.drawEllipse(spot, 3.6, 3.6)
         else:
-            _paint_hidden(painter, frame.marker_predicted_cov_px2[row], spot, scale)
+            _paint_predicted(painter, frame.marker_predicted_cov_px2[row], spot, scale)
 
 
-def _paint_hidden(painter: QPainter, covariance_px2: FloatArray, spot: QPointF, scale: float) -> None:
+def _paint_predicted(painter: QPainter, covariance_px2: FloatArray, center: QPointF, scale: float) -> None:
     """A hollow dashed ring where the disc is expected, as wide as two standard deviations."""
-    longer, shorter, turn_deg = LEAST_RING_PX, LEAST_RING_PX, 0.0
+    longer, shorter, turn_deg = MIN_RING_PX, MIN_RING_PX, 0.0
     if np.isfinite(covariance_px2).all():
-        longer, shorter, turn_deg = ellipse(covariance_px2)
-    if longer * scale > LARGEST_RING_PX:
+        longer, shorter, turn_deg = covariance_ellipse(covariance_px2)
+    if longer * scale > MAX_RING_PX:
         return  # it may be anywhere about: the dashed bone says so, a large ring would cover the hand
     painter.save()
-    painter.translate(spot)
+    painter.translate(center)
     painter.rotate(turn_deg)
     box = QPointF(0, 0), max(longer * scale, 4.0), max(shorter * scale, 4.0)
-    haloed(painter, ON_PICTURE_PARTLY, 1.5, lambda: painter.drawEllipse(*box), dash=True)
+    draw_with_halo(painter, ON_PICTURE_PARTLY, 1.5, lambda: painter.drawEllipse(*box), dash=True)
     painter.restore()
 
 
 def side_points_m(frame: TrackedFrame, protocol: MarkerProtocol, finger: int) -> FloatArray:
     """Joints (4, 2) of a finger from the side: along the hand and out of its back, from the knuckle, metres."""
-    joints = frame.moment.joint_position_m - frame.moment.position_m
-    chain = (joints @ frame.moment.rotation_w2_w0)[list(protocol.chains[finger][1:])]
+    joints = frame.kinematics.joint_position_m - frame.kinematics.position_m
+    chain = (joints @ frame.kinematics.rotation_w2_w0)[list(protocol.chains[finger][1:])]
     along = np.array([1.0, 0.0]) if finger > 1 else chain[1, :2] - chain[0, :2]
     away = chain - chain[0]
     return np.stack((away[:, :2] @ along / max(float(np.linalg.norm(along)), 1e-9), away[:, 2]), axis=1)
 
 
-def paint_side(
+def paint_finger_side(
     painter: QPainter,
     theme: Theme,
     frame: TrackedFrame,

@@ -11,29 +11,29 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.types import ByteImage, FloatArray
 from carpus.ui import numbers
-from carpus.ui.picture.convert import image_of
+from carpus.ui.picture.convert import to_qimage
 from carpus.ui.picture.photo import paint_label
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
 
-Overlay = Callable[[QPainter, "PictureView"], None]
-PALM_ROOM, HAND_ROOM = 2.0, 1.3
+Overlay = Callable[[QPainter, "FrameView"], None]
+PALM_AREA_FACTOR, HAND_AREA_FACTOR = 2.0, 1.3
 """The area is this many times as wide and high as the box of the palm's markers, or of the whole hand's: room to move,
 and for the fingers beyond the palm."""
 
 
-class PictureView(QWidget):
+class FrameView(QWidget):
     """Shows the newest picture; ``overlay`` paints over it through :meth:`to_screen`."""
 
     def __init__(self, theme: Theme, hint_px: tuple[int, int] = (520, 390)) -> None:
         super().__init__()
         self._theme, self._hint_px = theme, hint_px
         self._image: QImage | None = None
-        self._area: QRectF | None = None
-        self._whole = False
-        self._head_px, self._foot_px = 0, 0
+        self._shown_area: QRectF | None = None
+        self._is_whole = False
+        self._top_margin_px, self._bottom_margin_px = 0, 0
         self._scale, self._offset = 1.0, QPointF(0, 0)
         self.overlay: Overlay | None = None
-        self.empty_words = ""
+        self.empty_text = ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(self.tr("Camera picture"))
         theme.changed.connect(self.update)
@@ -41,15 +41,15 @@ class PictureView(QWidget):
     def show_frame(self, color_rgb: ByteImage) -> None:
         """Take a copy of the picture and show it."""
         first = self._image is None or self._image.width() != color_rgb.shape[1]
-        self._image = image_of(color_rgb)
+        self._image = to_qimage(color_rgb)
         if first:
-            self._place()
+            self._update_transform()
         self.update()
 
     def clear(self, words: str = "") -> None:
         """No picture: black with a word of why, never the last picture as if it were now."""
         self._image = None
-        self.empty_words = words
+        self.empty_text = words
         self.update()
 
     @property
@@ -57,38 +57,38 @@ class PictureView(QWidget):
         """The picture shown."""
         return self._image
 
-    def set_hand_area(self, pixel: FloatArray | None, room: float = PALM_ROOM) -> None:
+    def set_hand_area(self, pixel: FloatArray | None, area_factor: float = PALM_AREA_FACTOR) -> None:
         """Fix the view on the markers (M, 2) with room to move, or on the whole picture."""
-        self._area = None
+        self._shown_area = None
         if pixel is not None and np.isfinite(pixel).any():
             low, high = np.nanmin(pixel, axis=0), np.nanmax(pixel, axis=0)
-            width, height = (high - low) * room + 40.0
+            width, height = (high - low) * area_factor + 40.0
             center = (low + high) / 2
             # The fingers lie beyond the markers of the palm: the area reaches further towards the top.
-            above = 0.6 if room == PALM_ROOM else 0.5
-            self._area = QRectF(center[0] - width / 2, center[1] - height * above, width, height)
-        self._place()
+            above = 0.6 if area_factor == PALM_AREA_FACTOR else 0.5
+            self._shown_area = QRectF(center[0] - width / 2, center[1] - height * above, width, height)
+        self._update_transform()
 
     def set_area(self, area: QRectF | None) -> None:
         """Show a part of the picture, or as much of it as covers the widget."""
-        self._area = area
-        self._place()
+        self._shown_area = area
+        self._update_transform()
 
-    def keep_free(self, head_px: int, foot_px: int) -> None:
+    def reserve_margins(self, top_px: int, bottom_px: int) -> None:
         """So much at the head and at the foot is covered: the hand's area lies between them."""
-        if (head_px, foot_px) != (self._head_px, self._foot_px):
-            self._head_px, self._foot_px = head_px, foot_px
-            self._place()
+        if (top_px, bottom_px) != (self._top_margin_px, self._bottom_margin_px):
+            self._top_margin_px, self._bottom_margin_px = top_px, bottom_px
+            self._update_transform()
 
-    def show_whole(self, whole: bool) -> None:
+    def set_whole(self, is_whole: bool) -> None:
         """Show everything the camera sees, or the hand's area."""
-        self._whole = whole
-        self._place()
+        self._is_whole = is_whole
+        self._update_transform()
 
     @property
-    def shows_whole(self) -> bool:
+    def is_whole(self) -> bool:
         """Whether everything is shown."""
-        return self._whole
+        return self._is_whole
 
     @property
     def scale(self) -> float:
@@ -105,19 +105,19 @@ class PictureView(QWidget):
         v = (point.y() - self._offset.y()) / self._scale - 0.5
         return np.array([u, v])
 
-    def _place(self) -> None:
+    def _update_transform(self) -> None:
         """Where the picture lies: the area fills the widget, never smaller than the picture needs to cover it."""
         if self._image is None or not self.width():
             return
         width, height = float(self._image.width()), float(self._image.height())
         cover = max(self.width() / width, self.height() / height)
-        area, above = self._area, 0.5 * self.height()
-        if self._whole or area is None:
-            self._scale = min(self.width() / width, self.height() / height) if self._whole else cover
+        area, above = self._shown_area, 0.5 * self.height()
+        if self._is_whole or area is None:
+            self._scale = min(self.width() / width, self.height() / height) if self._is_whole else cover
             middle = QPointF(width / 2, height / 2)
         else:
-            free = self.height() - self._head_px - self._foot_px
-            above = self._head_px + 0.5 * free
+            free = self.height() - self._top_margin_px - self._bottom_margin_px
+            above = self._top_margin_px + 0.5 * free
             self._scale = max(cover, min(self.width() / area.width(), free / area.height()))
             middle = area.center()
         shown_w, shown_h = self.width() / self._scale, self.height() / self._scale
@@ -137,7 +137,7 @@ class PictureView(QWidget):
         return QSize(320, 240)
 
     def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
-        self._place()
+        self._update_transform()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
@@ -149,15 +149,15 @@ class PictureView(QWidget):
         if self._image is None:
             painter.setPen(QColor("#A9B6B9"))
             place = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
-            painter.drawText(self.rect().adjusted(12, 0, -12, 0), place, self.empty_words)
+            painter.drawText(self.rect().adjusted(12, 0, -12, 0), place, self.empty_text)
         else:
-            self._paint_picture(painter, self._image)
+            self._paint_image(painter, self._image)
         if self.hasFocus() and self.property("shows_own_focus"):
             painter.setPen(QPen(self._theme.color("accent"), 2))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), CARD_RADIUS_PX, CARD_RADIUS_PX)
 
-    def _paint_picture(self, painter: QPainter, image: QImage) -> None:
+    def _paint_image(self, painter: QPainter, image: QImage) -> None:
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         size = image.size()
         target = QRectF(self._offset.x(), self._offset.y(), size.width() * self._scale, size.height() * self._scale)
@@ -174,5 +174,5 @@ class PictureView(QWidget):
 
     def paint_area_label(self, painter: QPainter) -> None:
         """``Hand area ×2.2`` or ``Whole picture`` in the corner."""
-        words = self.tr("Hand area ×{scale}").format(scale=numbers.fixed(self._scale, 1))
-        paint_label(painter, self._theme, self.tr("Whole picture") if self._whole else words, 12, 12)
+        words = self.tr("Hand area ×{scale}").format(scale=numbers.format_fixed(self._scale, 1))
+        paint_label(painter, self._theme, self.tr("Whole picture") if self._is_whole else words, 12, 12)

@@ -15,11 +15,11 @@ from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.session.values import Session
 from carpus.core.types import BoolArray, ByteImage, FloatArray
 from carpus.ui.background import Background
-from carpus.ui.picture.overlay import haloed
-from carpus.ui.picture.view import PictureView
+from carpus.ui.picture.overlay import draw_with_halo
+from carpus.ui.picture.view import FrameView
 from carpus.ui.theme import ON_PICTURE_LINE, Theme
 
-GROUND = 34
+BLANK_GREY = 34
 """Grey under the marks where no pictures were kept."""
 Found = TypeVar("Found")
 
@@ -33,51 +33,51 @@ class RowReader(Generic[Found]):
         background: Background,
         owner: QObject,
         read: Callable[[str, int], Found],
-        shown: Callable[[int, Found], None],
-        failed: Callable[[Exception], None],
+        on_read: Callable[[int, Found], None],
+        on_failed: Callable[[Exception], None],
     ) -> None:
         self._background, self._owner = background, owner
-        self._read_row, self._shown, self._failed = read, shown, failed
-        self._session_id, self._wanted, self._round = "", -1, 0
-        self.busy = False
+        self._read_row, self._on_read, self._on_failed = read, on_read, on_failed
+        self._session_id, self._requested_row, self._session_number = "", -1, 0
+        self.is_busy = False
 
-    def begin(self, session_id: str) -> None:
+    def set_session(self, session_id: str) -> None:
         """Another session; what still comes of the one before is for nobody."""
-        self._session_id, self._wanted, self.busy = session_id, -1, False
-        self._round += 1
+        self._session_id, self._requested_row, self.is_busy = session_id, -1, False
+        self._session_number += 1
 
-    def ask(self, row: int) -> None:
-        self._wanted = row
-        if not self.busy:
+    def request(self, row: int) -> None:
+        self._requested_row = row
+        if not self.is_busy:
             self._read()
 
     def _read(self) -> None:
-        self.busy = True
-        session_id, row, number = self._session_id, self._wanted, self._round
+        self.is_busy = True
+        session_id, row, number = self._session_id, self._requested_row, self._session_number
 
-        def came(found: Found) -> None:
-            if number == self._round:
-                self.busy = False
-                self._shown(row, found)
-                if self._wanted != row and not self.busy:
+        def handle_row(found: Found) -> None:
+            if number == self._session_number:
+                self.is_busy = False
+                self._on_read(row, found)
+                if self._requested_row != row and not self.is_busy:
                     self._read()
 
-        def failed(fault: Exception) -> None:
-            if number == self._round:
-                self._failed(fault)
+        def handle_fault(fault: Exception) -> None:
+            if number == self._session_number:
+                self._on_failed(fault)
 
-        self._background.run(lambda: self._read_row(session_id, row), came, failed, self._owner)
+        self._background.run(lambda: self._read_row(session_id, row), handle_row, handle_fault, self._owner)
 
 
-def plain_ground(camera: Camera) -> ByteImage:
+def blank_frame(camera: Camera) -> ByteImage:
     """In place of a picture that was not kept."""
-    return np.full((camera.height_px, camera.width_px, 3), GROUND, np.uint8)
+    return np.full((camera.height_px, camera.width_px, 3), BLANK_GREY, np.uint8)
 
 
-class SessionPicture(PictureView):
+class SessionFrameView(FrameView):
     """Shows a row of a session; ``failed`` carries a fault of reading it."""
 
-    failed = Signal(object)
+    read_failed = Signal(object)
 
     def __init__(
         self,
@@ -89,12 +89,14 @@ class SessionPicture(PictureView):
         super().__init__(theme, hint_px)
         self.session: Session | None = None
         self.row = -1
-        self.reader = RowReader(background, self, read, lambda _, picture: self.show_stored(picture), self.failed.emit)
+        self.reader = RowReader(
+            background, self, read, lambda _, picture: self.show_stored_frame(picture), self.read_failed.emit
+        )
 
-    def open(self, session: Session | None, words: str = "") -> None:
+    def set_session(self, session: Session | None, words: str = "") -> None:
         """Another session; None while it is read, with what is said meanwhile."""
         self.session, self.row = session, -1
-        self.reader.begin("" if session is None else session.header.session_id)
+        self.reader.set_session("" if session is None else session.header.session_id)
         self.clear(words)
 
     def show_row(self, row: int) -> None:
@@ -103,23 +105,23 @@ class SessionPicture(PictureView):
             self.row = row
             self.update()
             if row >= 0:
-                self.reader.ask(row)
+                self.reader.request(row)
 
-    def show_stored(self, picture: ByteImage | None) -> None:
+    def show_stored_frame(self, picture: ByteImage | None) -> None:
         """A picture that was read; None where none was kept."""
         if picture is not None:
             self.show_frame(picture)
         elif self.image is None and self.session is not None:
-            self.show_frame(plain_ground(self.session.camera))
+            self.show_frame(blank_frame(self.session.camera))
 
-    def spots_px(self, session: Session) -> tuple[FloatArray, BoolArray]:
+    def marker_pixels(self, session: Session) -> tuple[FloatArray, BoolArray]:
         """Where the discs of the row (M, 2) are, as measured or as the model has them; which (M,) were seen."""
         measured = session.markers.measured_px[self.row]
         seen = np.isfinite(measured[:, 0])
-        modelled = modelled_px(session.camera, session.markers.position_cam_m[self.row])
+        modelled = project_markers(session.camera, session.markers.position_cam_m[self.row])
         return np.where(seen[:, None], measured, modelled), seen
 
-    def paint_discs(
+    def paint_markers(
         self, painter: QPainter, session: Session, spots: FloatArray, seen: BoolArray, finger: int = 0
     ) -> None:
         """Bones and discs of the whole hand, ``finger`` 0 for all, or the discs about the wrist."""
@@ -129,7 +131,7 @@ class SessionPicture(PictureView):
             paint_palm(painter, self, spots, seen)
 
 
-def modelled_px(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
+def project_markers(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
     """Where the model has the markers (..., 2) in the picture; NaN while lost."""
     known = np.isfinite(position_cam_m).all(axis=-1)
     out = np.full((*position_cam_m.shape[:-1], 2), np.nan)
@@ -138,17 +140,23 @@ def modelled_px(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
     return out
 
 
-def paint_palm(painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray) -> None:
+def paint_palm(painter: QPainter, picture: FrameView, spots: FloatArray, seen: np.ndarray) -> None:
     """Lines from the wrist to the palm, and a ring about each disc; ``spots`` (M, 2) pixels, ``seen`` bool (M,)."""
     if np.isfinite(spots).all():
         wrist = picture.to_screen(*map(float, spots[0]))
         for u, v in spots[1:6]:
             end = picture.to_screen(float(u), float(v))
-            haloed(painter, ON_PICTURE_LINE, 2.0, lambda end=end: painter.drawLine(wrist, end))  # type: ignore[misc]
+            draw_with_halo(painter, ON_PICTURE_LINE, 2.0, lambda end=end: painter.drawLine(wrist, end))  # type: ignore[misc]
     for spot, is_seen in zip(spots, seen, strict=True):
         if np.isfinite(spot).all():
             at = picture.to_screen(*map(float, spot))
-            haloed(painter, ON_PICTURE_LINE, 2.0, lambda at=at: painter.drawEllipse(at, 10, 10), dash=not is_seen)  # type: ignore[misc]
+            draw_with_halo(
+                painter,
+                ON_PICTURE_LINE,
+                2.0,
+                lambda at=at: painter.drawEllipse(at, 10, 10),  # type: ignore[misc]
+                dash=not is_seen,
+            )
             if is_seen:
                 painter.setBrush(QColor(ON_PICTURE_LINE))
                 painter.drawEllipse(at, 2.5, 2.5)
@@ -156,7 +164,7 @@ def paint_palm(painter: QPainter, picture: PictureView, spots: FloatArray, seen:
 
 def paint_skeleton(
     painter: QPainter,
-    picture: PictureView,
+    picture: FrameView,
     protocol: MarkerProtocol,
     spots: FloatArray,
     seen: np.ndarray,
@@ -169,12 +177,12 @@ def paint_skeleton(
                 start, end = (picture.to_screen(float(u), float(v)) for u, v in spots[[a, b]])
                 width = 2.5 if number == finger else 1.5
                 line = lambda start=start, end=end: painter.drawLine(start, end)  # noqa: E731
-                haloed(painter, ON_PICTURE_LINE, width, line, dash=not (seen[a] and seen[b]))
+                draw_with_halo(painter, ON_PICTURE_LINE, width, line, dash=not (seen[a] and seen[b]))
     for spot, is_seen in zip(spots, seen, strict=True):
         if np.isfinite(spot).all():
             at = picture.to_screen(float(spot[0]), float(spot[1]))
             ring = lambda at=at: painter.drawEllipse(at, 5.5, 5.5)  # noqa: E731
-            haloed(painter, ON_PICTURE_LINE, 1.5, ring, dash=not is_seen)
+            draw_with_halo(painter, ON_PICTURE_LINE, 1.5, ring, dash=not is_seen)
             if is_seen:
                 painter.setBrush(QColor(ON_PICTURE_LINE))
                 painter.drawEllipse(at, 1.8, 1.8)
@@ -182,7 +190,7 @@ def paint_skeleton(
 
 def paint_trails(
     painter: QPainter,
-    picture: PictureView,
+    picture: FrameView,
     protocol: MarkerProtocol,
     modelled: FloatArray,
     seen: np.ndarray,
@@ -198,5 +206,5 @@ def paint_trails(
             painter.setOpacity((number + 1) / len(modelled))
             painter.drawPoint(picture.to_screen(*map(float, modelled[number, tips[tip]])))
 
-    haloed(painter, ON_PICTURE_LINE, 2.2, dots)  # all halos first: none lies on a dot
+    draw_with_halo(painter, ON_PICTURE_LINE, 2.2, dots)  # all halos first: none lies on a dot
     painter.setOpacity(1.0)

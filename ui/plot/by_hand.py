@@ -13,7 +13,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize
 from PySide6.QtGui import QFontMetricsF
 from PySide6.QtWidgets import QSizePolicy
 
-from carpus.core.measures.by_hand import HandMeasure, HandValue
+from carpus.core.measures.by_hand import ManualMeasure, ManualValue
 from carpus.ui import numbers
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
@@ -24,30 +24,30 @@ from carpus.ui.words.by_hand import measure_name, value_words
 DAY_S = 86_400.0
 
 
-def day_s(day: date, sessions: Iterable[datetime] = ()) -> float:
+def day_timestamp(day: date, sessions: Iterable[datetime] = ()) -> float:
     """Where a value known only by its day lies on an axis of time: at that day's session, whose time is known, else in
     the middle of the day."""
     same = [when for when in sessions if when.date() == day]
     return (same[0] if same else datetime.combine(day, time(12))).timestamp()
 
 
-def add_by_hand(
-    plot: Plot, values: Sequence[HandValue], sessions: Sequence[datetime] = (), *, joined: bool = False
+def add_manual_values(
+    plot: Plot, values: Sequence[ManualValue], sessions: Sequence[datetime] = (), *, is_joined: bool = False
 ) -> list[Any]:
     """Values by hand of one way: hollow squares, diamonds where it was moved by somebody else; never joined with ours.
 
-    ``joined``: a thin line between them, where nothing else is in the panel; ``sessions``: when ours were. What is
+    ``is_joined``: a thin line between them, where nothing else is in the panel; ``sessions``: when ours were. What is
     beyond the axis of time is an arrow at its end.
     """
     panel, chart, start, end = plot.panel, plot.chart, plot.local_panel.start_s, plot.local_panel.end_s
-    times = [day_s(one.day, sessions) for one in values]
+    times = [day_timestamp(one.day, sessions) for one in values]
     places = [
         QPointF(float(plot.scene_x(at)), float(panel.y(one.value))) for at, one in zip(times, values, strict=True)
     ]
-    if joined:
+    if is_joined:
         plot.add_line(times, [one.value for one in values], "text", 1.6)
-    pen = pg.mkPen(plot.look.color("text"), width=1.6 * plot.look.unit)
-    symbol, size = ("d", 12.0) if values and values[0].way == "passive" else ("s", 9.0)
+    pen = pg.mkPen(plot.plot_style.color("text"), width=1.6 * plot.plot_style.unit)
+    symbol, size = ("d", 12.0) if values and values[0].mode == "passive" else ("s", 9.0)
     shown = [at for time, at in zip(times, places, strict=True) if start <= time <= end]
     out = [chart.add_symbols(symbol, size, pen, "surface", shown)]
     for edge, sign, beyond in (
@@ -60,40 +60,41 @@ def add_by_hand(
     return out
 
 
-def scale_of(measure: HandMeasure, values: Sequence[float]) -> Scale:
+def manual_value_scale(measure: ManualMeasure, values: Sequence[float]) -> Scale:
     """From zero, or below it where something is, to the next round number above all there is."""
-    top = max([*values, 0.5 * measure.usual[1] if measure.kind == "score" else 0.0, 1e-6])
+    top = max([*values, 0.5 * measure.usual_range[1] if measure.kind == "score" else 0.0, 1e-6])
     steps = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)
     step = next((one for one in steps if top / one <= 4.0), 500.0)
     low = step * math.floor(min([*values, 0.0]) / step)
     high = step * math.ceil(top / step + 1e-9)
     ticks = tuple(np.arange(low, high + step / 2, step).tolist())
-    return Scale(low, high, ticks, tuple((tick, value_words(measure, tick)) for tick in ticks), strong_ends=False)
+    return Scale(low, high, ticks, tuple((tick, value_words(measure, tick)) for tick in ticks), bold_ends=False)
 
 
-class HandValueChart(Chart):
+class ManualValueChart(Chart):
     """Title, axis, squares, dots and what they mean; nothing before it is shown a measure."""
 
-    usual_px, least_px = (400, 250), (260, 250)
+    default_px, min_px = (400, 250), (260, 250)
     is_card = False
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme)
-        self.measure: HandMeasure | None = None
+        self.measure: ManualMeasure | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         theme.changed.connect(self.updateGeometry)
 
     def sizeHint(self) -> QSize:
-        return QSize(self.usual_px[0], self._theme.px(self.usual_px[1]))
+        return QSize(self.default_px[0], self._theme.px(self.default_px[1]))
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(self.least_px[0], self.sizeHint().height())
+        return QSize(self.min_px[0], self.sizeHint().height())
 
-    def show_course(
-        self, measure: HandMeasure, values: Sequence[HandValue], ours: Sequence[tuple[datetime, float]]
+    def show_values(
+        self, measure: ManualMeasure, values: Sequence[ManualValue], carpus_values: Sequence[tuple[datetime, float]]
     ) -> None:
-        """``values`` as entered, each way for itself; ``ours`` what Carpus measured of the same, by session."""
-        self.measure, self._values, self._ours = measure, values, ours
+        """``values`` as entered, each way for itself; ``carpus_values`` what Carpus measured of the same, by
+        session."""
+        self.measure, self._values, self._carpus_values = measure, values, carpus_values
         self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
         self.refresh()
 
@@ -101,29 +102,29 @@ class HandValueChart(Chart):
         measure = self.measure
         if measure is None:
             return
-        values, ours, look, box = self._values, self._ours, self.look, self.area
-        unit, metrics = look.unit, QFontMetricsF(look.end_label)
-        face = font(look.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
+        values, ours, look, box = self._values, self._carpus_values, self.plot_style, self.area
+        unit, metrics = look.unit, QFontMetricsF(look.end_label_font)
+        face = font(look.end_label_font.pixelSize() * 1.25, SEMIBOLD, display=False)
         title = QFontMetricsF(face).height()
-        self.text(measure_name(measure), face).setPos(box.left(), box.top())
-        passive = [one for one in values if one.way == "passive"]
-        active = [one for one in values if one.way != "passive"]
+        self.add_text(measure_name(measure), face).setPos(box.left(), box.top())
+        passive = [one for one in values if one.mode == "passive"]
+        active = [one for one in values if one.mode != "passive"]
         when = [one for one, _ in ours]
-        times = [day_s(one.day, when) for one in values] + [one.timestamp() for one in when]
+        times = [day_timestamp(one.day, when) for one in values] + [one.timestamp() for one in when]
         if not times:
-            words = self.text(self.tr("Nothing measured by hand yet."), look.end_label, "text2")
+            words = self.add_text(self.tr("Nothing measured by hand yet."), look.end_label_font, "text2")
             words.setPos(box.left(), box.top() + 1.4 * title)
             return
-        key = [("s", self.tr("by hand, active") if len(measure.ways) > 1 else self.tr("by hand"), "text")]
+        key = [("s", self.tr("by hand, active") if len(measure.modes) > 1 else self.tr("by hand"), "text")]
         key += [("d", self.tr("by hand, passive"), "text")] if passive else []
         key += [("O", self.tr("Carpus, mean"), "curve_a")] if ours else []
         pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
-        scale = scale_of(measure, [one.value for one in values] + [value for _, value in ours])
+        scale = manual_value_scale(measure, [one.value for one in values] + [value for _, value in ours])
         left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 14 * unit
         right = metrics.horizontalAdvance(self.tr("passive {value}").format(value="100°")) + 20 * unit
         area = QRectF(
             box.left() + left, box.top() + title + 12 * unit, box.width() - left - right,
-            box.height() - title - (1 + len(self.key_lines(key, box.width()))) * metrics.height() - 34 * unit,
+            box.height() - title - (1 + len(self.legend_lines(key, box.width()))) * metrics.height() - 34 * unit,
         )  # fmt: skip
         plot = self.add_plot(Panel(area, scale, min(times) - pad, max(times) + pad))
         plot.add_grid()
@@ -131,19 +132,21 @@ class HandValueChart(Chart):
         beside = []
         if ours:
             plot.add_line([one.timestamp() for one in when], [value for _, value in ours], "curve_a")
-            at = [plot.panel.at(one.timestamp(), value) for one, value in ours]
+            at = [plot.panel.point(one.timestamp(), value) for one, value in ours]
             self.add_symbols("o", 8.0, pg.mkPen(look.color("curve_a"), width=look.line_width), "curve_a", at)
             said = self.tr("Carpus {value}").format(value=value_words(measure, ours[-1][1]))
             beside.append((ours[-1][1], said, "curve_a"))
         for some in (passive, active):
-            add_by_hand(plot, some, sessions=when, joined=not ours)
+            add_manual_values(plot, some, sessions=when, is_joined=not ours)
             if some:
                 pattern = {"passive": self.tr("passive {value}"), "active": self.tr("active {value}")}.get(
-                    some[-1].way, "{value}"
+                    some[-1].mode, "{value}"
                 )
                 said = pattern.format(value=value_words(measure, some[-1].value))
                 beside.append((some[-1].value, said, "text"))
         self.add_end_labels(plot, beside)
         days = sorted({one.day for one in values} | {one.date() for one in when})
-        self.add_axis(plot, "bottom", date_labels([(day_s(day), numbers.day_month(day)) for day in days]), 6)
-        self.add_key(key, box)
+        self.add_axis(
+            plot, "bottom", date_labels([(day_timestamp(day), numbers.format_day_month(day)) for day in days]), 6
+        )
+        self.add_legend(key, box)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
 from carpus.ui.plot.style import paper_style
-from carpus.ui.saved_table import save_private, table_bytes
+from carpus.ui.saved_table import encode_table, save_private
 from carpus.ui.theme import LIGHT
 
 if TYPE_CHECKING:
@@ -26,37 +26,37 @@ MARGIN_PT = 8.0
 POINTS_PER_MM = 72.0 / 25.4
 
 
-def _size_pt(plot: Chart) -> tuple[float, float]:
+def _size_pt(chart: Chart) -> tuple[float, float]:
     width_pt = WIDTH_MM * POINTS_PER_MM
-    return width_pt, width_pt * min(max(plot.height() / max(plot.width(), 1), 0.4), 1.4)
+    return width_pt, width_pt * min(max(chart.height() / max(chart.width(), 1), 0.4), 1.4)
 
 
-def _paint(painter: QPainter, plot: Chart, point: float) -> None:
+def _paint(painter: QPainter, chart: Chart, point: float) -> None:
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    width_pt, height_pt = _size_pt(plot)
+    width_pt, height_pt = _size_pt(chart)
     margin = MARGIN_PT * point
     box = QRectF(0.0, 0.0, width_pt * point, height_pt * point)
-    plot.render_on_paper(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
+    chart.render_on_paper(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
 
 
-def picture(plot: Chart) -> QImage:
+def render_image(chart: Chart) -> QImage:
     """170 mm wide at 300 dots to the inch."""
     point = DPI / 72.0
-    width_pt, height_pt = _size_pt(plot)
+    width_pt, height_pt = _size_pt(chart)
     image = QImage(round(width_pt * point), round(height_pt * point), QImage.Format.Format_RGB32)
     image.setDotsPerMeterX(round(DPI / 0.0254))
     image.setDotsPerMeterY(round(DPI / 0.0254))
     image.fill(QColor(LIGHT.surface))
     painter = QPainter(image)
-    _paint(painter, plot, point)
+    _paint(painter, chart, point)
     painter.end()
     return image
 
 
-def drawing(plot: Chart) -> bytes:
+def render_svg(chart: Chart) -> bytes:
     """The same as lines and letters."""
     point = SVG_UNITS_PER_POINT
-    width_pt, height_pt = _size_pt(plot)
+    width_pt, height_pt = _size_pt(chart)
     store = QByteArray()
     buffer = QBuffer(store)
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
@@ -66,23 +66,23 @@ def drawing(plot: Chart) -> bytes:
     generator.setSize(QSize(round(width_pt * point), round(height_pt * point)))
     generator.setViewBox(QRectF(0.0, 0.0, width_pt * point, height_pt * point))
     painter = QPainter(generator)
-    _paint(painter, plot, point)
+    _paint(painter, chart, point)
     painter.end()
     buffer.close()
     return bytes(store.data())
 
 
-def save(plot: Chart, table: Callable[[], Table], path: Path) -> None:
+def save_chart(chart: Chart, table: Callable[[], Table], path: Path) -> None:
     """Write the plot, or its values as a table, as the name ends. Raises :class:`OutputNotWritable`."""
     kind = path.suffix.lower()
     if kind == ".svg":
-        content = drawing(plot)
+        content = render_svg(chart)
     elif kind == ".csv":
-        content = table_bytes(*table())
+        content = encode_table(*table())
     else:
         store = QByteArray()
         buffer = QBuffer(store)
         buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-        picture(plot).save(buffer, "PNG")  # type: ignore[call-overload]
+        render_image(chart).save(buffer, "PNG")  # type: ignore[call-overload]
         content = bytes(store.data())
     save_private(path, content)

@@ -9,16 +9,25 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen
 
 from carpus.ui import numbers
-from carpus.ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name, side_word, spread_labels
+from carpus.ui.figures import (
+    ANGLE_KINDS,
+    FINGER_ANGLES,
+    FINGERS,
+    AngleKind,
+    FingerAngle,
+    kind_name,
+    spread_labels,
+    spread_side,
+)
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import paint_state
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.chart import Chart, Layer, scale_labels
-from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.series import Curve, Drawing
-from carpus.ui.plot.style import screen_style, write
+from carpus.ui.plot.chart import Chart, PaintedLayer, scale_labels
+from carpus.ui.plot.history import VISIBLE_S, History
+from carpus.ui.plot.series import Curve, CurveDrawing
+from carpus.ui.plot.style import draw_text, screen_style
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
@@ -26,63 +35,63 @@ LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
 BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))
 SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ())
 BENDING_TOP_DEG_S, SPREADING_TOP_DEG_S = 400.0, 200.0
-BENDING_ROWS: tuple[Row, ...] = ("end", "middle", "knuckle")
-LEAST_TEXT_PX = 11
-SPREADING_ROWS: tuple[Row, ...] = ("spread",)
-ROOMY_FROM_PX, SPREADS_FROM_PX = 290, 160
+BENDING_ROWS: tuple[AngleKind, ...] = ("end", "middle", "knuckle")
+MIN_TEXT_PX = 11
+SPREADING_ROWS: tuple[AngleKind, ...] = ("spread",)
+MIN_HEIGHT_WITH_VALUES_PX, MIN_HEIGHT_WITH_SPREADING_PX = 290, 160
 WEAK_SD_DEG = 10.0
 """From this spread on a figure is marked as weak."""
-_NUMBER_OF = {figure: number for number, figure in enumerate(FIGURES)}
+_ANGLE_INDEX = {figure: number for number, figure in enumerate(FINGER_ANGLES)}
 
 
 class FingerCurves(Chart):
-    """Shows the fingers of a :class:`History`; ``chosen`` tells that a figure was clicked."""
+    """Shows the fingers of a :class:`History`; ``angle_chosen`` tells that a figure was clicked."""
 
-    usual_px = (776, 396)
+    default_px = (776, 396)
 
-    chosen = Signal(Figure)
+    angle_chosen = Signal(FingerAngle)
 
     def __init__(self, theme: Theme, history: History) -> None:
         super().__init__(theme)
         self._history = history
-        self._figure = Figure(3, "middle")
+        self._angle = FingerAngle(3, "middle")
         self._target_deg = math.nan
-        self._waiting = False
+        self._is_waiting = False
         self._speeds = False
-        self._cells: Layer | None = None
-        self._values: dict[Figure, tuple[float, float, bool]] = {}
-        self.scene().sigMouseClicked.connect(lambda click: self.choose_at(click.scenePos()))
+        self._cells: PaintedLayer | None = None
+        self._values: dict[FingerAngle, tuple[float, float, bool]] = {}
+        self.scene().sigMouseClicked.connect(lambda click: self.select_angle(click.scenePos()))
         self.setAccessibleName(self.tr("Joint angles of the last ten seconds, by finger"))
 
-    def set_figure(self, figure: Figure, target_deg: float) -> None:
-        self._figure, self._target_deg = figure, target_deg
+    def set_angle(self, angle: FingerAngle, target_deg: float) -> None:
+        self._angle, self._target_deg = angle, target_deg
         self.refresh()
 
-    def set_waiting(self, waiting: bool) -> None:
+    def set_waiting(self, is_waiting: bool) -> None:
         """Whether no pictures come: then no figure is shown as if it were now."""
-        self._waiting = waiting
-        self._refresh()
+        self._is_waiting = is_waiting
+        self._update_cells()
 
     def show_speeds(self, on: bool) -> None:
         if on != self._speeds:
             self._speeds = on
             self.refresh()
 
-    def refresh_values(self) -> None:
+    def update_values(self) -> None:
         """Take the figures below the curves anew; called at most ten times a second."""
-        self._values = {figure: self._history.figure_value(k) for k, figure in enumerate(FIGURES)}
-        self._refresh()
+        self._values = {figure: self._history.angle_value(k) for k, figure in enumerate(FINGER_ANGLES)}
+        self._update_cells()
 
-    def _refresh(self) -> None:
+    def _update_cells(self) -> None:
         if self._cells is not None:
             self._cells.update()
 
     def minimumSizeHint(self) -> QSize:
         return QSize(560, 165 if self._theme.text_scale > 1.0 else 220)  # the number above it gives way no further
 
-    def _spreads(self) -> bool:
+    def _has_spreading(self) -> bool:
         """Whether there is room for the spreading; the bending stays."""
-        return bool(self.height() >= SPREADS_FROM_PX * self._theme.text_scale)
+        return bool(self.height() >= MIN_HEIGHT_WITH_SPREADING_PX * self._theme.text_scale)
 
     # --- places -------------------------------------------------------------------------------------------
     def column(self, finger: int) -> QRectF:
@@ -91,28 +100,29 @@ class FingerCurves(Chart):
         step = (right - left + BETWEEN_PX) / len(FINGERS)
         return QRectF(left + (finger - 1) * step, 8, step - BETWEEN_PX, self.height() - 16)
 
-    def rows_top(self) -> float:
+    def values_top(self) -> float:
         """Where the figures begin; without room for both, the curves stay."""
-        return float(self.height()) - 8 - len(self._rows()) * ROW_PX * self._theme.text_scale
+        return float(self.height()) - 8 - len(self._visible_kinds()) * ROW_PX * self._theme.text_scale
 
-    def _rows(self) -> tuple[Row, ...]:
-        return ROWS if self.height() >= ROOMY_FROM_PX * self._theme.text_scale else ()
+    def _visible_kinds(self) -> tuple[AngleKind, ...]:
+        return ANGLE_KINDS if self.height() >= MIN_HEIGHT_WITH_VALUES_PX * self._theme.text_scale else ()
 
     def panels(self, finger: int) -> tuple[Panel, Panel]:
         """Bending and spreading of a finger; time ends at now."""
         scale, column = self._theme.text_scale, self.column(finger)
         top = TOP_PX * scale
-        room, between = self.rows_top() - 12 - top, 22 * scale
-        if self._spreads():
+        room, between = self.values_top() - 12 - top, 22 * scale
+        if self._has_spreading():
             high = 0.62 * (room - between)
         else:  # the one that is large has all the room
-            between, high = 0.0, 0.0 if self._figure.row == "spread" else room
+            between, high = 0.0, 0.0 if self._angle.kind == "spread" else room
         boxes = (
             QRectF(column.left(), top, column.width(), high),
             QRectF(column.left(), top + high + between, column.width(), room - high - between),
         )
         bending, spreading = (
-            Panel(axes.crisp(box), own, -SHOWN_S, 0.0) for box, own in zip(boxes, self._scales(), strict=True)
+            Panel(axes.align_to_pixels(box), own, -VISIBLE_S, 0.0)
+            for box, own in zip(boxes, self._scales(), strict=True)
         )
         return bending, spreading
 
@@ -120,23 +130,23 @@ class FingerCurves(Chart):
         if not self._speeds:
             return BENDING, replace(SPREADING, labels=spread_labels(20.0))
         return (
-            axes.rising_scale(BENDING_TOP_DEG_S, 200.0, "°/s", ""),
-            axes.rising_scale(SPREADING_TOP_DEG_S, 100.0, "°/s", ""),
+            axes.positive_scale(BENDING_TOP_DEG_S, 200.0, "°/s", ""),
+            axes.positive_scale(SPREADING_TOP_DEG_S, 100.0, "°/s", ""),
         )
 
-    def cell(self, figure: Figure) -> QRectF:
-        column, height = self.column(figure.finger), ROW_PX * self._theme.text_scale
-        return QRectF(column.left(), self.rows_top() + ROWS.index(figure.row) * height, column.width(), height)
+    def cell(self, angle: FingerAngle) -> QRectF:
+        column, height = self.column(angle.finger), ROW_PX * self._theme.text_scale
+        return QRectF(column.left(), self.values_top() + ANGLE_KINDS.index(angle.kind) * height, column.width(), height)
 
-    def choose_at(self, at: QPointF) -> None:
+    def select_angle(self, position: QPointF) -> None:
         """A click: on a number that figure, elsewhere on a finger the same angle of it."""
-        for figure in FIGURES:
-            if figure.row in self._rows() and self.cell(figure).contains(at):
-                self.chosen.emit(figure)
+        for figure in FINGER_ANGLES:
+            if figure.kind in self._visible_kinds() and self.cell(figure).contains(position):
+                self.angle_chosen.emit(figure)
                 return
         for finger in FINGERS:
-            if self.column(finger).contains(at):
-                self.chosen.emit(Figure(finger, self._figure.row))
+            if self.column(finger).contains(position):
+                self.angle_chosen.emit(FingerAngle(finger, self._angle.kind))
 
     # --- what is in it --------------------------------------------------------------------------------------
     def build(self) -> None:
@@ -149,83 +159,83 @@ class FingerCurves(Chart):
                 own.add_grid()
                 if finger == 1:
                     self.add_axis(own, "left", scale_labels(panel), 12)
-                is_chosen = finger == self._figure.finger and (self._figure.row == "spread") == (rows == SPREADING_ROWS)
+                is_chosen = finger == self._angle.finger and (self._angle.kind == "spread") == (rows == SPREADING_ROWS)
                 if is_chosen and self._has_target():
-                    own.add_level(self._target_deg, "accent", (6.0, 4.0))
-                self._curves.append((own.add_curves(kept=False), [Figure(finger, row) for row in rows]))
-        area = QRectF(0.0, self.rows_top(), self.width(), self.height() - self.rows_top() - 1)
-        self._cells = Layer(self, area, self._paint_figures)
+                    own.add_horizontal_line(self._target_deg, "accent", (6.0, 4.0))
+                self._curves.append((own.add_curves(is_cached=False), [FingerAngle(finger, row) for row in rows]))
+        area = QRectF(0.0, self.values_top(), self.width(), self.height() - self.values_top() - 1)
+        self._cells = PaintedLayer(self, area, self._paint_values)
         self.draw()
 
     def draw(self) -> None:
         """What moves has changed; what all curves cost in Python is paid once."""
         if not self.plots or not self.isVisible():
             return
-        block = self._history.block(speeds=self._speeds)
+        block = self._history.angle_block(speeds=self._speeds)
         placed = [
-            (curves.plot.local_panel, [Curve(block.series(_NUMBER_OF[one]), one.token) for one in figures])
+            (curves.plot.local_panel, [Curve(block.series(_ANGLE_INDEX[one]), one.token) for one in figures])
             for curves, figures in self._curves
         ]
-        drawing = Drawing(self.look, placed)
+        drawing = CurveDrawing(self.plot_style, placed)
         for number, (curves, _) in enumerate(self._curves):
-            curves.show_drawn(lambda _, number=number: (drawing, number))  # type: ignore[misc]
+            curves.show_drawn(lambda _, number=number: (drawing, number))
 
-    def _paint_figures(self, painter: QPainter) -> None:
+    def _paint_values(self, painter: QPainter) -> None:
         """The numbers below the curves; they change ten times a second at most."""
         scale = self._theme.text_scale
-        number, words = _Face.of(font(16 * scale, SEMIBOLD)), _Face.of(font(12 * scale, MEDIUM))
-        shown_rows = self._rows()
-        for figure in FIGURES:
-            if figure.row in shown_rows:
-                self._paint_figure(painter, figure, number, words)
+        number, words = _Face.from_font(font(16 * scale, SEMIBOLD)), _Face.from_font(font(12 * scale, MEDIUM))
+        shown_rows = self._visible_kinds()
+        for figure in FINGER_ANGLES:
+            if figure.kind in shown_rows:
+                self._paint_value(painter, figure, number, words)
 
-    def _paint_figure(self, painter: QPainter, figure: Figure, number: _Face, words: _Face) -> None:
-        theme, cell = self._theme, self.cell(figure)
-        value, sd, measured = self._values.get(figure, (math.nan, math.nan, False))
-        is_known = math.isfinite(value) and not self._waiting
-        inferred = self._history.inferred(_NUMBER_OF[figure])
+    def _paint_value(self, painter: QPainter, angle: FingerAngle, number: _Face, words: _Face) -> None:
+        theme, cell = self._theme, self.cell(angle)
+        value, sd, measured = self._values.get(angle, (math.nan, math.nan, False))
+        is_known = math.isfinite(value) and not self._is_waiting
+        inferred = self._history.is_inferred(_ANGLE_INDEX[angle])
         predicted = inferred or not measured
         middle = cell.center().y()
         if is_known:
-            self._paint_line(painter, figure, cell, predicted=predicted)
+            self._paint_line(painter, angle, cell, predicted=predicted)
         left, baseline = cell.left() + 18, middle + number.metrics.capHeight() / 2
-        text = numbers.degrees(value if is_known else math.nan)
-        write(painter, QPointF(left, baseline), text, number.font, theme.color("text2" if predicted else "text"))
+        text = numbers.format_degrees(value if is_known else math.nan)
+        draw_text(painter, QPointF(left, baseline), text, number.font, theme.color("text2" if predicted else "text"))
         if not is_known:
             return
         left += number.metrics.horizontalAdvance(text) + 4
         wide_px = words.metrics.horizontalAdvance
-        beside = numbers.spread(sd)
+        beside = numbers.format_sd(sd)
         if inferred and beside:
             beside = self.tr("follows the middle joint")
             if wide_px(beside) > cell.right() - left:
                 beside = self.tr("follows")
-        if name := cell_word(figure, value):
+        if name := angle_suffix(angle, value):
             both = f"{beside} {name}"
             # What an angle is goes before how sure it is.
             beside = both if wide_px(both) < cell.right() - left - 18 else name
-        write(painter, QPointF(left, baseline), beside, words.font, theme.color("text2"))
+        draw_text(painter, QPointF(left, baseline), beside, words.font, theme.color("text2"))
         left += wide_px(beside) + 5
         if not inferred and sd >= WEAK_SD_DEG and left + 13 < cell.right():
             box = QRectF(left, middle - 6.5, 13, 13)  # a triangle: the half disc is that of a marker seen now and then
             paint_state(painter, "warn", box, theme.color("warn"), theme.color("surface"))
 
-    def _paint_line(self, painter: QPainter, figure: Figure, cell: QRectF, *, predicted: bool) -> None:
+    def _paint_line(self, painter: QPainter, angle: FingerAngle, cell: QRectF, *, predicted: bool) -> None:
         """The key to the curve: its colour, solid or dashed on hatching."""
-        pen = QPen(self._theme.color(figure.token), 3)
+        pen = QPen(self._theme.color(angle.token), 3)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         if predicted:
-            axes.hatch(painter, screen_style(self._theme), cell.adjusted(14, 3, 0, -3), alpha=70)
+            axes.draw_hatching(painter, screen_style(self._theme), cell.adjusted(14, 3, 0, -3), alpha=70)
             pen.setDashPattern([1.4, 1.0])
         painter.setPen(pen)
         middle = cell.center().y()
         painter.drawLine(QPointF(cell.left(), middle), QPointF(cell.left() + 11, middle))
 
-    def paint_ground(self, painter: QPainter) -> None:
+    def paint_background(self, painter: QPainter) -> None:
         theme, scale = self._theme, self._theme.text_scale
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color("soft"))
-        painter.drawRoundedRect(self.column(self._figure.finger).adjusted(-6, 0, 6, 0), 8, 8)
+        painter.drawRoundedRect(self.column(self._angle.finger).adjusted(-6, 0, 6, 0), 8, 8)
         style = screen_style(theme)
         self._text(painter, self.tr("Last 10 s"), 20, 17 * scale, 12, REGULAR, "text2")
         for finger in FINGERS:
@@ -238,22 +248,22 @@ class FingerCurves(Chart):
         bending, spreading = self.panels(1)
         room_px = self.column(1).left() - 28
         if bending.box.height() > 0.0:
-            labels_px = max(QFontMetricsF(style.label).horizontalAdvance(text) for _, text in bending.scale.labels)
+            labels_px = max(QFontMetricsF(style.label_font).horizontalAdvance(text) for _, text in bending.scale.labels)
             top = bending.box.top() - 4 * scale
             self._text(painter, self.tr("Bending"), 20, top, 14, MEDIUM, "text", room_px - labels_px)
         if spreading.box.height() > 0.0:
-            above = 17 if self._spreads() else 4
+            above = 17 if self._has_spreading() else 4
             self._text(
                 painter, self.tr("Spreading"), 20, spreading.box.top() - above * scale, 14, MEDIUM, "text", room_px
             )
-        for number, row in enumerate(self._rows()):
-            top = self.rows_top() + number * ROW_PX * scale
+        for number, row in enumerate(self._visible_kinds()):
+            top = self.values_top() + number * ROW_PX * scale
             painter.setPen(QPen(theme.color("line"), 1))
             painter.drawLine(QPointF(20, round(top) + 0.5), QPointF(self.width() - 14, round(top) + 0.5))
-            self._text(painter, row_name(row), 20, top + 7 * scale, 14, REGULAR, "text", room_px)
+            self._text(painter, kind_name(row), 20, top + 7 * scale, 14, REGULAR, "text", room_px)
 
     def _has_target(self) -> bool:
-        return math.isfinite(self._target_deg) and self._figure.row != "tam" and not self._speeds
+        return math.isfinite(self._target_deg) and self._angle.kind != "tam" and not self._speeds
 
     def _text(
         self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str,
@@ -261,9 +271,9 @@ class FingerCurves(Chart):
     ) -> None:  # fmt: skip
         """Smaller where a language has a long word for it, down to what can be read."""
         wide_px = QFontMetricsF(font(size * self._theme.text_scale, weight)).horizontalAdvance(text)
-        shown = max(LEAST_TEXT_PX, size * min(1.0, room_px / max(wide_px, 1.0)))
+        shown = max(MIN_TEXT_PX, size * min(1.0, room_px / max(wide_px, 1.0)))
         face = font(shown * self._theme.text_scale, weight)
-        write(painter, QPointF(left, top + QFontMetricsF(face).ascent()), text, face, self._theme.color(token))
+        draw_text(painter, QPointF(left, top + QFontMetricsF(face).ascent()), text, face, self._theme.color(token))
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,12 +284,12 @@ class _Face:
     metrics: QFontMetricsF
 
     @staticmethod
-    def of(face: QFont) -> _Face:
+    def from_font(face: QFont) -> _Face:
         return _Face(face, QFontMetricsF(face))
 
 
-def cell_word(figure: Figure, value_deg: float) -> str:
+def angle_suffix(angle: FingerAngle, value_deg: float) -> str:
     """What the row's name does not say: that the thumb's is its lift, and to which side a finger is spread."""
-    if figure.is_lift:
+    if angle.is_palmar_abduction:
         return tr("lift")
-    return side_word(value_deg, figure.finger) if figure.row == "spread" else ""
+    return spread_side(value_deg, angle.finger) if angle.kind == "spread" else ""

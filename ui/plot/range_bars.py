@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPen
 
-from carpus.core.hand.exercises import AXIS_TICK_DEG, PRONOSUPINATION, SIDES, Exercise
-from carpus.core.hand.forearm_rotation import is_from_thumb_up
+from carpus.core.hand.exercises import AXIS_TICK_DEG, DIRECTIONS, PRONOSUPINATION, Exercise
+from carpus.core.hand.forearm_rotation import is_counted_from_thumb_up
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.norms import wrist_norm
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 from carpus.ui import numbers, terms
-from carpus.ui.plot.style import PlotStyle, write
+from carpus.ui.plot.style import PlotStyle, draw_text
 from carpus.ui.theme import CURVE_TOKENS
 from carpus.ui.translate import tr
 
@@ -32,28 +32,28 @@ class RangeBar:
     """One session's range in an angle."""
 
     name: str
-    figures: SessionFigures
+    results: SessionResults
     angle: int
     thickness_px: float
     token: str
 
 
 def range_bars(
-    figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None
+    results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None
 ) -> list[RangeBar]:
     """A bar for each angle of the exercise; where that is one, last time's and the other hand's below it."""
-    if figures.exercise.angle is None:
+    if results.exercise.angle is None:
         names = {1: tr("Today bending"), 0: tr("Today side"), 2: tr("Today turning")}
-        bars = [RangeBar(name, figures, angle, 10.7, CURVE_TOKENS[angle]) for angle, name in names.items()]
+        bars = [RangeBar(name, results, angle, 10.7, CURVE_TOKENS[angle]) for angle, name in names.items()]
     else:
-        angle = figures.exercise.angle
-        bars = [RangeBar(tr("Today"), figures, angle, 10.7, CURVE_TOKENS[angle])]
+        angle = results.exercise.angle
+        bars = [RangeBar(tr("Today"), results, angle, 10.7, CURVE_TOKENS[angle])]
         if previous is not None:
-            day = numbers.day_beside(previous.when, figures.when)
+            day = numbers.format_distinct_day(previous.when, results.when)
             bars.append(RangeBar(day, previous, angle, 8.0, "border"))
-        if other is not None:
-            bars.append(RangeBar(terms.hand_name(other.side), other, angle, 4.0, "text2"))
-    return [bar for bar in bars if any(row.angle == bar.angle for row in bar.figures.wrist_ranges)]
+        if other_hand is not None:
+            bars.append(RangeBar(terms.hand_name(other_hand.side), other_hand, angle, 4.0, "text2"))
+    return [bar for bar in bars if any(row.wrist_angle == bar.angle for row in bar.results.wrist_ranges)]
 
 
 def paint_range_bars(
@@ -68,7 +68,7 @@ def paint_range_bars(
         return area.center().x() + max(-1.0, min(1.0, value_deg / end_deg)) * 0.5 * area.width()
 
     angle = bars[0].angle
-    upper, lower = SIDES[angle]
+    upper, lower = DIRECTIONS[angle]
     norms = {name: wrist_norm(name, angle, exercise) for name in (upper, lower)}
     for name, sign in ((upper, 1.0), (lower, -1.0)):
         if (norm := norms[name]) is not None:
@@ -80,33 +80,35 @@ def paint_range_bars(
         painter.setPen(QPen(style.color("line" if k else "border"), style.grid_width))
         painter.drawLine(QLineF(at, area.top(), at, area.bottom()))
         label = QRectF(at - 40 * px, area.bottom() + 3 * px, 80 * px, 16 * px)
-        write(painter, label, f"{written(abs(k) * end_deg / 4)}°", style.label, style.color("text2"), _CENTER)
+        draw_text(
+            painter, label, f"{format_rounded(abs(k) * end_deg / 4)}°", style.label_font, style.color("text2"), _CENTER
+        )
     for place, bar in enumerate(bars):
         middle = area.top() + (place + 0.5) * area.height() / len(bars)
         name_box = QRectF(box.left(), middle - 10 * px, 100 * px, 20 * px)
-        write(painter, name_box, bar.name, style.end_label, style.color("text"))
+        draw_text(painter, name_box, bar.name, style.end_label_font, style.color("text"))
         _paint_bar(painter, style, bar, middle, x)
     if exercise.angle is None:
         return
     foot = QRectF(area.left(), area.bottom() + 20 * px, area.width(), 16 * px)
-    write(painter, foot, terms.movement_name(lower), style.label, style.color("text2"), _LEFT)
-    write(painter, foot, terms.movement_name(upper), style.label, style.color("text2"), _RIGHT)
+    draw_text(painter, foot, terms.movement_name(lower), style.label_font, style.color("text2"), _LEFT)
+    draw_text(painter, foot, terms.movement_name(upper), style.label_font, style.color("text2"), _RIGHT)
     if norms[upper] is not None:
         words = tr("grey: usual in adults (AMA, AAOS)")
-        write(painter, foot, words, style.label, style.color("text2"), _CENTER)
+        draw_text(painter, foot, words, style.label_font, style.color("text2"), _CENTER)
 
 
 def _end_deg(exercise: Exercise, bars: Sequence[RangeBar]) -> float:
     """The end of the axis; a forearm goes beyond 90 degrees of pronation."""
     angles = {bar.angle for bar in bars}
-    if PRONOSUPINATION in angles and is_from_thumb_up(exercise):
+    if PRONOSUPINATION in angles and is_counted_from_thumb_up(exercise):
         return 120.0
     return 80.0 if exercise.angle is None else AXIS_TICK_DEG[exercise.angle]
 
 
 def _paint_bar(painter: QPainter, style: PlotStyle, bar: RangeBar, middle: float, x) -> None:  # type: ignore[no-untyped-def]
     px = style.unit
-    upper, lower = (bar.figures.find(WRIST_ANGLES[bar.angle], movement) for movement in SIDES[bar.angle])
+    upper, lower = (bar.results.find(WRIST_ANGLES[bar.angle], movement) for movement in DIRECTIONS[bar.angle])
     high, low = upper.mean if upper else 0.0, -lower.mean if lower else 0.0
     box = QRectF(
         QPointF(x(low), middle - 0.5 * bar.thickness_px * px), QPointF(x(high), middle + 0.5 * bar.thickness_px * px)

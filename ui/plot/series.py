@@ -13,23 +13,23 @@ from pyqtgraph.functions import arrayToQPolygonF
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPaintEngine, QPainter, QPen, QPolygonF
 
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 from carpus.core.types import FloatArray
-from carpus.ui.plot.axes import Panel, hatch, x_px, y_px
+from carpus.ui.plot.axes import Panel, draw_hatching, x_px, y_px
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.theme import BAND_ALPHA
 
-LONGEST_STEP_S = 0.2
+MAX_STEP_S = 0.2
 """Neighbouring samples further apart than this are not joined: a gap stays a gap."""
-FRAMES_APART = 1.75
+MAX_STEP_FRAMES = 1.75
 """Nor are those of a recording of few frames a second, from so many frames apart."""
 
-PIECE = 256
+BAND_PIECE_POINTS = 256
 """Points of the pieces in which a band goes onto a picture of pixels."""
 DASH_PX = 4.0
 """Design pixels of a dash, and of what is left open after it, where a curve is level."""
-MOST_HALVINGS = 4
-LEAST_PX = 1e-6
+MAX_HALVINGS = 4
+MIN_DASH_PX = 1e-6
 """What rounding leaves of a dash at the end of a segment would be a blot as wide as the line."""
 
 _wrapped: Any = shiboken6.wrapInstance
@@ -46,11 +46,11 @@ class Series:
     value: FloatArray
     sd: FloatArray | None
     predicted: np.ndarray
-    longest_step_s: float = LONGEST_STEP_S
+    max_step_s: float = MAX_STEP_S
     start_s: float = 0.0
     """What times are counted from."""
 
-    def from_time(self, start_s: float) -> Series:
+    def shift_time(self, start_s: float) -> Series:
         """The same with times counted from ``start_s``."""
         return replace(self, time_s=self.time_s - start_s, start_s=start_s)
 
@@ -65,12 +65,12 @@ class Series:
         if len(self.time_s) == 0:
             return []
         times = np.concatenate(([self.time_s[0]], self.time_s[known], [self.time_s[-1]]))
-        return [(float(a), float(b)) for a, b in pairwise(times) if b - a > self.longest_step_s]
+        return [(float(a), float(b)) for a, b in pairwise(times) if b - a > self.max_step_s]
 
 
-def longest_step_s(time_s: FloatArray) -> float:
+def find_max_step_s(time_s: FloatArray) -> float:
     """How far apart two frames of a recording (N,) may lie so that nothing is missing between them."""
-    return max(LONGEST_STEP_S, FRAMES_APART * float(np.median(np.diff(time_s)))) if len(time_s) > 1 else LONGEST_STEP_S
+    return max(MAX_STEP_S, MAX_STEP_FRAMES * float(np.median(np.diff(time_s)))) if len(time_s) > 1 else MAX_STEP_S
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,9 +79,9 @@ class Curve:
 
     series: Series
     token: str
-    hatched: bool = True
+    is_hatched: bool = True
     """Where it is lost; else it stays open there."""
-    share: float = 1.0
+    width_factor: float = 1.0
     """Of the usual width of a line."""
 
 
@@ -93,11 +93,11 @@ def find_runs(flag: np.ndarray) -> list[tuple[int, int]]:
     return list(zip(edges[::2], edges[1::2], strict=True))
 
 
-class Drawing:
+class CurveDrawing:
     """The curves of some panels in painter units, one after the other: what they cost in Python is paid once for all.
 
     Segment k goes from sample k to the next: ``_joined`` (n - 1,) says which of them there are, ``_ends`` (n - 1, 4)
-    where; ``_dashes`` (m, 4) are the dashes of the segments ``_dash_of`` (m,).
+    where; ``_compute_dashes`` (m, 4) are the dashes of the segments ``_dash_of`` (m,).
     """
 
     def __init__(self, style: PlotStyle, placed: Sequence[tuple[Panel, Sequence[Curve]]]) -> None:
@@ -114,13 +114,13 @@ class Drawing:
         width = np.concatenate([np.zeros(len(one.value)) if one.sd is None else one.sd for one in many])
         width[~np.isfinite(width)] = 0.0
         known = np.isfinite(value)
-        longest_s = np.repeat([one.longest_step_s for one in many], sizes)
+        longest_s = np.repeat([one.max_step_s for one in many], sizes)
         self._joined = known[:-1] & known[1:] & (np.diff(time_s) <= longest_s[1:])
         self._joined[past[:-1] - 1] = False  # no curve goes on as the next
         panels = [panel for panel, own in zip(self._panels, self._curves, strict=True) for _ in own]
         across, down = (
             np.repeat(np.array(edges).T, sizes, axis=1)
-            for edges in ([panel.across() for panel in panels], [panel.down() for panel in panels])
+            for edges in ([panel.x_parameters() for panel in panels], [panel.y_parameters() for panel in panels])
         )
         self._x, y = x_px(time_s, *across), y_px(value, *down)
         self._upper, self._lower = y_px(value + width, *down), y_px(value - width, *down)
@@ -128,7 +128,7 @@ class Drawing:
         predicted = np.concatenate([one.predicted for one in many])[1:]
         self._solid, dashed = self._joined & ~predicted, np.flatnonzero(self._joined & predicted)
         from_px = x_px(np.repeat([-one.start_s for one in many], sizes), *across)[dashed]
-        self._dashes, of = _dashes(self._ends[dashed], from_px, DASH_PX * style.unit)
+        self._dashes, of = _compute_dashes(self._ends[dashed], from_px, DASH_PX * style.unit)
         self._dash_of = dashed[of]
 
     def paint(self, painter: QPainter, style: PlotStyle, number: int) -> list[QRectF]:
@@ -143,12 +143,12 @@ class Drawing:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         gaps: set[tuple[int, int]] = set()
         for curve, own in placed:
-            if curve.hatched and not self._joined[own].all():
+            if curve.is_hatched and not self._joined[own].all():
                 _paint_gaps(painter, style, panel, curve.series, gaps)
         self._paint_bands(painter, style, placed)
         self._paint_lines(painter, style, placed)
         for curve in curves:
-            _paint_beyond(painter, style, panel, curve, numbers)
+            _paint_out_of_range(painter, style, panel, curve, numbers)
         return numbers
 
     def _paint_bands(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
@@ -156,7 +156,7 @@ class Drawing:
         edge is translucent anyway."""
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        longest = PIECE if _on_pixels(painter) else len(self._x)
+        longest = BAND_PIECE_POINTS if _is_raster(painter) else len(self._x)
         for curve, own in placed:
             if curve.series.sd is None:
                 continue
@@ -175,10 +175,10 @@ class Drawing:
         pen = QPen(Qt.PenStyle.SolidLine)
         pen.setCapStyle(Qt.PenCapStyle.SquareCap)
         pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
-        on_pixels = _on_pixels(painter)
+        on_pixels = _is_raster(painter)
         for curve, own in placed:
             pen.setColor(style.color(curve.token))
-            pen.setWidthF(curve.share * style.line_width)
+            pen.setWidthF(curve.width_factor * style.line_width)
             painter.setPen(pen)
             dashes = self._dashes[slice(*np.searchsorted(self._dash_of, (own.start, own.stop)))]
             solid = self._solid[own]
@@ -195,23 +195,23 @@ class Drawing:
                 painter.drawLines(_wrapped(dashes.ctypes.data, QLineF), len(dashes))
 
 
-def _on_pixels(painter: QPainter) -> bool:
+def _is_raster(painter: QPainter) -> bool:
     return painter.paintEngine().type() == QPaintEngine.Type.Raster
 
 
-def _dashes(ends: FloatArray, from_px: FloatArray, dash: float) -> tuple[FloatArray, np.ndarray]:
+def _compute_dashes(ends: FloatArray, from_px: FloatArray, dash: float) -> tuple[FloatArray, np.ndarray]:
     """Every second of the stretches, counted from ``from_px`` (n,), that are ``dash`` wide, or a half, a quarter ... of
     it where a segment of ``ends`` (n, 4) is steep: both ends of each (m, 4), and the segment (m,) that it is of."""
     x0, y0, x1, y1 = ends.T
     steep = (y1 - y0) / np.maximum(x1 - x0, 1e-9)
-    width = dash / 2.0 ** np.clip(np.round(0.5 * np.log2(1.0 + steep**2)), 0, MOST_HALVINGS)
+    width = dash / 2.0 ** np.clip(np.round(0.5 * np.log2(1.0 + steep**2)), 0, MAX_HALVINGS)
     first = np.floor((x0 - from_px) / width)
     many = np.maximum(np.ceil((x1 - from_px) / width) - first, 0.0).astype(np.int64)
     of = np.repeat(np.arange(len(ends)), many)
     cell = first[of] + np.arange(len(of)) - np.repeat(np.cumsum(many) - many, many)
     left = np.maximum(from_px[of] + cell * width[of], x0[of])
     right = np.minimum(from_px[of] + (cell + 1) * width[of], x1[of])
-    shown = (cell % 2 == 0) & (right - left > LEAST_PX)
+    shown = (cell % 2 == 0) & (right - left > MIN_DASH_PX)
     of, left, right = of[shown], left[shown], right[shown]
     down = steep[of]
     return np.array((left, y0[of] + down * (left - x0[of]), right, y0[of] + down * (right - x0[of]))).T, of
@@ -227,10 +227,12 @@ def _paint_gaps(
         pixels = round(left / style.unit), round(right / style.unit)
         if right - left > 2 * style.unit and pixels not in hatched:
             hatched.add(pixels)
-            hatch(painter, style, QRectF(left, panel.box.top(), right - left, panel.box.height()))
+            draw_hatching(painter, style, QRectF(left, panel.box.top(), right - left, panel.box.height()))
 
 
-def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, curve: Curve, numbered: list[QRectF]) -> None:
+def _paint_out_of_range(
+    painter: QPainter, style: PlotStyle, panel: Panel, curve: Curve, numbered: list[QRectF]
+) -> None:
     """Each measured excursion past the scale: an arrow at the edge with the extreme value."""
     series, color = curve.series, style.color(curve.token)
     low, high = float(np.fmin.reduce(series.value)), float(np.fmax.reduce(series.value))
@@ -252,11 +254,11 @@ def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, curve: Curv
             painter.drawPolygon(
                 QPolygonF([QPointF(x, edge), QPointF(x - half, edge + inward), QPointF(x + half, edge + inward)])
             )
-            painter.setFont(style.end_label)
+            painter.setFont(style.end_label_font)
             painter.setPen(color)
-            metrics = QFontMetricsF(style.end_label)
+            metrics = QFontMetricsF(style.end_label_font)
             baseline = edge + inward + (metrics.ascent() if up else -metrics.descent())
-            text = f"{written(abs(series.value[extreme]))}°"
+            text = f"{format_rounded(abs(series.value[extreme]))}°"
             left = x + 6 * style.unit
             if left + metrics.horizontalAdvance(text) > panel.box.right():
                 left = x - 6 * style.unit - metrics.horizontalAdvance(text)
@@ -269,7 +271,7 @@ def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, curve: Curv
 POINTS_PER_COLUMN = 2
 
 
-LONGEST_STRETCHES = 3.0
+MAX_STRETCHES = 3.0
 """Samples that were kept lie up to two stretches apart, a little more where pictures are missing."""
 
 
@@ -283,7 +285,7 @@ def decimate(series: Series, columns: int) -> Series:
     if count <= POINTS_PER_COLUMN * columns:
         return series
     stretch_s = float(np.median(np.diff(series.time_s))) * count / columns
-    series = _with_gaps(series)
+    series = _insert_gaps(series)
     count = len(series.time_s)
     size = -(-count // columns)
     rows = -(-count // size)
@@ -309,8 +311,8 @@ def decimate(series: Series, columns: int) -> Series:
         spread[:count] = np.where(np.isfinite(series.sd), series.sd, -np.inf)
         widest = spread.reshape(rows, size).max(axis=1)[index // size]
         sd = np.where(np.isfinite(widest), widest, np.nan)
-    longest_s = max(series.longest_step_s, LONGEST_STRETCHES * stretch_s)
-    return replace(series.select_rows(index), sd=sd, longest_step_s=longest_s)
+    longest_s = max(series.max_step_s, MAX_STRETCHES * stretch_s)
+    return replace(series.select_rows(index), sd=sd, max_step_s=longest_s)
 
 
 def slice_time(series: Series, start_s: float, end_s: float) -> Series:
@@ -322,9 +324,9 @@ def slice_time(series: Series, start_s: float, end_s: float) -> Series:
     return series.select_rows(slice(first, last))
 
 
-def _with_gaps(series: Series) -> Series:
+def _insert_gaps(series: Series) -> Series:
     """A sample without a value in the middle of each step that is too long to be joined."""
-    before = np.flatnonzero(np.diff(series.time_s) > series.longest_step_s)
+    before = np.flatnonzero(np.diff(series.time_s) > series.max_step_s)
     if not len(before):
         return series
     middle_s = 0.5 * (series.time_s[before] + series.time_s[before + 1])

@@ -13,43 +13,43 @@ from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
-from carpus.core.hand.forearm_rotation import axis_deg, is_from_thumb_up
+from carpus.core.hand.forearm_rotation import axis_limits_deg, is_counted_from_thumb_up
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.repetition_rows import ShownRepetition
-from carpus.core.results.seen import JointCurves, ReportCurves
-from carpus.core.rounding import written
+from carpus.core.results.repetition_rows import RepetitionResult
+from carpus.core.results.seen import JointCurves, WristCurves
+from carpus.core.rounding import format_rounded
 from carpus.core.types import FloatArray, TrackStatus
 from carpus.ui import numbers, terms
-from carpus.ui.figures import FINGERS, Figure, Row, spread_labels, with_side
+from carpus.ui.figures import FINGERS, AngleKind, FingerAngle, format_spread, spread_labels
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.chart import (
     GROUND,
+    AxisLabel,
     ChartText,
     Curves,
     Hatching,
     HoverLabel,
-    Label,
     Plot,
     fit_font,
     scale_labels,
-    span,
+    span_html,
 )
-from carpus.ui.plot.series import Curve, Series, decimate, longest_step_s, slice_time
+from carpus.ui.plot.series import Curve, Series, decimate, find_max_step_s, slice_time
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.plot.zoom_chart import ZoomChart
 from carpus.ui.theme import CURVE_TOKENS, Theme
 from carpus.ui.translate import tr
 
-BESIDE_S = 1.0
+MARGIN_S = 1.0
 """Shown before the first and after the last repetition where the rest is left away."""
-EDGES_S = 0.2
+MIN_REPETITION_S = 0.2
 """Least length a repetition can be cut to."""
-FEWEST_POINTS = 200
-BENDING: tuple[Row, ...] = ("knuckle", "middle", "end")
+MIN_POINTS = 200
+FLEXION_KINDS: tuple[AngleKind, ...] = ("knuckle", "middle", "end")
 _BEND_LOW_DEG, _BEND_HIGH_DEG, _SPREAD_DEG = -15.0, 115.0, 32.0
 
 
@@ -58,16 +58,16 @@ def add_targets(plot: Plot, positive_deg: float, negative_deg: float) -> None:
     up. Their words stand on the far side, where no curve comes from."""
     words = tr("Target {angle}")
     for value, way in ((positive_deg, 1), (negative_deg, -1)):
-        said = words.format(angle=numbers.signed_degrees(way * value)) if math.isfinite(value) else ""
-        plot.add_level(value, "accent", (6.0, 4.0), said, below=way < 0)
+        said = words.format(angle=numbers.format_signed_degrees(way * value)) if math.isfinite(value) else ""
+        plot.add_horizontal_line(value, "accent", (6.0, 4.0), said, below=way < 0)
 
 
-def add_name(plot: Plot, words: str, *, above: bool = False) -> None:
+def add_panel_name(plot: Plot, words: str, *, above: bool = False) -> None:
     """What a panel is called, at its left; ``above`` beside its upper end."""
-    look, box = plot.look, plot.panel.box
-    scale = look.end_label.pixelSize() / 12.0
-    item = plot.chart.text(words, look.end_label, "text", (0.0, 0.5))
-    left = plot.chart.area.left() if plot.chart.on_paper else box.left() - 102 * scale
+    look, box = plot.plot_style, plot.panel.box
+    scale = look.end_label_font.pixelSize() / 12.0
+    item = plot.chart.add_text(words, look.end_label_font, "text", (0.0, 0.5))
+    left = plot.chart.area.left() if plot.chart.is_printing else box.left() - 102 * scale
     item.setPos(left, box.top() + 6 * scale if above else box.center().y())
 
 
@@ -77,26 +77,26 @@ def add_limits(plot: Plot, exercise: Exercise, key: int, *, is_first: bool) -> N
     if not is_first and math.isfinite(limit):
         plot.add_band(-limit, limit, "norm")
         room = float(plot.panel.y(limit)) - plot.panel.box.top()
-        if room >= QFontMetricsF(plot.look.end_label).height():  # a low panel has the band alone
-            plot.add_words(limit, stay_words(limit, key))
+        if room >= QFontMetricsF(plot.plot_style.end_label_font).height():  # a low panel has the band alone
+            plot.add_label(limit, tolerance_words(limit, key))
     elif key == PRONOSUPINATION:
-        words = tr("0° = thumb up") if is_from_thumb_up(exercise) else tr("rotation from the start")
-        plot.add_words(0.0, words, small=True)
+        words = tr("0° = thumb up") if is_counted_from_thumb_up(exercise) else tr("rotation from the start")
+        plot.add_label(0.0, words, small=True)
 
 
-def no_value_words() -> str:
+def missing_value_words() -> str:
     """What stands where nothing is known."""
     return tr("no value")
 
 
-def group_words() -> tuple[str, str]:
+def angle_group_names() -> tuple[str, str]:
     """The two kinds of angles of one finger."""
     return tr("Bending"), tr("Spreading")
 
 
-def stay_words(limit_deg: float, key: int) -> str:
+def tolerance_words(limit_deg: float, key: int) -> str:
     """What is said of an angle that should hardly move."""
-    within = tr("should stay within {angle}").format(angle=numbers.degrees(limit_deg))
+    within = tr("should stay within {angle}").format(angle=numbers.format_degrees(limit_deg))
     return within if key != PRONOSUPINATION else tr("rotation from the start; {within}").format(within=within)
 
 
@@ -108,25 +108,25 @@ class Value:
     token: str
     value_deg: float
     sd_deg: float
-    hidden: bool = False
-    said: str = ""
+    is_occluded: bool = False
+    text: str = ""
     """What is written of it where that is no angle with its sd."""
-    share: float = 1.0
+    width_factor: float = 1.0
     """Of the usual width, as its curve."""
 
     @property
-    def words(self) -> str:
+    def display_text(self) -> str:
         """``42° ± 2°``."""
-        return self.said or numbers.with_spread(self.value_deg, self.sd_deg)
+        return self.text or numbers.format_with_sd(self.value_deg, self.sd_deg)
 
 
 @dataclass(frozen=True, slots=True)
 class SessionPlot:
     """The wrist's three angles, with exercise, repetitions, and the current one (-1 for none)."""
 
-    curves: ReportCurves
+    curves: WristCurves
     exercise: Exercise
-    repetitions: Sequence[ShownRepetition]
+    repetitions: Sequence[RepetitionResult]
     current: int = -1
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
@@ -143,22 +143,22 @@ class SessionPlot:
         return "deg"
 
     @property
-    def shown_s(self) -> tuple[float, float]:
+    def visible_s(self) -> tuple[float, float]:
         return self.window_s or (0.0, self.end_s)
 
     @property
-    def repetitions_s(self) -> tuple[float, float]:
+    def repetition_span_s(self) -> tuple[float, float]:
         """From shortly before the first repetition to shortly after the last; the whole where there is none."""
         if not self.repetitions:
             return 0.0, self.end_s
         start_s, end_s = self.repetitions[0].start_s, max(repetition.end_s for repetition in self.repetitions)
-        return max(start_s - BESIDE_S, 0.0), min(end_s + BESIDE_S, self.end_s)
+        return max(start_s - MARGIN_S, 0.0), min(end_s + MARGIN_S, self.end_s)
 
     @property
     def end_s(self) -> float:
         return max(float(self.curves.time_s[-1]), 1.0) if len(self.curves.time_s) else 1.0
 
-    def order(self) -> list[int]:
+    def panel_order(self) -> list[int]:
         first = FLEXION if self.exercise.angle is None else self.exercise.angle
         return [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
 
@@ -169,20 +169,20 @@ class SessionPlot:
             curves.angles_deg[:, column],
             curves.sds_deg[:, column],
             curves.status == TrackStatus.PREDICTED,
-            longest_step_s(curves.time_s),
+            find_max_step_s(curves.time_s),
         )
 
     # --- what is drawn ------------------------------------------------------------------------------------
     def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
         """Three panels in a box with the column each shows, the trained angle twice as high; or that one alone."""
-        order = self.order()[: 1 if single else 3]
+        order = self.panel_order()[: 1 if single else 3]
         unit = (box.height() - between * (len(order) - 1)) / (len(order) + 1)
         top, out = box.top(), []
         for place, column in enumerate(order):
             height = unit * (2 if place == 0 else 1)
             names = terms.direction_names(column, self.exercise)
-            scale = axes.angle_scale(*axis_deg(column, self.exercise), *names, tight=place > 0)
-            out.append((Panel(QRectF(box.left(), top, box.width(), height), scale, *self.shown_s), column))
+            scale = axes.angle_scale(*axis_limits_deg(column, self.exercise), *names, is_sparse=place > 0)
+            out.append((Panel(QRectF(box.left(), top, box.width(), height), scale, *self.visible_s), column))
             top += height + between
         return out
 
@@ -193,23 +193,23 @@ class SessionPlot:
         if place == 0:
             add_targets(plot, self.target_positive_deg, self.target_negative_deg)
 
-    def moving(self, key: int, points: int) -> list[Curve]:
+    def visible_curves(self, key: int, points: int) -> list[Curve]:
         """The curves of a panel over what is shown, of about so many points each."""
         return [self._curve(self.series(key), CURVE_TOKENS[key], points)]
 
     def _curve(self, series: Series, token: str, points: int) -> Curve:
-        return Curve(decimate(slice_time(series, *self.shown_s), max(FEWEST_POINTS, points)), token)
+        return Curve(decimate(slice_time(series, *self.visible_s), max(MIN_POINTS, points)), token)
 
-    def columns(self, key: int) -> list[tuple[str, Series]]:
+    def curve_series(self, key: int) -> list[tuple[str, Series]]:
         """Name and whole series of every curve of a panel, for reading off and for tables."""
         name = WRIST_ANGLES[key]
         if key == PRONOSUPINATION:  # as it is read: the files' name has the files' zero
-            name = "supination_from_thumb_up" if is_from_thumb_up(self.exercise) else "rotation_from_start"
+            name = "supination_from_thumb_up" if is_counted_from_thumb_up(self.exercise) else "rotation_from_start"
         return [(name, self.series(key))]
 
-    def values(self, key: int, time_s: float) -> list[Value]:
-        value, sd = value_at(self.curves, key, time_s)
-        name = terms.direction_name(key, value, self.exercise) if math.isfinite(value) else no_value_words()
+    def read_values(self, key: int, time_s: float) -> list[Value]:
+        value, sd = read_wrist_angle(self.curves, key, time_s)
+        name = terms.direction_name(key, value, self.exercise) if math.isfinite(value) else missing_value_words()
         return [Value(name, CURVE_TOKENS[key], value, sd)]
 
 
@@ -219,26 +219,28 @@ class HandPlot(SessionPlot):
 
     joints: JointCurves | None = None
     finger: int = 0
-    _drawn: dict[Figure, tuple[JointCurves, Series | None]] = field(default_factory=dict, repr=False, compare=False)
+    _series_cache: dict[FingerAngle, tuple[JointCurves, Series | None]] = field(
+        default_factory=dict, repr=False, compare=False
+    )
     """What :meth:`joint_series` has found: it is asked at every step of the wheel."""
 
-    def figures(self, panel: int) -> list[Figure]:
+    def panel_angles(self, panel: int) -> list[FingerAngle]:
         if self.finger and panel == 1:
-            return [Figure(self.finger, "spread")]
-        return [Figure(self.finger or FINGERS[panel], row) for row in BENDING]
+            return [FingerAngle(self.finger, "spread")]
+        return [FingerAngle(self.finger or FINGERS[panel], row) for row in FLEXION_KINDS]
 
-    def joint_series(self, figure: Figure) -> Series | None:
+    def joint_series(self, angle: FingerAngle) -> Series | None:
         """A joint as it is drawn, dashed where it was not seen; None for one that is neither measured nor bound."""
         joints = self.joints
         assert joints is not None
-        of, found = self._drawn.get(figure, (None, None))
+        of, found = self._series_cache.get(angle, (None, None))
         if of is not joints:
-            found = _joint_series(joints, figure)
-            self._drawn[figure] = joints, found
+            found = _joint_series(joints, angle)
+            self._series_cache[angle] = joints, found
         return found
 
-    def is_bound(self, figure: Figure) -> bool:
-        return self.joints is not None and figure.joint not in self.joints.names
+    def is_coupled(self, angle: FingerAngle) -> bool:
+        return self.joints is not None and angle.joint not in self.joints.names
 
     def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
         """One panel for each finger, or bending over spreading; ``single`` leaves the spreading out."""
@@ -249,108 +251,108 @@ class HandPlot(SessionPlot):
             spread = bool(self.finger) and place == 1
             area = QRectF(box.left(), top, box.width(), unit * weight)
             scale = _spread_scale(self.finger) if spread else _bend_scale(self.finger > 0)
-            out.append((Panel(area, scale, *self.shown_s), place))
+            out.append((Panel(area, scale, *self.visible_s), place))
             top += unit * weight + between
         return out
 
     def add_background(self, plot: Plot, place: int, key: int) -> None:
         plot.add_grid()
-        words = group_words()[key] if self.finger else finger_name(str(FINGERS[key]))
-        add_name(plot, words, above=bool(self.finger) and key == 0)
+        words = angle_group_names()[key] if self.finger else finger_name(str(FINGERS[key]))
+        add_panel_name(plot, words, above=bool(self.finger) and key == 0)
 
-    def moving(self, key: int, points: int) -> list[Curve]:
+    def visible_curves(self, key: int, points: int) -> list[Curve]:
         """The joints of a panel; one bound to another, or never seen, only where there is room for it."""
         out = []
-        for figure in self.figures(key):
+        for figure in self.panel_angles(key):
             series = self.joint_series(figure)
-            series = None if series is None else slice_time(series, *self.shown_s)
+            series = None if series is None else slice_time(series, *self.visible_s)
             if series is None or (not self.finger and bool(series.predicted[np.isfinite(series.value)].all())):
                 continue
-            out.append(Curve(decimate(series, max(FEWEST_POINTS, points)), figure.token))
+            out.append(Curve(decimate(series, max(MIN_POINTS, points)), figure.token))
         return out
 
-    def columns(self, key: int) -> list[tuple[str, Series]]:
+    def curve_series(self, key: int) -> list[tuple[str, Series]]:
         """Every joint of a panel that is measured or bound."""
-        many = [(figure.joint, self.joint_series(figure)) for figure in self.figures(key)]
+        many = [(figure.joint, self.joint_series(figure)) for figure in self.panel_angles(key)]
         return [(name, series) for name, series in many if series is not None]
 
-    def values(self, key: int, time_s: float) -> list[Value]:
+    def read_values(self, key: int, time_s: float) -> list[Value]:
         """The joints of a panel that have a number beside it."""
-        figures = [figure for figure in self.figures(key) if self.joint_series(figure) is not None]
-        shown = figures if self.finger else [figure for figure in figures if not self.is_bound(figure)]
-        return [Value(figure.row_name, figure.token, *joint_at(self, figure, time_s)) for figure in shown]
+        figures = [figure for figure in self.panel_angles(key) if self.joint_series(figure) is not None]
+        shown = figures if self.finger else [figure for figure in figures if not self.is_coupled(figure)]
+        return [Value(figure.kind_name, figure.token, *read_joint_angle(self, figure, time_s)) for figure in shown]
 
 
-def _joint_series(joints: JointCurves, figure: Figure) -> Series | None:
-    name, share, bound = figure.joint, figure.sign, False
-    if name not in joints.names and figure.row == "end":
-        name, share, bound = f"PIP{figure.finger}_flexion", DIP_PER_PIP, True
+def _joint_series(joints: JointCurves, angle: FingerAngle) -> Series | None:
+    name, share, bound = angle.joint, angle.sign, False
+    if name not in joints.names and angle.kind == "end":
+        name, share, bound = f"PIP{angle.finger}_flexion", DIP_PER_PIP, True
     if name not in joints.names:
         return None
     column = joints.names.index(name)
     value, sd = share * joints.angles_deg[:, column], abs(share) * joints.sds_deg[:, column]
-    hidden = np.isfinite(value) & (bound | ~joints.seen[:, column])
-    return Series(joints.time_s, value, sd, hidden, longest_step_s(joints.time_s))
+    hidden = np.isfinite(value) & (bound | ~joints.is_valid[:, column])
+    return Series(joints.time_s, value, sd, hidden, find_max_step_s(joints.time_s))
 
 
 def _bend_scale(roomy: bool) -> Scale:
     inner = (45.0,) if roomy else ()
     ticks = (90.0, *inner, 0.0)
-    labels = tuple((value, f"{written(value)}°") for value in ticks)
-    return Scale(_BEND_LOW_DEG, _BEND_HIGH_DEG, ticks, labels, strong_ends=False)
+    labels = tuple((value, f"{format_rounded(value)}°") for value in ticks)
+    return Scale(_BEND_LOW_DEG, _BEND_HIGH_DEG, ticks, labels, bold_ends=False)
 
 
 def _spread_scale(finger: int) -> Scale:
-    return Scale(-_SPREAD_DEG, _SPREAD_DEG, (20.0, 0.0, -20.0), spread_labels(20.0, finger), strong_ends=False)
+    return Scale(-_SPREAD_DEG, _SPREAD_DEG, (20.0, 0.0, -20.0), spread_labels(20.0, finger), bold_ends=False)
 
 
-def repetition_words(number: int, repetition: ShownRepetition) -> str:
+def repetition_label(number: int, repetition: RepetitionResult) -> str:
     """What stands at a repetition: its number, and why where it does not count."""
-    if repetition.helped:
+    if repetition.is_passive:
         return tr("{number} passive").format(number=number)
-    return str(number) if repetition.counts else tr("{number} out").format(number=number)
+    return str(number) if repetition.is_counted else tr("{number} out").format(number=number)
 
 
-def value_at(curves: ReportCurves, column: int, time_s: float) -> tuple[float, float]:
+def read_wrist_angle(curves: WristCurves, column: int, time_s: float) -> tuple[float, float]:
     """Angle and its deviation in degrees at the frame nearest to a time; NaN in a gap."""
     if not len(curves.time_s):
         return math.nan, math.nan
-    row = row_at(curves.time_s, time_s)
-    if abs(float(curves.time_s[row]) - time_s) > longest_step_s(curves.time_s):
+    row = find_nearest_row(curves.time_s, time_s)
+    if abs(float(curves.time_s[row]) - time_s) > find_max_step_s(curves.time_s):
         return math.nan, math.nan
     return float(curves.angles_deg[row, column]), float(curves.sds_deg[row, column])
 
 
-def joint_at(plot: HandPlot, figure: Figure, time_s: float) -> tuple[float, float, bool]:
+def read_joint_angle(plot: HandPlot, angle: FingerAngle, time_s: float) -> tuple[float, float, bool]:
     """Angle, deviation and whether it was hidden at the frame nearest to a time; NaN in a gap."""
-    series = plot.joint_series(figure)
+    series = plot.joint_series(angle)
     if series is None or not len(series.time_s):
         return math.nan, math.nan, True
-    row = row_at(plot.curves.time_s, time_s)
-    if abs(float(series.time_s[row]) - time_s) > series.longest_step_s or series.sd is None:
+    row = find_nearest_row(plot.curves.time_s, time_s)
+    if abs(float(series.time_s[row]) - time_s) > series.max_step_s or series.sd is None:
         return math.nan, math.nan, True
     return float(series.value[row]), float(series.sd[row]), bool(series.predicted[row])
 
 
-def row_at(time_s: FloatArray, at_s: float) -> int:
+def find_nearest_row(time_s: FloatArray, at_s: float) -> int:
     """Row of the frame nearest to a time; -1 without any."""
     return int(np.abs(time_s - at_s).argmin()) if len(time_s) else -1
 
 
-def with_edge(repetition: ShownRepetition, edge: str, time_s: float) -> ShownRepetition:
+def with_edge(repetition: RepetitionResult, edge: str, time_s: float) -> RepetitionResult:
     """With its ``start`` or ``end`` elsewhere, as far as the other one lets it."""
     if edge == "start":
-        return replace(repetition, start_s=min(max(0.0, time_s), repetition.end_s - EDGES_S))
-    return replace(repetition, end_s=max(time_s, repetition.start_s + EDGES_S))
+        return replace(repetition, start_s=min(max(0.0, time_s), repetition.end_s - MIN_REPETITION_S))
+    return replace(repetition, end_s=max(time_s, repetition.start_s + MIN_REPETITION_S))
 
 
 def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
     """One row for each picture that is shown: seconds, and of every curve degrees, their sd, whether measured."""
-    placed = [(plot.unit(key), found) for key in keys for found in plot.columns(key)]
+    placed = [(plot.unit(key), found) for key in keys for found in plot.curve_series(key)]
     head = ["time_s"]
     for unit, (name, _) in placed:
         head += [f"{name}_{unit}", f"{name}_sd_{unit}", f"{name}_measured"]
-    times, (start_s, end_s) = plot.curves.time_s, plot.shown_s
+    times, (start_s, end_s) = plot.curves.time_s, plot.visible_s
     rows = np.flatnonzero((times >= start_s) & (times <= end_s))
 
     def cells(row: int) -> list[str]:
@@ -358,7 +360,7 @@ def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str]
         for _, (_, series) in placed:
             value = float(series.value[row])
             sd = math.nan if series.sd is None else float(series.sd[row])
-            out += [written(v, 1) if math.isfinite(v) else "" for v in (value, sd)]
+            out += [format_rounded(v, 1) if math.isfinite(v) else "" for v in (value, sd)]
             out.append("" if not math.isfinite(value) else "no" if series.predicted[row] else "yes")
         return out
 
@@ -371,7 +373,7 @@ PAPER_MARGINS = (106.0, 26.0, 8.0, 22.0)
 HAND_BETWEEN, PAPER_BETWEEN, NUMBERS_ABOVE = 8, 12, 10
 GRIP_PX = 16
 """Half the width of the target around an edge or the cursor: the grip is 8 px wide, the target 32."""
-SHORTEST_S = 2.0
+MIN_SPAN_S = 2.0
 """Shortest stretch of time that is shown."""
 
 
@@ -381,8 +383,8 @@ class SessionChart(ZoomChart):
     Emits ``cursor_moved`` (seconds) and ``edges_moved`` (repetition, start, end).
     """
 
-    usual_px, least_px = (736, 360), (420, 240)
-    shortest = SHORTEST_S
+    default_px, min_px = (736, 360), (420, 240)
+    min_span = MIN_SPAN_S
 
     cursor_moved = Signal(float)
     edges_moved = Signal(int, float, float)
@@ -391,7 +393,7 @@ class SessionChart(ZoomChart):
         super().__init__(theme, "curves")
         self._plot: SessionPlot | None = None
         self._time_s = 0.0
-        self._held = ""
+        self._drag_target = ""
         """What a drag has taken: an edge (``start``, ``end``), the ``cursor``, or nothing."""
         self._single = False
         self._curves: list[tuple[Curves, int]] = []
@@ -417,7 +419,7 @@ class SessionChart(ZoomChart):
     def set_time(self, time_s: float) -> None:
         """Put the cursor; what is shown goes on with it."""
         self._time_s = time_s
-        if self._window is not None and self._plot is not None and not self._held:
+        if self._window is not None and self._plot is not None and not self._drag_target:
             start_s, end_s = self._window
             if not start_s <= time_s <= end_s:
                 begin_s = time_s - 0.1 * (end_s - start_s)
@@ -431,33 +433,41 @@ class SessionChart(ZoomChart):
     def zoom_center(self) -> float:
         return self._time_s
 
-    def show_range(self) -> None:
+    def update_range(self) -> None:
         if self._plot is not None:
             self._plot = replace(self._plot, window_s=self._window)
             for curves, key in self._curves:
-                curves.show(self._plot.moving(key, int(curves.plot.panel.box.width() / self.look.unit / self._share)))
+                curves.set_curves(
+                    self._plot.visible_curves(
+                        key, int(curves.plot.panel.box.width() / self.plot_style.unit / self._share)
+                    )
+                )
             self._show_time()
 
     @property
     def _share(self) -> int:
         """Of the points that a panel has room for: on paper all of them."""
-        return 1 if self.on_paper else 2
+        return 1 if self.is_printing else 2
 
     # --- places -------------------------------------------------------------------------------------------
     def panels(self) -> list[tuple[Panel, int]]:
         assert self._plot is not None
-        hand, area = isinstance(self._plot, HandPlot), self.area if self.on_paper else QRectF(self.rect())
-        scale = self.look.unit if self.on_paper else self._theme.text_scale
-        left, top, right, bottom = PAPER_MARGINS if self.on_paper else (LEFT_PX, TOP_PX, RIGHT_PX, BOTTOM_PX)
-        between = HAND_BETWEEN if hand else PAPER_BETWEEN if self.on_paper else BETWEEN_PX
+        hand, area = isinstance(self._plot, HandPlot), self.area if self.is_printing else QRectF(self.rect())
+        scale = self.plot_style.unit if self.is_printing else self._theme.text_scale
+        left, top, right, bottom = PAPER_MARGINS if self.is_printing else (LEFT_PX, TOP_PX, RIGHT_PX, BOTTOM_PX)
+        between = HAND_BETWEEN if hand else PAPER_BETWEEN if self.is_printing else BETWEEN_PX
         box = area.adjusted(left * scale, top * scale, -right * scale, -bottom * scale)
         placed = self._plot.panels(box, between * scale, single=self._single)
-        return placed if self.on_paper else [(replace(panel, box=axes.crisp(panel.box)), key) for panel, key in placed]
+        return (
+            placed
+            if self.is_printing
+            else [(replace(panel, box=axes.align_to_pixels(panel.box)), key) for panel, key in placed]
+        )
 
     # --- what is in it ------------------------------------------------------------------------------------
     def build(self) -> None:
         plot = self._plot
-        self.more.setVisible(plot is not None)
+        self.menu_button.setVisible(plot is not None)
         self._curves, self._cursors, self._readings = [], [], []
         if plot is None:
             return
@@ -467,13 +477,13 @@ class SessionChart(ZoomChart):
             plot.add_background(own, place, key)
             self.add_axis(own, "left", scale_labels(panel), 12)
             self._curves.append((own.add_curves(), key))
-        self.add_axis(self.plots[0], "top", lambda *_: self._numbers(), NUMBERS_ABOVE)
+        self.add_axis(self.plots[0], "top", lambda *_: self._repetition_labels(), NUMBERS_ABOVE)
         self.add_axis(
-            self.plots[-1], "bottom", lambda *ends: [Label(*one) for one in reversed(axes.time_labels(*ends))], 6
+            self.plots[-1], "bottom", lambda *ends: [AxisLabel(*one) for one in reversed(axes.time_labels(*ends))], 6
         )
-        if not self.on_paper:
+        if not self.is_printing:
             self._add_readings(plot)
-        self.show_range()
+        self.update_range()
 
     def _add_repetitions(self, own: Plot, plot: SessionPlot) -> None:
         """Shaded stretches; the current one in its own colour, one that is left out hatched."""
@@ -486,18 +496,18 @@ class SessionChart(ZoomChart):
             ("soft", shown[plot.current : plot.current + 1] if plot.current >= 0 else ()),
         ):
             own.add_bars([(one.start_s, one.end_s) for one in some], token)
-        left_out = [(one.start_s, one.end_s, low, high) for one in shown if not one.counts]
+        left_out = [(one.start_s, one.end_s, low, high) for one in shown if not one.is_counted]
         if left_out:
             own.add_to_layer(Hatching(own, left_out), GROUND + 1)
 
-    def _numbers(self) -> list[Label]:
+    def _repetition_labels(self) -> list[AxisLabel]:
         """The numbers of the repetitions; where they would touch, some are left out, never the current one."""
         assert self._plot is not None
         current, out = self._plot.current, []
         for number, one in sorted(enumerate(self._plot.repetitions), key=lambda one: one[0] != current):
-            token = "text" if number == current else "text2" if one.counts else "warn"
-            words = repetition_words(number + 1, one)
-            out.append(Label(0.5 * (one.start_s + one.end_s), words, token, strong=True))
+            token = "text" if number == current else "text2" if one.is_counted else "warn"
+            words = repetition_label(number + 1, one)
+            out.append(AxisLabel(0.5 * (one.start_s + one.end_s), words, token, is_bold=True))
         return out
 
     def _add_readings(self, plot: SessionPlot) -> None:
@@ -508,20 +518,20 @@ class SessionChart(ZoomChart):
             for at in (one.start_s, one.end_s):
                 first.add_cursor(at, "accent").addMarker("o", 0.5, 10.0)
         self._cursors = [own.add_cursor(self._time_s) for own in self.plots]
-        self._under_mouse = [own.add_cursor(0.0, "text2", 1.0) for own in self.plots]
+        self._hover_lines = [own.add_cursor(0.0, "text2", 1.0) for own in self.plots]
         self._dots = self.add_symbols()
         for own in self.plots:
-            item = self.text("", font(14 * scale, MEDIUM), "text2", (0.0, 0.5))
+            item = self.add_text("", font(14 * scale, MEDIUM), "text2", (0.0, 0.5))
             item.setPos(own.panel.box.right() + 12 * scale, own.panel.box.center().y())
             self._readings.append(item)
-        self._said = HoverLabel(self)
+        self._hover_label = HoverLabel(self)
         self.hover(None)
 
-    def paint_ground(self, painter: QPainter) -> None:
-        plot, look, scale = self._plot, self.look, self._theme.text_scale
+    def paint_background(self, painter: QPainter) -> None:
+        plot, look, scale = self._plot, self.plot_style, self._theme.text_scale
         if plot is None:
             return
-        painter.setFont(look.label)
+        painter.setFont(look.label_font)
         painter.setPen(look.color("text2"))
         if plot.repetitions:
             painter.drawText(QPointF(20, TOP_PX * scale - NUMBERS_ABOVE), self.tr("Repetitions"))
@@ -534,15 +544,15 @@ class SessionChart(ZoomChart):
         plot, time_s = self._plot, self._time_s
         if plot is None or not self._cursors:
             return
-        start_s, end_s = plot.shown_s
+        start_s, end_s = plot.visible_s
         is_shown = start_s <= time_s <= end_s
         placed = self.panels()
-        many = [plot.values(key, time_s) if is_shown else [] for _, key in placed]
+        many = [plot.read_values(key, time_s) if is_shown else [] for _, key in placed]
         dots = [
-            (panel.at(time_s, value.value_deg), pg.mkBrush(self.look.color(value.token)))
+            (panel.point(time_s, value.value_deg), pg.mkBrush(self.plot_style.color(value.token)))
             for (panel, _), values in zip(placed, many, strict=True)
             for value in values
-            if not value.hidden and value.share == 1.0 and math.isfinite(value.value_deg)
+            if not value.is_occluded and value.width_factor == 1.0 and math.isfinite(value.value_deg)
         ]
         self._dots.setData(
             x=[at.x() for at, _ in dots], y=[at.y() for at, _ in dots], brush=[brush for _, brush in dots]
@@ -550,66 +560,72 @@ class SessionChart(ZoomChart):
         for line, item, (_, key), values in zip(self._cursors, self._readings, placed, many, strict=True):
             line.setVisible(is_shown)
             line.setValue(time_s)
-            item.show_rich(self._reading(plot, key, values, len(placed), max(map(len, many))))
+            item.show_rich(self._reading_html(plot, key, values, len(placed), max(map(len, many))))
 
-    def _reading(self, plot: SessionPlot, key: int, values: Sequence[Value], panels: int, most: int) -> str:
+    def _reading_html(self, plot: SessionPlot, key: int, values: Sequence[Value], panels: int, most: int) -> str:
         """The numbers beside a panel: with its name, or one under the other after a stroke of each curve, or side by
         side where there is no room for a row each; a hidden joint in the second colour."""
         scale = self._theme.text_scale
         if values and not plot.has_readings and not isinstance(plot, HandPlot):
             (value,) = values
             face = fit_font(font(14 * scale, REGULAR), value.name, (RIGHT_PX - 16) * scale)
-            named = span(value.name, self.look, "text2", face.pixelSize(), REGULAR)
+            named = span_html(value.name, self.plot_style, "text2", face.pixelSize(), REGULAR)
             if not math.isfinite(value.value_deg):
                 return named
-            angle = span(numbers.degrees(value.value_deg), self.look, "text", 20 * scale, SEMIBOLD)
-            return f"{named}<br>{angle} {span(numbers.spread(value.sd_deg), self.look, 'text2', 14 * scale, MEDIUM)}"
+            angle = span_html(numbers.format_degrees(value.value_deg), self.plot_style, "text", 20 * scale, SEMIBOLD)
+            return f"{named}<br>{angle} {span_html(numbers.format_sd(value.sd_deg), self.plot_style, 'text2', 14 * scale, MEDIUM)}"  # noqa: E501
         finger = plot.finger if isinstance(plot, HandPlot) else 0
         pitch = self.plots[1].panel.box.top() - self.plots[0].panel.box.top() if panels > 1 else math.inf
         in_a_line = isinstance(plot, HandPlot) and not finger and 18.0 * scale * most > pitch
         out = []
         for value in values:
-            weight, token = (MEDIUM, "text2") if value.hidden else (SEMIBOLD, "text")
-            stroke = span("- -" if value.hidden else "\N{EM DASH}", self.look, value.token, 14 * scale, SEMIBOLD)
+            weight, token = (MEDIUM, "text2") if value.is_occluded else (SEMIBOLD, "text")
+            stroke = span_html(
+                "- -" if value.is_occluded else "\N{EM DASH}", self.plot_style, value.token, 14 * scale, SEMIBOLD
+            )
             if in_a_line:
-                said, stroke = numbers.degrees(value.value_deg), ""
-                out.append(span(said, self.look, value.token, 12 * scale, weight))
+                said, stroke = numbers.format_degrees(value.value_deg), ""
+                out.append(span_html(said, self.plot_style, value.token, 12 * scale, weight))
             elif finger and key == 1:
-                said = with_side(value.value_deg, finger)
-                below = f"<br>{span(numbers.spread(value.sd_deg), self.look, token, 12 * scale, MEDIUM)}"
+                said = format_spread(value.value_deg, finger)
+                below = f"<br>{span_html(numbers.format_sd(value.sd_deg), self.plot_style, token, 12 * scale, MEDIUM)}"
                 below = below if math.isfinite(value.value_deg) else ""
-                out.append(f"{stroke} {span(said, self.look, token, 14 * scale, weight)}{below}")
+                out.append(f"{stroke} {span_html(said, self.plot_style, token, 14 * scale, weight)}{below}")
             else:
-                out.append(f"{stroke} {span(value.words, self.look, token, 14 * scale, weight)}")
+                out.append(f"{stroke} {span_html(value.display_text, self.plot_style, token, 14 * scale, weight)}")
         return ("&nbsp; " if in_a_line else "<br>").join(out)
 
-    def hover(self, at: QPointF | None) -> None:
+    def hover(self, position: QPointF | None) -> None:
         """What is under the mouse: a line through all panels, and the values of the panel it is in."""
         if self._plot is None or not self._cursors:
             return
-        inside = at is not None and any(own.panel.box.contains(at) for own in self.plots)
-        shown = at if inside and not self._held else None
-        for line in self._under_mouse:
+        inside = position is not None and any(own.panel.box.contains(position) for own in self.plots)
+        shown = position if inside and not self._drag_target else None
+        for line in self._hover_lines:
             line.setVisible(shown is not None)
             if shown is not None:
                 line.setValue(self.to_time(shown.x()))
-        self._said.show_lines(shown, self.describe_values(shown) if shown is not None else ())
-        over_edge = at is not None and self._find_edge(at) != ""
+        self._hover_label.show_lines(shown, self.describe_values(shown) if shown is not None else ())
+        over_edge = position is not None and self._find_edge(position) != ""
         pans = inside and self._window is not None
         shape = Qt.CursorShape.SizeHorCursor if over_edge else Qt.CursorShape.OpenHandCursor
-        self.face.setCursor(shape if over_edge or pans else Qt.CursorShape.ArrowCursor)
+        self.mouse_target.setCursor(shape if over_edge or pans else Qt.CursorShape.ArrowCursor)
 
-    def describe_values(self, at: QPointF) -> list[str]:
+    def describe_values(self, position: QPointF) -> list[str]:
         plot = self._plot
         assert plot is not None
-        time_s = self.to_time(at.x())
-        lines = [numbers.clock_tenths(time_s)]
+        time_s = self.to_time(position.x())
+        lines = [numbers.format_clock_tenths(time_s)]
         for panel, key in self.panels():
-            if panel.box.contains(at):
-                for value in plot.values(key, time_s):
-                    hidden = self.tr("hidden") if value.hidden and math.isfinite(value.value_deg) else ""
-                    named = value.name if not math.isfinite(value.value_deg) else f"{value.name} {value.words} {hidden}"
-                    named = value.said or named
+            if panel.box.contains(position):
+                for value in plot.read_values(key, time_s):
+                    hidden = self.tr("hidden") if value.is_occluded and math.isfinite(value.value_deg) else ""
+                    named = (
+                        value.name
+                        if not math.isfinite(value.value_deg)
+                        else f"{value.name} {value.display_text} {hidden}"
+                    )
+                    named = value.text or named
                     lines.append(named.strip())
         return lines
 
@@ -640,7 +656,7 @@ class SessionChart(ZoomChart):
         if self._plot is None:
             return
         if event.double():
-            self.show_window(self._plot.repetitions_s if self._plot.window_s is None else None)
+            self.show_window(self._plot.repetition_span_s if self._plot.window_s is None else None)
         elif not self._find_edge(event.scenePos()):
             self.cursor_moved.emit(self.to_time(event.scenePos().x()))
 
@@ -652,25 +668,25 @@ class SessionChart(ZoomChart):
             at = event.buttonDownScenePos()
             panel = self.panels()[0][0]
             at_cursor = abs(float(panel.x(self._time_s)) - at.x()) <= GRIP_PX
-            self._held = self._find_edge(at) or ("cursor" if at_cursor or self._window is None else "")
+            self._drag_target = self._find_edge(at) or ("cursor" if at_cursor or self._window is None else "")
             self.hover(None)
-        held, time_s = self._held, self.to_time(event.scenePos().x())
+        held, time_s = self._drag_target, self.to_time(event.scenePos().x())
         if held == "cursor":
             self.cursor_moved.emit(time_s)
         elif held:
-            self._move_edge(held, time_s, over=event.isFinish())
+            self._move_edge(held, time_s, is_finished=event.isFinish())
         if event.isFinish():
-            self._held = ""
+            self._drag_target = ""
         return bool(held)
 
-    def _move_edge(self, edge: str, time_s: float, *, over: bool) -> None:
+    def _move_edge(self, edge: str, time_s: float, *, is_finished: bool) -> None:
         plot = self._plot
         assert plot is not None
         moved = with_edge(plot.repetitions[plot.current], edge, time_s)
         shown = list(plot.repetitions)
         shown[plot.current] = moved
         self.show_plot(replace(plot, repetitions=shown))
-        if over:
+        if is_finished:
             self.edges_moved.emit(plot.current, moved.start_s, moved.end_s)
 
     # --- for other programs -------------------------------------------------------------------------------
@@ -679,9 +695,9 @@ class SessionChart(ZoomChart):
         return session_table(self._plot, [key for _, key in self.panels()])
 
 
-def paint_session(painter: QPainter, look: PlotStyle, plot: SessionPlot, box: QRectF) -> None:
+def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, box: QRectF) -> None:
     """The chart on paper, with its words, in a box."""
     chart = SessionChart(Theme("light"))
     chart.show_plot(plot)
-    chart.render_on_paper(painter, look, box)
+    chart.render_on_paper(painter, style, box)
     chart.deleteLater()

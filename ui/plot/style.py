@@ -18,8 +18,8 @@ class PlotStyle:
     """Colours by token, fonts, and widths in the painter's unit (px on the screen, points on paper)."""
 
     tokens: Tokens
-    label: QFont
-    end_label: QFont
+    label_font: QFont
+    end_label_font: QFont
     line_width: float
     grid_width: float
     unit: float
@@ -34,20 +34,20 @@ class PlotStyle:
 RIGHT_MIDDLE = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight
 
 
-def write(
-    painter: QPainter, at: QPointF | QRectF, words: str, face: QFont, color: QColor,
+def draw_text(
+    painter: QPainter, place: QPointF | QRectF, words: str, face: QFont, color: QColor,
     side: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignVCenter,
 ) -> None:  # fmt: skip
     """Words from the left end of their baseline on, or in a box: there in its middle and at its left, unless told."""
     painter.setFont(face)
     painter.setPen(color)
-    if isinstance(at, QPointF):
-        painter.drawText(at, words)
+    if isinstance(place, QPointF):
+        painter.drawText(place, words)
     else:
-        painter.drawText(at, int(side), words)
+        painter.drawText(place, int(side), words)
 
 
-def dashed(color: QColor, width: float, dash: Sequence[float]) -> QPen:
+def dash_pen(color: QColor, width: float, dash: Sequence[float]) -> QPen:
     """A pen for a line of dashes and gaps, in widths of the line; solid without any."""
     pen = QPen(color, width)
     if dash:
@@ -72,9 +72,9 @@ def paper_style(point_px: float) -> PlotStyle:
     return PlotStyle(LIGHT, regular, medium, 1.2 * point_px, 0.6 * point_px, 0.75 * point_px)
 
 
-def paint_dot(painter: QPainter, style: PlotStyle, at: QPointF, token: str, radius: float) -> None:
+def paint_dot(painter: QPainter, style: PlotStyle, position: QPointF, token: str, radius: float) -> None:
     """A disc with a seam, ``radius`` design pixels."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
     painter.setBrush(style.color(token))
-    painter.drawEllipse(at, radius * style.unit, radius * style.unit)
+    painter.drawEllipse(position, radius * style.unit, radius * style.unit)

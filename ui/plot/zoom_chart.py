@@ -23,21 +23,23 @@ ZOOM_STEP = 1.25
 class ZoomChart(Chart):
     """The window is the part of the shared axis that is shown, None for all."""
 
-    shortest = 1.0
+    min_span = 1.0
     """Least length of the axis that is shown."""
 
     def __init__(self, theme: Theme, file_name: str) -> None:
         super().__init__(theme)
         self._window: tuple[float, float] | None = None
-        self._showing = False
+        self._is_updating = False
         self.menu = PlotMenu(self, file_name)
         self.scene().sigMouseMoved.connect(self.hover)
         self.viewport().grabGesture(Qt.GestureType.PinchGesture)
-        self.more = icon_button(theme, "ellipsis", self.tr("Zoom, copy and save"))
-        self.more.setParent(self)
-        self.more.setProperty("floats", True)  # over a corner in which nothing is written
-        self.more.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.more.clicked.connect(lambda: self.menu.open(self.more.mapToGlobal(QPoint(0, self.more.height()))))
+        self.menu_button = icon_button(theme, "ellipsis", self.tr("Zoom, copy and save"))
+        self.menu_button.setParent(self)
+        self.menu_button.setProperty("floats", True)  # over a corner in which nothing is written
+        self.menu_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.menu_button.clicked.connect(
+            lambda: self.menu.open(self.menu_button.mapToGlobal(QPoint(0, self.menu_button.height())))
+        )
 
     # --- for a subclass -----------------------------------------------------------------------------------
     def extent(self) -> tuple[float, float] | None:
@@ -55,10 +57,10 @@ class ZoomChart(Chart):
     def click(self, event: Any) -> None:
         """A click of the left button."""
 
-    def hover(self, at: QPointF | None) -> None:
+    def hover(self, position: QPointF | None) -> None:
         """The mouse is somewhere, or gone."""
 
-    def show_range(self) -> None:
+    def update_range(self) -> None:
         """Another part of the axis is shown."""
 
     def table(self) -> export.Table:
@@ -78,21 +80,21 @@ class ZoomChart(Chart):
         extent = self.extent()
         if window is not None and extent is not None:
             low, high = extent
-            span = min(max(window[1] - window[0], min(self.shortest, high - low)), high - low)
+            span = min(max(window[1] - window[0], min(self.min_span, high - low)), high - low)
             start = min(max(window[0], low), high - span)
             window = None if span >= (high - low) * (1.0 - 1e-9) else (start, start + span)
         self._window = window
-        self._showing = True
+        self._is_updating = True
         if self.plots:
             self.plots[0].setXRange(*self.x_range(), padding=0.0)
-        self._showing = False
-        self.show_range()
+        self._is_updating = False
+        self.update_range()
 
-    def zoom(self, factor: float, about: float) -> None:
-        """Show that many times as much, with ``about`` staying where it is."""
+    def zoom(self, factor: float, center: float) -> None:
+        """Show that many times as much, with ``center`` staying where it is."""
         start, end = self.x_range()
         span = (end - start) * factor
-        begin = about - (about - start) / (end - start) * span
+        begin = center - (center - start) / (end - start) * span
         self.show_window((begin, begin + span))
 
     def zoom_in(self) -> None:
@@ -111,10 +113,10 @@ class ZoomChart(Chart):
     def add_plot(self, panel: Panel) -> Plot:
         """All plots go along together."""
         first, plot, extent = next(iter(self.plots), None), super().add_plot(panel), self.extent()
-        if extent is None or self.on_paper:
+        if extent is None or self.is_printing:
             return plot
-        plot.setLimits(xMin=extent[0], xMax=extent[1], minXRange=min(self.shortest, extent[1] - extent[0]))
-        plot.unlock(self)
+        plot.setLimits(xMin=extent[0], xMax=extent[1], minXRange=min(self.min_span, extent[1] - extent[0]))
+        plot.enable_mouse(self)
         if first is not None:
             plot.setXLink(first)
         else:
@@ -123,7 +125,7 @@ class ZoomChart(Chart):
 
     def _apply_range(self, start: float, end: float) -> None:
         now, extent = self.x_range(), self.extent()
-        if extent is None or self._showing:
+        if extent is None or self._is_updating:
             return
         tolerance = 1e-6 * (extent[1] - extent[0])
         if abs(start - now[0]) > tolerance or abs(end - now[1]) > tolerance:
@@ -146,15 +148,16 @@ class ZoomChart(Chart):
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         if event is not None:
-            self.more.adjustSize()  # where a layout is in the card Qt leaves this to us
-            self.more.move(self.width() - self.more.width() - 6, 2)
+            self.menu_button.adjustSize()  # where a layout is in the card Qt leaves this to us
+            self.menu_button.move(self.width() - self.menu_button.width() - 6, 2)
         super().resizeEvent(event)
 
 
 class PlotMenu(QObject):
-    """What can be done with a plot, in words. ``told`` carries a fault of saving, ``saved`` the path written."""
+    """What can be done with a plot, in words. ``fault_raised`` carries a fault of saving, ``saved`` the path
+    written."""
 
-    told = Signal(object)
+    fault_raised = Signal(object)
     saved = Signal(str)
 
     def __init__(self, card: ZoomChart, file_name: str) -> None:
@@ -181,14 +184,14 @@ class PlotMenu(QObject):
                 menu.addAction(words).triggered.connect(lambda _=False, action=action: action())
         return menu
 
-    def open(self, at: QPoint) -> None:
+    def open(self, position: QPoint) -> None:
         if self._card.extent() is not None:
             menu = self.build_menu()
             menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-            menu.popup(at)
+            menu.popup(position)
 
     def copy_picture(self) -> None:
-        QGuiApplication.clipboard().setImage(export.picture(self._card))
+        QGuiApplication.clipboard().setImage(export.render_image(self._card))
 
     def save_picture(self) -> None:
         self._save_with_dialog("png", "PNG (*.png)")
@@ -202,8 +205,8 @@ class PlotMenu(QObject):
     def save(self, path: Path) -> None:
         """Write a picture, drawing or table, as the name ends; a fault is told."""
         try:
-            export.save(self._card, self._card.table, path)
+            export.save_chart(self._card, self._card.table, path)
         except CarpusFault as fault:
-            self.told.emit(fault)
+            self.fault_raised.emit(fault)
         else:
             self.saved.emit(str(path))

@@ -9,9 +9,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, KeyCaps, Line
-from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.card import Card, KeyCaps, Separator
+from carpus.ui.controls.field import ChoiceRow
+from carpus.ui.controls.layouts import STRETCH, column_layout, fill, row_layout
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.icons import State
 from carpus.ui.keys import KEYS
@@ -26,10 +26,10 @@ class BackupFacts:
     state: State
     headline: str
     detail: str
-    more: str
-    place: str
-    place_state: State
-    place_words: str
+    note: str
+    folder: str
+    folder_state: State
+    folder_text: str
     can_back_up: bool
 
 
@@ -42,51 +42,51 @@ class BackupCard(Card):
         words = self.tr("Everything of the data folder: patients, sessions, pictures, log. Works while you measure.")
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.state_card = Card(theme, 14, "soft", "soft")
-        self.sign = StateText(theme, 16, SEMIBOLD)
+        self.state_sign = StateText(theme, 16, SEMIBOLD)
         self.headline = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.more = Text(theme, "", 12, MEDIUM, "text2", wrap=True)
+        self.note = Text(theme, "", 12, MEDIUM, "text2", wrap=True)
         self.now_button = Button(theme, self.tr("&Back up now"), icon="archive")
         self.restore_button = Button(theme, self.tr("&Restore…"), icon="rotate-ccw")
         self.progress = caption(theme, self.tr("then read back and compared"), wrap=True)
-        self.place = Text(theme, "", 14, MEDIUM, wrap=True)
-        self.place_state = StateText(theme, 12, MEDIUM, 16)
-        self.place_button = Button(theme, self.tr("Change…"), height_px=36)
-        self.hours = Choices(
+        self.folder = Text(theme, "", 14, MEDIUM, wrap=True)
+        self.folder_state = StateText(theme, 12, MEDIUM, 16)
+        self.folder_button = Button(theme, self.tr("Change…"), height_px=36)
+        self.schedule = ChoiceRow(
             theme,
             [(12, self.tr("Each day at 12:00")), (18, self.tr("At 18:00")), (-1, self.tr("Only when told"))],
             hour,
         )
-        self._lay_out(theme)
+        self._build_layout(theme)
 
-    def _lay_out(self, theme: Theme) -> None:
-        texts = in_column(self.headline, self.detail, self.more, gap=2)
-        self.state_card.body.addLayout(in_line((self.sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=10))
+    def _build_layout(self, theme: Theme) -> None:
+        texts = column_layout(self.headline, self.detail, self.note, gap=2)
+        self.state_card.body.addLayout(row_layout((self.state_sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=10))
         shows = caption(theme, self.tr("shows first what changes"), wrap=True)
-        acts = in_column(self.now_button, self.progress, STRETCH, gap=4)
-        again = in_column(self.restore_button, shows, STRETCH, gap=4)
+        acts = column_layout(self.now_button, self.progress, STRETCH, gap=4)
+        again = column_layout(self.restore_button, shows, STRETCH, gap=4)
         keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
         fill(
             self.body,
-            in_line((self.state_card, 1), acts, again, gap=16),
-            Line(theme),
-            _row(theme, self.tr("Folder for back-ups"), self.place, self.place_state, self.place_button),
-            Line(theme),
-            _row(theme, self.tr("By itself"), self.hours),
-            Line(theme),
-            _row(theme, self.tr("Keep"), keep),
+            row_layout((self.state_card, 1), acts, again, gap=16),
+            Separator(theme),
+            _make_row(theme, self.tr("Folder for back-ups"), self.folder, self.folder_state, self.folder_button),
+            Separator(theme),
+            _make_row(theme, self.tr("By itself"), self.schedule),
+            Separator(theme),
+            _make_row(theme, self.tr("Keep"), keep),
             caption(theme, self.tr("Whoever has the back-up disk can read it: use an encrypted disk."), wrap=True),
         )
 
     def show_facts(self, facts: BackupFacts) -> None:
         fill = "warn_soft" if facts.state == "warn" else "good_soft" if facts.state == "good" else "soft"
         self.state_card.set_colors(fill, fill)
-        self.sign.show_state(facts.state, "")
-        self.sign.setVisible(facts.state != "none")
-        for text, words in ((self.headline, facts.headline), (self.detail, facts.detail), (self.more, facts.more)):
-            text.say(words)
-        self.place.setText(facts.place or self.tr("none"))
-        self.place_state.show_state(facts.place_state, facts.place_words)
+        self.state_sign.show_state(facts.state, "")
+        self.state_sign.setVisible(facts.state != "none")
+        for text, words in ((self.headline, facts.headline), (self.detail, facts.detail), (self.note, facts.note)):
+            text.show_text(words)
+        self.folder.setText(facts.folder or self.tr("none"))
+        self.folder_state.show_state(facts.folder_state, facts.folder_text)
         self.now_button.setEnabled(facts.can_back_up)
 
     def show_progress(self, percent: int | None) -> None:
@@ -112,7 +112,7 @@ class LockCard(Card):
         self.disk = StateText(theme, 14, SEMIBOLD)
         self.disk_remedy = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         fill(self.body, self.disk, self.disk_remedy)
-        self.minutes = Choices(
+        self.minutes = ChoiceRow(
             theme,
             [
                 (5, self.tr("After 5 min")),
@@ -130,7 +130,7 @@ class LockCard(Card):
             Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
         )
         self.body.addLayout(
-            in_line(
+            row_layout(
                 self.pin_button,
                 (KeyCaps(theme, [(KEYS["lock"], self.tr("locks now"))]), 0, Qt.AlignmentFlag.AlignVCenter),
                 STRETCH,
@@ -141,10 +141,10 @@ class LockCard(Card):
     def show_disk(self, state: State, words: str, remedy: str) -> None:
         """Whether the disk is encrypted, which is what protects the files."""
         self.disk.show_state(state, words)
-        self.disk_remedy.say(remedy)
+        self.disk_remedy.show_text(remedy)
 
     def show_pin(self, *, is_set: bool) -> None:
-        self.pin_button.set_face(self.tr("Change PIN…") if is_set else self.tr("Set a PIN…"))
+        self.pin_button.set_label(self.tr("Change PIN…") if is_set else self.tr("Set a PIN…"))
         for button in self.minutes.buttons():
             button.setEnabled(is_set)
 
@@ -160,17 +160,19 @@ class RecordsCard(Card):
         names = {0: self.tr("Not set")}
         shown = sorted({*choices, years})
         options = [(one, names.get(one, self.tr("{n} years").format(n=one))) for one in shown]
-        self.years = Choices(theme, options, years, wraps=True)
+        self.years = ChoiceRow(theme, options, years, wraps=True)
         self.due_button = Button(theme, self.tr("What is d&ue…"), height_px=40)
         self.archive_button = Button(theme, self.tr("&Archive…"), icon="archive", height_px=40)
         self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)
-        fill(self.body, self.years, 4, in_line(self.due_button, self.archive_button, self.log_button, STRETCH, gap=12))
+        fill(
+            self.body, self.years, 4, row_layout(self.due_button, self.archive_button, self.log_button, STRETCH, gap=12)
+        )
 
 
-def _row(theme: Theme, name: str, *widgets: QWidget) -> QHBoxLayout:
-    row = in_line(gap=16)
+def _make_row(theme: Theme, name: str, *widgets: QWidget) -> QHBoxLayout:
+    row = row_layout(gap=16)
     label = Text(theme, name, 14, REGULAR, "text2")
-    theme.follow(label, lambda: label.setFixedWidth(theme.px(180)))
+    theme.on_change(label, lambda: label.setFixedWidth(theme.px(180)))
     row.addWidget(label)
     for number, widget in enumerate(widgets):
         row.addWidget(widget, 1 if number == 0 else 0)

@@ -9,198 +9,206 @@ from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut, QWindow
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QWidget
 
-from carpus.core.disks import disk_encryption_finding, disk_state
+from carpus.core.disks import check_disk_encryption, detect_encryption
 from carpus.core.errors import CarpusFault, PinUncheckable
 from carpus.core.installing import Finding
 from carpus.core.records.pin import Pin
-from carpus.core.rounding import rounded
+from carpus.core.rounding import round_half_away
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Line, Surface
-from carpus.ui.controls.field import Labelled
-from carpus.ui.controls.layouts import fill, in_line
-from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, StateText, Text
+from carpus.ui.controls.card import Separator, Surface
+from carpus.ui.controls.field import LabelledField
+from carpus.ui.controls.layouts import fill, row_layout
+from carpus.ui.controls.sheet import Dialog
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text
 from carpus.ui.fault_words import fault_words
 from carpus.ui.flow import ScreenContext
 from carpus.ui.keys import KEYS
 from carpus.ui.records.cards import LockCard
 from carpus.ui.theme import Theme
-from carpus.ui.translate import say
+from carpus.ui.translate import translate_phrase
 
-WAIT_MS = 60_000
+RETRY_INTERVAL_MS = 60_000
 """How long a lock waits again that came while a recording ran."""
 
 
-class Locking(QObject):
-    """Locks by key, after idle minutes and at the start; never while a recording runs. ``hides`` carries whether what
+class LockController(QObject):
+    """Locks by key, after idle minutes and at the start; never while a recording runs. ``privacy_changed`` carries
+    whether what
     lies in other windows is to be hidden."""
 
-    hides = Signal(bool)
+    privacy_changed = Signal(bool)
 
     def __init__(
         self,
         context: ScreenContext,
         *,
         minutes: int,
-        keep_minutes: Callable[[int], None],
+        save_minutes: Callable[[int], None],
     ) -> None:
-        super().__init__(context.shell)
-        shell, theme, library = context.shell, context.theme, context.library
+        super().__init__(context.window)
+        shell, theme, library = context.window, context.theme, context.library
         self._context, self._shell, self._library = context, shell, library
-        self._minutes, self._keep_minutes = minutes, keep_minutes
+        self._minutes, self._save_minutes = minutes, save_minutes
         self.pin = Pin(library.folder)
-        self.sheet = LockSheet(shell, theme)
-        self.sheet.tried.connect(self._try)
-        self.pin_sheet = PinSheet(shell.stage, theme)
-        self.pin_sheet.chosen.connect(self._change_pin)
+        self.lock_screen = LockScreen(shell, theme)
+        self.lock_screen.pin_entered.connect(self._check_pin)
+        self.pin_dialog = PinDialog(shell.screen_stack, theme)
+        self.pin_dialog.pin_chosen.connect(self._change_pin)
         self.card = LockCard(theme, minutes)
-        self.card.pin_button.clicked.connect(lambda: self.pin_sheet.begin(is_set=self.pin.is_set))
-        self.card.minutes.chosen.connect(self._take_minutes)
+        self.card.pin_button.clicked.connect(lambda: self.pin_dialog.request_pin(is_set=self.pin.is_set))
+        self.card.minutes.chosen.connect(self._set_minutes)
         self.card.show_pin(is_set=self.pin.is_set)
         self._background = Background()  # the system may take a second or two to answer
         folder = library.folder
         self._background.run(
-            lambda: disk_encryption_finding(disk_state(folder)), self._show_disk, context.messages.fault, self
+            lambda: check_disk_encryption(detect_encryption(folder)),
+            self._show_disk_encryption,
+            context.messages.show_fault,
+            self,
         )
-        self._hidden = (shell.bar, shell.sign, shell.stage)
+        self._hidden_widgets = (shell.top_bar, shell.banner, shell.screen_stack)
         shortcut = QShortcut(QKeySequence(KEYS["lock"]), shell)
-        shortcut.activated.connect(self.lock_by_key)
-        self.idle = Idle(shell)
-        self.idle.passed.connect(self._lock_by_itself)
+        shortcut.activated.connect(self.lock_or_set_pin)
+        self.idle_timer = IdleTimer(shell)
+        self.idle_timer.timed_out.connect(self._lock_when_idle)
 
     @property
-    def locked(self) -> bool:
-        return self.sheet.isVisibleTo(self._shell)
+    def is_locked(self) -> bool:
+        return self.lock_screen.isVisibleTo(self._shell)
 
-    def end(self) -> None:
-        self.idle.wait(0)
-        self._background.wait(WAIT_MS)
+    def shut_down(self) -> None:
+        self.idle_timer.restart(0)
+        self._background.join(RETRY_INTERVAL_MS)
 
-    def _show_disk(self, finding: Finding) -> None:
-        self.card.show_disk("good" if finding.state == "good" else "warn", say(finding.found), say(finding.remedy))
+    def _show_disk_encryption(self, finding: Finding) -> None:
+        self.card.show_disk(
+            "good" if finding.state == "good" else "warn",
+            translate_phrase(finding.observation),
+            translate_phrase(finding.remedy),
+        )
 
     def lock_at_start(self) -> None:
         """Where there is a PIN nothing is shown without it; called when the window is there."""
-        self.look_again()
+        self.refresh()
         if self.pin.is_set:
             self._lock(0)
 
-    def lock_by_key(self) -> None:
+    def lock_or_set_pin(self) -> None:
         """The key that locks; without a PIN it leads to where one is set."""
-        if self._context.way.is_recording():
+        if self._context.navigator.is_recording():
             return  # a recording goes on, and its keys must reach it
         if self.pin.is_set:
             self._lock(0)
         else:
-            self._context.way.show("settings", "safety")
+            self._context.navigator.open_screen("settings", "safety")
 
-    def _lock_by_itself(self) -> None:
-        if not self.pin.is_set or self.locked or self._minutes == 0:
+    def _lock_when_idle(self) -> None:
+        if not self.pin.is_set or self.is_locked or self._minutes == 0:
             return
-        if self._context.way.is_recording():
-            self.idle.wait(WAIT_MS)
+        if self._context.navigator.is_recording():
+            self.idle_timer.restart(RETRY_INTERVAL_MS)
             return
         self._lock(self._minutes)
 
     def _lock(self, minutes: int) -> None:
-        if self.locked:
+        if self.is_locked:
             return
         for widget in QApplication.topLevelWidgets():
             if widget.property("stays_when_locked"):
                 continue  # the patient's view, which shows nothing but a word then
             if widget is not self._shell and widget.isVisible():
                 widget.close()  # menus and dialogs name patients too
-        self.hides.emit(True)
-        stored = self._context.now.session_id != ""
-        self.sheet.begin(self.sheet.reason(datetime.now(), minutes), stored=stored)
-        for widget in self._hidden:
+        self.privacy_changed.emit(True)
+        stored = self._context.current.session_id != ""
+        self.lock_screen.lock(self.lock_screen.lock_reason(datetime.now(), minutes), is_session_saved=stored)
+        for widget in self._hidden_widgets:
             widget.setProperty("shown_before_lock", not widget.isHidden())
             widget.hide()
-        self._library.notes.program("locked", idle=int(minutes > 0))
+        self._library.audit_log.log_program("locked", idle=int(minutes > 0))
 
-    def _try(self, typed: str) -> None:
+    def _check_pin(self, entered: str) -> None:
         try:
-            tried = self.pin.try_it(typed)
+            tried = self.pin.check(entered)
         except CarpusFault as fault:
             words = fault_words(fault)
-            self.sheet.say(f"{words.happened} {words.do}")
+            self.lock_screen.show_message(f"{words.summary} {words.remedy}")
             if not isinstance(fault, PinUncheckable):
-                self.sheet.pause(WAIT_MS // 1000)  # what cannot be counted is not tried without end
+                self.lock_screen.pause(RETRY_INTERVAL_MS // 1000)  # what cannot be counted is not tried without end
             return
-        if not tried.opened:
-            self._library.notes.program("pin_refused", left=tried.left)
-            self.sheet.refuse(tried.left, rounded(tried.pause_s))
+        if not tried.is_correct:
+            self._library.audit_log.log_program("pin_refused", left=tried.tries_left)
+            self.lock_screen.show_wrong_pin(tried.tries_left, round_half_away(tried.pause_s))
             return
-        self._library.notes.program("unlocked")
-        self.hides.emit(False)
-        for widget in self._hidden:
+        self._library.audit_log.log_program("unlocked")
+        self.privacy_changed.emit(False)
+        for widget in self._hidden_widgets:
             widget.setVisible(bool(widget.property("shown_before_lock")))
-        self.sheet.close_sheet()
-        self._restart()
+        self.lock_screen.close_dialog()
+        self._restart_idle_timer()
 
     def _change_pin(self, old: str, new: str) -> None:
         try:
             if self.pin.is_set:
-                tried = self.pin.try_it(old)
-                if not tried.opened:
-                    self._library.notes.program("pin_refused", left=tried.left)
+                tried = self.pin.check(old)
+                if not tried.is_correct:
+                    self._library.audit_log.log_program("pin_refused", left=tried.tries_left)
                     words = self.tr("The current PIN is not right.")
                     wait = self.tr("Too many tries. The next one in {seconds} s.").format(
-                        seconds=rounded(tried.pause_s)
+                        seconds=round_half_away(tried.pause_s)
                     )
-                    self.pin_sheet.said.say(wait if tried.pause_s else words)
+                    self.pin_dialog.error_text.show_text(wait if tried.pause_s else words)
                     return
             if new:
                 self.pin.set(new)
             else:
-                self.pin.take_away()
+                self.pin.remove()
         except CarpusFault as fault:
-            self.pin_sheet.close_sheet()
-            self._context.messages.fault(fault)
+            self.pin_dialog.close_dialog()
+            self._context.messages.show_fault(fault)
             return
-        self._library.notes.program("pin_changed", set=int(bool(new)))
-        self.pin_sheet.close_sheet()
+        self._library.audit_log.log_program("pin_changed", set=int(bool(new)))
+        self.pin_dialog.close_dialog()
         self.card.show_pin(is_set=self.pin.is_set)
-        self._restart()
+        self._restart_idle_timer()
 
-    def look_again(self) -> None:
+    def refresh(self) -> None:
         self.card.show_pin(is_set=self.pin.is_set)
-        self._restart()
+        self._restart_idle_timer()
 
-    def _take_minutes(self, minutes: int) -> None:
+    def _set_minutes(self, minutes: int) -> None:
         self._minutes = minutes
-        self._keep_minutes(minutes)
-        self._restart()
+        self._save_minutes(minutes)
+        self._restart_idle_timer()
 
-    def _restart(self) -> None:
-        self.idle.wait(self._minutes * 60_000 if self.pin.is_set else 0)
+    def _restart_idle_timer(self) -> None:
+        self.idle_timer.restart(self._minutes * 60_000 if self.pin.is_set else 0)
 
 
-SIGNS_OF_LIFE = (
+ACTIVITY_EVENTS = (
     QEvent.Type.KeyPress, QEvent.Type.MouseMove, QEvent.Type.MouseButtonPress, QEvent.Type.Wheel,
     QEvent.Type.TouchBegin,
 )  # fmt: skip
 
 
-class Idle(QObject):
-    """``passed`` once after so many milliseconds without a sign of life in the window."""
+class IdleTimer(QObject):
+    """``timed_out`` once after so many milliseconds without a sign of life in the window."""
 
-    passed = Signal()
+    timed_out = Signal()
 
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
         self._window = window
         self._watched: QObject | None = None
         self._timer = QTimer(self, singleShot=True)
-        self._timer.timeout.connect(self.passed)
+        self._timer.timeout.connect(self.timed_out)
 
     @property
-    def left_ms(self) -> int:
+    def remaining_ms(self) -> int:
         """Until it passes; -1 when nobody waits."""
         return self._timer.remainingTime()
 
-    def wait(self, milliseconds: int) -> None:
+    def restart(self, milliseconds: int) -> None:
         """From now on; 0 for never."""
         self._timer.stop()
         handle: QWindow | None = self._window.windowHandle()  # none before the window was made
@@ -212,18 +220,18 @@ class Idle(QObject):
             self._timer.start(milliseconds)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() in SIGNS_OF_LIFE and self._timer.isActive():
+        if event.type() in ACTIVITY_EVENTS and self._timer.isActive():
             self._timer.start()
         return False
 
 
-LEAST_SIGNS = 4
+MIN_PIN_LENGTH = 4
 
 
-class PinSheet(Sheet):
-    """``chosen`` carries the old PIN (empty for none) and the new one, empty to take it away."""
+class PinDialog(Dialog):
+    """``pin_chosen`` carries the old PIN (empty for none) and the new one, empty to take it away."""
 
-    chosen = Signal(str, str)
+    pin_chosen = Signal(str, str)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
@@ -231,184 +239,189 @@ class PinSheet(Sheet):
             "Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are "
             "readable for whoever has this computer’s account or disk."
         )
-        self.head(words=words)
-        self.old, self.new, self.again = QLineEdit(), QLineEdit(), QLineEdit()
-        for line in (self.old, self.new, self.again):
+        self.add_heading(words=words)
+        self.current_pin, self.new_pin, self.repeated_pin = QLineEdit(), QLineEdit(), QLineEdit()
+        for line in (self.current_pin, self.new_pin, self.repeated_pin):
             line.setEchoMode(QLineEdit.EchoMode.Password)
-            line.setMaxLength(MOST_SIGNS)
-        self._old_row = Labelled(theme, self.tr("&Current PIN"), self.old)
-        self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.keep = Button(theme, self.tr("Set PIN"), "primary")
-        self.remove = Button(theme, self.tr("&Remove PIN"), "plain", height_px=52)
-        self.keep.clicked.connect(self._keep)
-        self.remove.clicked.connect(lambda: self.chosen.emit(self.old.text(), ""))
-        new, again = (self.tr("&New PIN"), self.new), (self.tr("Repeat new &PIN"), self.again)
-        fill(self.card.body, self._old_row, Labelled(theme, *new), Labelled(theme, *again), self.said)
-        self.answer_row(self.keep, self.remove, gap=None)
+            line.setMaxLength(MAX_PIN_LENGTH)
+        self._current_row = LabelledField(theme, self.tr("&Current PIN"), self.current_pin)
+        self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.save_button = Button(theme, self.tr("Set PIN"), "primary")
+        self.remove_button = Button(theme, self.tr("&Remove PIN"), "plain", height_px=52)
+        self.save_button.clicked.connect(self._accept)
+        self.remove_button.clicked.connect(lambda: self.pin_chosen.emit(self.current_pin.text(), ""))
+        new, again = (self.tr("&New PIN"), self.new_pin), (self.tr("Repeat new &PIN"), self.repeated_pin)
+        fill(
+            self.card.body, self._current_row, LabelledField(theme, *new), LabelledField(theme, *again), self.error_text
+        )
+        self.add_buttons(self.save_button, self.remove_button, gap=None)
 
-    def begin(self, *, is_set: bool) -> None:
+    def request_pin(self, *, is_set: bool) -> None:
         """Ask; the old one first where there is one."""
         self.title.setText(self.tr("Change the PIN") if is_set else self.tr("Set a PIN"))
-        self._old_row.setVisible(is_set)
-        self.remove.setVisible(is_set)
-        for line in (self.old, self.new, self.again):
+        self._current_row.setVisible(is_set)
+        self.remove_button.setVisible(is_set)
+        for line in (self.current_pin, self.new_pin, self.repeated_pin):
             line.clear()
-        self.said.hide()
-        self.open(self.old if is_set else self.new)
+        self.error_text.hide()
+        self.open(self.current_pin if is_set else self.new_pin)
 
-    def _keep(self) -> None:
-        if len(self.new.text()) < LEAST_SIGNS:
-            self.said.say(self.tr("A PIN has four signs or more."))
-        elif self.new.text() != self.again.text():
-            self.said.say(self.tr("The two are not the same."))
+    def _accept(self) -> None:
+        if len(self.new_pin.text()) < MIN_PIN_LENGTH:
+            self.error_text.show_text(self.tr("A PIN has four signs or more."))
+        elif self.new_pin.text() != self.repeated_pin.text():
+            self.error_text.show_text(self.tr("The two are not the same."))
         else:
-            self.chosen.emit(self.old.text(), self.new.text())
+            self.pin_chosen.emit(self.current_pin.text(), self.new_pin.text())
 
 
-MOST_SIGNS = 64
+MAX_PIN_LENGTH = 64
 
 
-class LockSheet(Sheet):
-    """Covers the whole window. ``tried`` carries what was typed; the answer comes by :meth:`refuse` or by closing."""
+class LockScreen(Dialog):
+    """Covers the whole window. ``pin_entered`` carries what was typed; the answer comes by :meth:`show_wrong_pin` or
+    by closing."""
 
-    tried = Signal(str)
+    pin_entered = Signal(str)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
-        super().__init__(host, theme, 480, may_close=False)
+        super().__init__(host, theme, 480, is_dismissible=False)
         self._pause_s = 0
-        self._says_why = False
+        self._keeps_message = False
         self.badge = Surface(theme, "soft")
         self.badge.setObjectName("badge")
-        QHBoxLayout(self.badge).addWidget(Sign(theme, "lock", 32, (50, 50), lean=0.5))
-        self._bar = Surface(theme, under="line")
+        QHBoxLayout(self.badge).addWidget(Icon(theme, "lock", 32, (50, 50), alignment=0.5))
+        self._bar = Surface(theme, bottom_edge="line")
         self._bar.setParent(self)
-        in_line(
-            Sign(theme, "carpus", 22, (26, 32)),
+        row_layout(
+            Icon(theme, "carpus", 22, (26, 32)),
             (Text(theme, "Carpus", 16, SEMIBOLD), 1),
             gap=6,
             margins=(20, 0, 0, 0),
-            within=self._bar,
+            parent=self._bar,
         )
         self.title = Text(theme, self.tr("Locked"), 28, SEMIBOLD)
-        self.why = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.line = QLineEdit(echoMode=QLineEdit.EchoMode.Password, maxLength=MOST_SIGNS)
-        self.line.setAccessibleName(self.tr("PIN"))
-        self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.unlock = Button(theme, self.tr("Unlock"), "primary")
-        self.unlock.clicked.connect(self._try)
-        self.set_default(self.unlock)
-        self.safe = StateText(theme, 14, MEDIUM)
-        self.hidden = StateText(theme, 14, REGULAR)
-        self.forgotten = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.reason_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.pin_field = QLineEdit(echoMode=QLineEdit.EchoMode.Password, maxLength=MAX_PIN_LENGTH)
+        self.pin_field.setAccessibleName(self.tr("PIN"))
+        self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.unlock_button = Button(theme, self.tr("Unlock"), "primary")
+        self.unlock_button.clicked.connect(self._submit)
+        self.set_default(self.unlock_button)
+        self.data_state = StateText(theme, 14, MEDIUM)
+        self.privacy_state = StateText(theme, 14, REGULAR)
+        self.forgotten_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         body = self.card.body
         body.setContentsMargins(36, 20, 36, 16)
         body.setSpacing(8)
         middle = Qt.AlignmentFlag.AlignHCenter
         fill(body, (self.badge, 0, middle), (self.title, 0, middle))
-        self.why.setAlignment(middle)
+        self.reason_text.setAlignment(middle)
         fill(
             body,
-            self.why,
+            self.reason_text,
             8,
             Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
-            self.line,
-            self.said,
-            self.unlock,
+            self.pin_field,
+            self.error_text,
+            self.unlock_button,
             4,
-            Line(theme),
-            self.safe,
-            self.hidden,
-            self.forgotten,
+            Separator(theme),
+            self.data_state,
+            self.privacy_state,
+            self.forgotten_text,
         )
         self._clock = QTimer(self, interval=1000)
-        self._clock.timeout.connect(self._count)
+        self._clock.timeout.connect(self._count_seconds)
 
-    def begin(self, why: str, *, stored: bool) -> None:
-        """Cover the window; ``stored`` whether a session was open, which is."""
-        self.why.setText(why)
-        words = self.tr("Nothing is lost. The open session is stored.") if stored else self.tr("Nothing is lost.")
-        self.safe.show_state("good", words, token="text")
-        self.hidden.show_state("none", self.tr("Names, pictures and figures are hidden."), icon="eye-off")
-        self._say_forgotten(help_shown=False)
-        self.said.hide()
-        self.line.clear()
-        self._let_try(True)
-        self.open(self.line)
+    def lock(self, reason: str, *, is_session_saved: bool) -> None:
+        """Cover the window; ``is_session_saved`` whether a session was open, which is."""
+        self.reason_text.setText(reason)
+        words = (
+            self.tr("Nothing is lost. The open session is stored.") if is_session_saved else self.tr("Nothing is lost.")
+        )
+        self.data_state.show_state("good", words, token="text")
+        self.privacy_state.show_state("none", self.tr("Names, pictures and figures are hidden."), icon="eye-off")
+        self._show_forgotten(help_shown=False)
+        self.error_text.hide()
+        self.pin_field.clear()
+        self._set_input_enabled(True)
+        self.open(self.pin_field)
 
-    def reason(self, when: datetime, minutes: int) -> str:
+    def lock_reason(self, when: datetime, minutes: int) -> str:
         if minutes:
             words = self.tr("Locked by itself at {time}, after {minutes} minutes without a key.")
             return words.format(time=f"{when:%H:%M}", minutes=minutes)
         return self.tr("Locked at {time}.").format(time=f"{when:%H:%M}")
 
-    def refuse(self, left: int, pause_s: int) -> None:
+    def show_wrong_pin(self, attempts_left: int, pause_s: int) -> None:
         """The PIN was not the one: how many tries are left, or how long to wait."""
         if pause_s:
-            self.line.clear()
-            self._wait(pause_s)
+            self.pin_field.clear()
+            self._start_pause(pause_s)
             self._show_pause()
             return
         words = self.tr("Not this PIN. 1 more try, then a pause of 1 minute.")
-        if left != 1:
-            words = self.tr("Not this PIN. {left} more tries, then a pause of 1 minute.").format(left=left)
-        self.say(words)
+        if attempts_left != 1:
+            words = self.tr("Not this PIN. {left} more tries, then a pause of 1 minute.").format(left=attempts_left)
+        self.show_message(words)
 
-    def say(self, words: str) -> None:
-        self.line.clear()
-        self.said.say(words)
-        self.line.setFocus(Qt.FocusReason.OtherFocusReason)
+    def show_message(self, words: str) -> None:
+        self.pin_field.clear()
+        self.error_text.show_text(words)
+        self.pin_field.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def pause(self, pause_s: int) -> None:
         """Nothing is tried for so long; what was said stays."""
-        self._says_why = True
-        self._wait(pause_s)
+        self._keeps_message = True
+        self._start_pause(pause_s)
 
-    def _wait(self, pause_s: int) -> None:
+    def _start_pause(self, pause_s: int) -> None:
         self._pause_s = pause_s
-        self._let_try(False)
+        self._set_input_enabled(False)
         self._clock.start()
 
-    def _let_try(self, may: bool) -> None:
-        self.line.setEnabled(may)
-        self.unlock.setEnabled(may)
+    def _set_input_enabled(self, is_enabled: bool) -> None:
+        self.pin_field.setEnabled(is_enabled)
+        self.unlock_button.setEnabled(is_enabled)
 
     def _show_pause(self) -> None:
-        if self._says_why:
+        if self._keeps_message:
             return
-        self.said.say(self.tr("Too many tries. The next one in {seconds} s.").format(seconds=self._pause_s))
+        self.error_text.show_text(self.tr("Too many tries. The next one in {seconds} s.").format(seconds=self._pause_s))
 
-    def _count(self) -> None:
+    def _count_seconds(self) -> None:
         self._pause_s = max(0, self._pause_s - 1)
         if self._pause_s:
             self._show_pause()
             return
         self._clock.stop()
-        self._says_why = False
-        self.said.hide()
-        self._let_try(True)
-        self.line.setFocus(Qt.FocusReason.OtherFocusReason)
+        self._keeps_message = False
+        self.error_text.hide()
+        self._set_input_enabled(True)
+        self.pin_field.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _try(self) -> None:
-        if self.line.text():
-            self.tried.emit(self.line.text())
+    def _submit(self) -> None:
+        if self.pin_field.text():
+            self.pin_entered.emit(self.pin_field.text())
 
-    def close_sheet(self) -> None:
+    def close_dialog(self) -> None:
         self._clock.stop()
-        self.line.clear()
-        super().close_sheet()
+        self.pin_field.clear()
+        super().close_dialog()
 
-    def _say_forgotten(self, *, help_shown: bool) -> None:
+    def _show_forgotten(self, *, help_shown: bool) -> None:
         words = self.tr("PIN forgotten? F1 says what can be done.")
         if help_shown:
             words = self.tr(
                 "Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus "
                 "again: nothing is lost. A PIN hides; it does not protect the files."
             )
-        self.forgotten.setText(words)
+        self.forgotten_text.setText(words)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_F1:
-            self._say_forgotten(help_shown=True)
+            self._show_forgotten(help_shown=True)
         super().keyPressEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

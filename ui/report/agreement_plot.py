@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSizeF
 from PySide6.QtGui import QColor, QImage, QPainter
 
-from carpus.core.formats.new_output import new_bytes
+from carpus.core.formats.new_output import open_new_file
 from carpus.ui.controls.text import SEMIBOLD
 from carpus.ui.plot.agreement import AgreementChart, AgreementPlot
 from carpus.ui.plot.style import paper_style
 from carpus.ui.report.page import UNIT, PaintedPart, column, fit_parts, line, paragraph, render_parts
 from carpus.ui.report.pdf import POINTS_PER_MM, ensure_application, pdf_bytes
 from carpus.ui.theme import Theme
-from carpus.ui.translate import say, tr
-from carpus.ui.words.agreement import angle_name, remark_words, share, tenths
+from carpus.ui.translate import tr, translate_phrase
+from carpus.ui.words.agreement import angle_name, format_coefficient, format_tenths, remark_words
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
-    from carpus.core.agreement.compare import Compared, Pairs
+    from carpus.core.agreement.compare import AnglePairs, Comparison
 
 WIDTH, HEIGHT, EDGE = 1120, 480, 24
 PICTURE_SCALE = 2
@@ -33,23 +33,23 @@ STYLE = paper_style(4.0 / 3.0 * UNIT)
 PaintPlots = Callable[[QPainter, float], None]
 
 
-def write_plots(compared: Compared, folder: Path, stem: str, limit_deg: float = 0.0) -> list[Path]:
+def write_plots(compared: Comparison, folder: Path, stem: str, limit_deg: float = 0.0) -> list[Path]:
     """Write one ``STEM.ANGLE.png`` for each angle and ``STEM.pdf`` with all; the files. ``limit_deg``
     set before is hatched, 0 for none.
 
     Raises :class:`OutputExists` or :class:`OutputNotWritable`.
     """
     application = ensure_application()
-    pages = {pairs.name: _page(pairs, compared, limit_deg) for pairs in compared.pairs}
-    out = [_stored(folder / f"{stem}.{name}.png", _picture(paint)) for name, paint in pages.items()]
+    pages = {pairs.name: _page_painter(pairs, compared, limit_deg) for pairs in compared.pairs}
+    out = [_write_file(folder / f"{stem}.{name}.png", _picture(paint)) for name, paint in pages.items()]
     on_paper = [(QSizeF(*PAPER_MM), partial(_paint_on_paper, paint)) for paint in pages.values()]
-    out.append(_stored(folder / f"{stem}.pdf", pdf_bytes(on_paper, "Carpus agreement")))
+    out.append(_write_file(folder / f"{stem}.pdf", pdf_bytes(on_paper, "Carpus agreement")))
     del application
     return out
 
 
-def _stored(path: Path, content: bytes) -> Path:
-    with new_bytes(path) as file:
+def _write_file(path: Path, content: bytes) -> Path:
+    with open_new_file(path) as file:
         file.write(content)
     return path
 
@@ -75,21 +75,21 @@ def _paint_on_paper(paint: PaintPlots, painter: QPainter, point: float) -> None:
     painter.restore()
 
 
-def _page(pairs: Pairs, compared: Compared, limit_deg: float) -> PaintPlots:
+def _page_painter(pairs: AnglePairs, compared: Comparison, limit_deg: float) -> PaintPlots:
     """Paints an angle's figures and both plots, with so many painter units to a design pixel."""
-    f = pairs.figures_deg
+    f = pairs.agreement_deg
     values = [
-        f"RMSE {tenths(f.rmse)}",
-        f"r {share(f.correlation)}",
-        f"ICC(2,1) {share(f.icc)}",
-        f"ICC(3,1) {share(f.icc_3_1)}",
+        f"RMSE {format_tenths(f.rmse)}",
+        f"r {format_coefficient(f.correlation)}",
+        f"ICC(2,1) {format_coefficient(f.icc)}",
+        f"ICC(3,1) {format_coefficient(f.icc_3_1)}",
     ]
     if math.isfinite(f.cmc):
-        values.append(f"CMC {share(f.cmc)}")
+        values.append(f"CMC {format_coefficient(f.cmc)}")
     words = (
-        tr("{count} pairs, {kind}") if compared.pictures == 0 else tr("{count} pairs of one session, against {kind}")
+        tr("{count} pairs, {kind}") if compared.frame_count == 0 else tr("{count} pairs of one session, against {kind}")
     )
-    values.append(words.format(count=f.count, kind=say(compared.kind)))
+    values.append(words.format(count=f.count, kind=translate_phrase(compared.kind)))
     plot = AgreementPlot(pairs, limit_deg, compared.shift is not None, "curves")
     plots = line((_plot_part(plot), 10), (_plot_part(replace(plot, view="differences")), 11), gap=24)
     remarks = [paragraph(one, 13, token="warn") for one in remark_words(compared, pairs.name)]

@@ -12,18 +12,18 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.core.errors import CarpusFault
 from carpus.core.records import of_clinic, patients
-from carpus.core.records.of_clinic import keep_form, read_form
-from carpus.core.records.values import unless_away
-from carpus.core.results.report_form import ReportForm, usual_paper
+from carpus.core.records.of_clinic import read_form, save_form
+from carpus.core.records.values import read_or_default
+from carpus.core.results.report_form import ReportForm, default_paper
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.report.gather import session_report
-from carpus.ui.report.home_page import HomeReport, own_way
+from carpus.ui.report.gather import build_session_report
+from carpus.ui.report.home_page import HomeReport, build_home_progress
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pages import Report
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.sheets import HomeSheet, LetterSheet
+from carpus.ui.report.sheets import HomeDialog, LetterDialog
 from carpus.ui.settings.report_card import ReportCard
 
 T = TypeVar("T")
@@ -32,162 +32,166 @@ T = TypeVar("T")
 class ReportFlow(Flow):
     """One report of a session, of the progress."""
 
-    place, guide = "report", "figures"
+    screen_name, guide_page = "report", "figures"
     screen: ReportScreen
 
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, ReportScreen(context.theme, context.background))
         screen = self.screen
-        self.forms = ReportForms(context)
+        self.form_store = ReportFormStore(context)
         self._research = True
         self._sessions: Sequence[str] = ()
-        self._letter_of: SessionReport | None = None
-        self.letter = LetterSheet(context.shell, context.theme)
-        self.letter.wanted.connect(self._show_letter)
-        self.home = HomeSheet(context.shell, context.theme)
-        self.home.wanted.connect(self._show_home)
-        screen.letter_wanted.connect(self._ask_letter)
-        screen.home_wanted.connect(self._ask_home)
-        screen.told.connect(context.messages.fault)
-        screen.panel.form_kept.connect(self.forms.keep)
-        screen.panel.comment_kept.connect(
-            lambda session_id, text: self._tried(lambda: context.library.keep_comment(session_id, text))
+        self._letter_source: SessionReport | None = None
+        self.letter_dialog = LetterDialog(context.window, context.theme)
+        self.letter_dialog.requested.connect(self._show_letter)
+        self.home_dialog = HomeDialog(context.window, context.theme)
+        self.home_dialog.requested.connect(self._show_home)
+        screen.letter_requested.connect(self._open_letter_dialog)
+        screen.home_sheet_requested.connect(self._open_home_dialog)
+        screen.fault_raised.connect(context.messages.show_fault)
+        screen.panel.form_saved.connect(self.form_store.save)
+        screen.panel.comment_saved.connect(
+            lambda session_id, text: self._run_or_report(lambda: context.library.save_comment(session_id, text))
         )
-        screen.saved.connect(self._saved)
+        screen.saved.connect(self._register_file)
 
-    def show(self, of: str | ProgressReport, sessions: Sequence[str] = ()) -> None:
+    def open(self, report: str | ProgressReport, sessions: Sequence[str] = ()) -> None:
         """Of a session, by its identity; or one that is made, and the ``sessions`` that went into it."""
-        if isinstance(of, str):
-            self._show_session(of)
+        if isinstance(report, str):
+            self._show_session(report)
         else:
             self._sessions = sessions
-            self._begin(replace(of, form=self.forms.form))
-            self.context.way.go("report")
+            self._show_report(replace(report, form=self.form_store.form))
+            self.context.navigator.switch_screen("report")
 
-    def first(self) -> QWidget:
+    def initial_focus(self) -> QWidget:
         return self.screen.save_button
 
-    def up(self) -> None:
-        self.to_session()
+    def navigate_back(self) -> None:
+        self.return_to_session()
 
     def show_research(self, *, on: bool) -> None:
         self._research = on
 
-    def server_back(self) -> None:
-        self.forms.look_again()
+    def on_server_reconnected(self) -> None:
+        self.form_store.reload()
 
     def _show_session(self, session_id: str) -> None:
-        row, stored, name = self.context.now.patient, self.context.library, self.context.now.name
+        row, stored, name = self.context.current.patient, self.context.library, self.context.current.patient_name
         assert row is not None
 
-        def gather() -> SessionReport:
+        def build_report() -> SessionReport:
             session = stored.session(session_id)
-            report = session_report(
+            report = build_session_report(
                 session,
                 choices=stored.choices(session_id),
                 history=stored.history(row.patient_id),
                 pseudonym=name,
                 dominance=row.dominance,
-                therapist=self.context.report.therapist,
-                by_hand=stored.by_hand(row.patient_id),
+                therapist=self.context.report_settings.therapist,
+                manual_values=stored.manual_measurements(row.patient_id),
                 comment=stored.comment(session_id),
-                form=self.forms.form,
+                form=self.form_store.form,
             )
             report = replace(report, diagnosis=row.diagnosis, onset=row.onset, onset_day=row.onset_day)
             return report if self._research else replace(report, motion=None)
 
-        def show(report: SessionReport) -> None:
+        def show_report(report: SessionReport) -> None:
             self._sessions = [session_id]
-            self._begin(report)
-            self.context.way.go("report")
+            self._show_report(report)
+            self.context.navigator.switch_screen("report")
 
-        self.run(gather, show)
+        self.run(build_report, show_report)
 
-    def _begin(self, report: Report) -> None:
-        self.screen.begin(report, self.context.places.folder("reports"))
+    def _show_report(self, report: Report) -> None:
+        self.screen.show_report(report, self.context.recent_locations.folder("reports"))
 
-    def _saved(self, path: str) -> None:
-        self.context.library.made([Path(path)], "report", self._sessions)
-        self.context.places.keep("reports", str(Path(path).parent))
+    def _register_file(self, path: str) -> None:
+        self.context.library.register_output_files([Path(path)], "report", self._sessions)
+        self.context.recent_locations.save_folder("reports", str(Path(path).parent))
 
-    def _tried(self, ask: Callable[[], T]) -> T | None:
+    def _run_or_report(self, action: Callable[[], T]) -> T | None:
         """What the store answers; a fault of it is told."""
         try:
-            return ask()
+            return action()
         except CarpusFault as fault:
-            self.context.messages.fault(fault)
+            self.context.messages.show_fault(fault)
             return None
 
     # --- made of a report -----------------------------------------------------------------------------------
-    def _ask_letter(self, report: SessionReport) -> None:
-        row = self.context.now.patient
+    def _open_letter_dialog(self, report: SessionReport) -> None:
+        row = self.context.current.patient
         if row is not None:
-            self._letter_of = report
-            self.letter.begin(
-                self._tried(lambda: of_clinic.recipients(self.context.library.store)) or [],
+            self._letter_source = report
+            self.letter_dialog.open_form(
+                self._run_or_report(lambda: of_clinic.read_recipients(self.context.library.store)) or [],
                 has_name=bool(row.name),
             )
 
-    def _show_letter(self, recipient: str, language: str, named: bool) -> None:
+    def _show_letter(self, recipient: str, language: str, has_real_name: bool) -> None:
         """The real name goes no further than the letter's page."""
-        row, report = self.context.now.patient, self._letter_of
+        row, report = self.context.current.patient, self._letter_source
         if row is None or report is None:
             return
         if recipient:
-            self._tried(lambda: of_clinic.remember_recipient(self.context.library.store, recipient))
-        self._begin(LetterReport(report, recipient, self.context.today(), row.name if named else "", language))
+            self._run_or_report(lambda: of_clinic.save_recipient(self.context.library.store, recipient))
+        self._show_report(
+            LetterReport(report, recipient, self.context.today(), row.name if has_real_name else "", language)
+        )
 
-    def _ask_home(self, report: SessionReport) -> None:
-        row = self.context.now.patient
+    def _open_home_dialog(self, report: SessionReport) -> None:
+        row = self.context.current.patient
         if row is not None:
             last = (
-                self._tried(lambda: patients.home_plan(self.context.library.store, row.patient_id))
+                self._run_or_report(lambda: patients.read_home_plan(self.context.library.store, row.patient_id))
                 if row.patient_id
                 else None
             )
-            self.home.begin(report, self.context.today(), last)
+            self.home_dialog.open_form(report, self.context.today(), last)
 
     def _show_home(self, home: HomeReport) -> None:
         """With the patient's own way where there is something good to say; what is on it is remembered with the
         patient."""
-        row, stored = self.context.now.patient, self.context.library
+        row, stored = self.context.current.patient, self.context.library
         if row is None:
             return
         if row.patient_id:
-            self._tried(lambda: patients.keep_home_plan(stored.store, row.patient_id, home.plan))
+            self._run_or_report(lambda: patients.save_home_plan(stored.store, row.patient_id, home.plan))
 
-        def gather() -> HomeReport:
-            history, goals = stored.history(row.patient_id), patients.goals(stored.store, row.patient_id)
-            return replace(home, way=own_way(home.report.figures, history, goals))
+        def add_progress() -> HomeReport:
+            history, goals = stored.history(row.patient_id), patients.read_goals(stored.store, row.patient_id)
+            return replace(home, progress=build_home_progress(home.report.results, history, goals))
 
-        self.run(gather, self._begin)
+        self.run(add_progress, self._show_report)
 
 
-class ReportForms(QObject):
+class ReportFormStore(QObject):
     """The clinic's form of reports, kept in the store: ``form`` is what holds now; ``card`` is for the settings."""
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context.shell)
-        self._store, self._told = context.library.store, context.messages.fault
-        self._usual = usual_paper(QLocale.territoryToCode(QLocale.system().territory()))
+        super().__init__(context.window)
+        self._store, self._report_fault = context.library.store, context.messages.show_fault
+        self._default_paper = default_paper(QLocale.territoryToCode(QLocale.system().territory()))
         self.form = self._read()
         self.card = ReportCard(context.theme, self.form)
-        self.card.changed.connect(self.keep)
+        self.card.changed.connect(self.save)
 
     def _read(self) -> ReportForm:
-        return unless_away(lambda: read_form(self._store, self._usual), ReportForm(paper=self._usual))
+        return read_or_default(
+            lambda: read_form(self._store, self._default_paper), ReportForm(paper=self._default_paper)
+        )
 
-    def look_again(self) -> None:
+    def reload(self) -> None:
         """The clinic's server is back."""
         self.form = self._read()
         self.card.show_form(self.form)
 
-    def keep(self, form: ReportForm) -> None:
+    def save(self, form: ReportForm) -> None:
         """Store it for all reports from now on; where somebody else has changed it meanwhile, theirs is shown."""
         before, self.form = self.form, form
         try:
-            keep_form(self._store, form, before)
+            save_form(self._store, form, before)
         except CarpusFault as fault:
             self.form = self._read()
-            self._told(fault)
+            self._report_fault(fault)
         self.card.show_form(self.form)

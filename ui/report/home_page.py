@@ -13,17 +13,17 @@ from PySide6.QtGui import QPainter, QPen, QPolygonF, QTransform
 from PySide6.QtWidgets import QLayout
 
 from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
-from carpus.core.hand.forearm_rotation import stored_targets_deg
+from carpus.core.hand.forearm_rotation import from_clinical_targets_deg
 from carpus.core.records.values import HomePlan
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.progress import Goals, compare, progress, row_aimed_at
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.progress import Goals, compare_ranges, compute_progress, goal_measure
 from carpus.core.types import Side
 from carpus.ui import language, numbers, terms
 from carpus.ui.controls.layouts import STRETCH, Part
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.patient.figure import arc_of, figure_at
+from carpus.ui.patient.figure import build_pose, find_arc
 from carpus.ui.patient.words import task_words
-from carpus.ui.plot.style import write
+from carpus.ui.plot.style import draw_text
 from carpus.ui.report.page import (
     CHART,
     PAPER,
@@ -36,19 +36,19 @@ from carpus.ui.report.page import (
     line,
     page_head,
     paragraph,
-    points,
     rule,
+    to_layout_units,
 )
-from carpus.ui.report.session_page import OfSession
-from carpus.ui.translate import inside, say, tr
+from carpus.ui.report.session_page import DerivedReport
+from carpus.ui.translate import to_mid_sentence, tr, translate_phrase
 
-MOST_TASKS, MOST_DAYS, USUAL_DAYS = 3, 7, 7
-DRAWN = tuple(exercise for exercise in EXERCISES if exercise.counts)
+MAX_TASKS, MAX_DAYS, DEFAULT_DAYS = 3, 7, 7
+DRAWABLE_EXERCISES = tuple(exercise for exercise in EXERCISES if exercise.has_repetitions)
 """What can be drawn: exercises of one angle."""
-REST_DEG, SHOWN_DEG = 0.0, 45.0
-PICTURE_PT, TALLEST_PT = 190.0, 180.0
+REST_DEG, DRAWN_DEG = 0.0, 45.0
+PICTURE_PT, MAX_PICTURE_PT = 190.0, 180.0
 """Width of a picture, and its height where there is room."""
-MOST_NOTE = 160
+MAX_NOTE_LENGTH = 160
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,14 +61,14 @@ class HomeTask:
 
 
 @dataclass(frozen=True, slots=True)
-class OwnWay:
+class HomeProgress:
     """The patient's own way in one movement, signed degrees; it is drawn, never printed as a figure. ``said`` whether
     it is further, or held; ``goal_deg`` NaN for none."""
 
     days: tuple[date, ...]
     values_deg: tuple[float, ...]
     goal_deg: float
-    further: bool
+    has_improved: bool
 
 
 def _kind() -> str:
@@ -76,23 +76,33 @@ def _kind() -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class HomeReport(OfSession):
-    """All that is on the page: never a diagnosis or the real name. ``again`` the next appointment, None for a line to
-    write it on; ``at`` its time as it was typed; ``language`` the patient's, by two letters."""
+class HomeReport(DerivedReport):
+    """All that is on the page: never a diagnosis or the real name. ``next_appointment`` the next appointment, None
+    for a line to
+    write it on; ``appointment_time`` its time as it was typed; ``language`` the patient's, by two letters."""
 
     tasks: tuple[HomeTask, ...]
     day: date
-    again: date | None = None
-    at: str = ""
+    next_appointment: date | None = None
+    appointment_time: str = ""
     note: str = ""
-    way: OwnWay | None = None
+    progress: HomeProgress | None = None
     language: str = ""
 
     @property
     def plan(self) -> HomePlan:
         """What is to be done, as it is remembered with the patient."""
         names, first = tuple(task.exercise.id for task in self.tasks), self.tasks[0]
-        return HomePlan(names, first.times, first.rounds, self.day, self.again, self.at, self.note, self.language)
+        return HomePlan(
+            names,
+            first.times,
+            first.rounds,
+            self.day,
+            self.next_appointment,
+            self.appointment_time,
+            self.note,
+            self.language,
+        )
 
     @property
     def kind(self) -> str:
@@ -102,33 +112,35 @@ class HomeReport(OfSession):
         return [partial(_body, self)]
 
 
-def own_way(figures: SessionFigures, history: Sequence[SessionFigures], goals: Goals) -> OwnWay | None:
+def build_home_progress(
+    results: SessionResults, history: Sequence[SessionResults], goals: Goals
+) -> HomeProgress | None:
     """What may be shown of progress: sessions that compare, and no bad news; None where there is nothing good to say
     that is beyond doubt."""
-    exercise = figures.exercise
-    alike = [one for one in history if (one.exercise.id, one.side) == (exercise.id, figures.side)]
-    known = [one for one in alike if one.when <= figures.when and one.session_id != figures.session_id]
-    fair = [point.figures for point in progress([*known, figures]).points if point.fair]
-    rows = [(one, row_aimed_at(one, exercise, 1)) for one in fair]
-    found = [(one, row) for one, row in rows if row is not None and row.count and not row.at_least]
-    if len(found) < 2 or found[-1][0] is not figures:
+    exercise = results.exercise
+    alike = [one for one in history if (one.exercise.id, one.side) == (exercise.id, results.side)]
+    known = [one for one in alike if one.when <= results.when and one.session_id != results.session_id]
+    fair = [point.results for point in compute_progress([*known, results]).points if point.is_comparable]
+    rows = [(one, goal_measure(one, exercise, 1)) for one in fair]
+    found = [(one, row) for one, row in rows if row is not None and row.count and not row.is_lower_bound]
+    if len(found) < 2 or found[-1][0] is not results:
         return None
-    change = compare(found[0][0], figures, [found[-1][1]])
+    change = compare_ranges(found[0][0], results, [found[-1][1]])
     if not change or change[0].verdict not in ("improved", "no_change"):
         return None
-    since = [compare(one, figures, [found[-1][1]]) for one, _ in found[1:-1]]
+    since = [compare_ranges(one, results, [found[-1][1]]) for one, _ in found[1:-1]]
     if change[0].verdict == "no_change" and any(item.verdict == "worse" for items in since for item in items):
         return None  # what was reached in between is not held
     # Nothing of it is a number: the hand is drawn from where it lies, of the forearm from palm down.
-    goal = stored_targets_deg(goals.get((exercise.id, figures.side), figures.targets_deg), exercise)[0]
-    values = tuple(stored_targets_deg((row.mean, math.nan), exercise)[0] for _, row in found)
-    return OwnWay(tuple(one.when.date() for one, _ in found), values, goal, change[0].verdict == "improved")
+    goal = from_clinical_targets_deg(goals.get((exercise.id, results.side), results.targets_deg), exercise)[0]
+    values = tuple(from_clinical_targets_deg((row.mean, math.nan), exercise)[0] for _, row in found)
+    return HomeProgress(tuple(one.when.date() for one, _ in found), values, goal, change[0].verdict == "improved")
 
 
-def way_words(way: OwnWay) -> str:
+def home_progress_words(progress: HomeProgress) -> str:
     """What is said above it, beyond error only: how much of the way to the goal is done, or that it is held."""
-    first, last, goal = way.values_deg[0], way.values_deg[-1], way.goal_deg
-    if not way.further:
+    first, last, goal = progress.values_deg[0], progress.values_deg[-1], progress.goal_deg
+    if not progress.has_improved:
         return tr("You are holding what you reached.")
     if math.isfinite(goal) and last >= goal:
         return tr("You have reached our goal.")
@@ -138,21 +150,23 @@ def way_words(way: OwnWay) -> str:
 
 
 def _body(home: HomeReport, number: str) -> QLayout:
-    who = f"{home.pseudonym}, {inside(terms.hand_name(home.side))}"
+    who = f"{home.pseudonym}, {to_mid_sentence(terms.hand_name(home.side))}"
     tick = label(tr("Tick a box when all rounds of the day are done."), 8.5, REGULAR, "text2")
-    parts: list[Part] = [page_head(numbers.long_date(home.day), number, tr("Your hand at home"), who)]
+    parts: list[Part] = [page_head(numbers.format_long_date(home.day), number, tr("Your hand at home"), who)]
     parts += [_task(home, task, place) for place, task in enumerate(home.tasks, 1)]
     parts.append((tick, 0, Qt.AlignmentFlag.AlignRight))
-    if home.way is not None:
-        parts.append(_way(home, home.way))
+    if home.progress is not None:
+        parts.append(_progress_box(home, home.progress))
     pain = tr("It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.")
     legal = paragraph(terms.LEGAL_SENTENCE, 7.0, REGULAR, "text2")
-    return column(*parts, STRETCH, _next_time(home), column(paragraph(pain, 9.0, SEMIBOLD), legal, gap=3.0), gap=10.0)
+    return column(
+        *parts, STRETCH, _appointment_box(home), column(paragraph(pain, 9.0, SEMIBOLD), legal, gap=3.0), gap=10.0
+    )
 
 
 def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
     """A drawn exercise, what is to be done, how often, and a box for each day."""
-    words = say(task.exercise.asked)
+    words = translate_phrase(task.exercise.instruction)
     if task.exercise.angle == PRONOSUPINATION:  # at home nobody looks for markers
         words = tr("Turn the palm up, then down. The elbow stays at your side.")
     times = tr("once") if task.times == 1 else tr("{count} times").format(count=task.times)
@@ -172,29 +186,37 @@ def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
         for day in _days(home)
     ]
     asked = column(named, paragraph(words, 9.5), STRETCH, line((often, 1), *days, gap=4.0), gap=4.0)
-    picture = PaintedPart(partial(_paint_exercise, task.exercise, home.side), 110.0, TALLEST_PT, PICTURE_PT)
+    picture = PaintedPart(partial(_paint_exercise, task.exercise, home.side), 110.0, MAX_PICTURE_PT, PICTURE_PT)
     return line(picture, (asked, 1), gap=14.0)
 
 
-def _way(home: HomeReport, way: OwnWay) -> RoundedBox:
+def _progress_box(home: HomeReport, progress: HomeProgress) -> RoundedBox:
     """The hand at the start, today and at the goal, and the own curve; no degrees, and nobody else's."""
     key = tr("dashed: at the start; full line: today")
-    if math.isfinite(way.goal_deg):
+    if math.isfinite(progress.goal_deg):
         key = tr("dashed: at the start; full line: today; green: our goal")
-    hands = PaintedPart(partial(_paint_way, home.report.figures.exercise, home.side, way), 80.0, 110.0)
-    pictures = line((hands, 1), (PaintedPart(partial(_paint_curve, way), 80.0, 110.0), 1))
+    hands = PaintedPart(partial(_paint_progress_hands, home.report.results.exercise, home.side, progress), 80.0, 110.0)
+    pictures = line((hands, 1), (PaintedPart(partial(_paint_progress_curve, progress), 80.0, 110.0), 1))
     return RoundedBox(
-        paragraph(way_words(way), 12.5, SEMIBOLD), 4.0, pictures, 2.0, paragraph(key, 8.0, REGULAR, "text2")
+        paragraph(home_progress_words(progress), 12.5, SEMIBOLD),
+        4.0,
+        pictures,
+        2.0,
+        paragraph(key, 8.0, REGULAR, "text2"),
     )
 
 
-def _next_time(home: HomeReport) -> QLayout:
+def _appointment_box(home: HomeReport) -> QLayout:
     """When to come again, and room for questions."""
     again: list[Part | float] = [paragraph(tr("See you again"), 9.5, MEDIUM), 4.0]
-    if home.again is None:
+    if home.next_appointment is None:
         again += [18.0, rule()]
     else:
-        again += [paragraph(numbers.long_date(home.again), 12.0, SEMIBOLD), 3.0, paragraph(home.at, 12.0, SEMIBOLD)]
+        again += [
+            paragraph(numbers.format_long_date(home.next_appointment), 12.0, SEMIBOLD),
+            3.0,
+            paragraph(home.appointment_time, 12.0, SEMIBOLD),
+        ]
     card = RoundedBox(*again, STRETCH, fill="soft")
     card.setFixedWidth(PAPER.px(PICTURE_PT))
     notes = column(paragraph(tr("Notes, or what to ask next time"), 9.5, MEDIUM), gap=3.0)
@@ -206,8 +228,8 @@ def _next_time(home: HomeReport) -> QLayout:
 
 def _days(home: HomeReport) -> list[date]:
     """From today to the day before the next appointment, a week at most."""
-    count = USUAL_DAYS if home.again is None else (home.again - home.day).days
-    return [home.day + timedelta(days=day) for day in range(min(max(count, 1), MOST_DAYS))]
+    count = DEFAULT_DAYS if home.next_appointment is None else (home.next_appointment - home.day).days
+    return [home.day + timedelta(days=day) for day in range(min(max(count, 1), MAX_DAYS))]
 
 
 def _day_name(day: date) -> str:
@@ -218,7 +240,9 @@ def _paint_number(number: int, painter: QPainter, box: QRectF) -> None:
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(PAPER.color("accent"))
     painter.drawEllipse(box)
-    write(painter, box, str(number), PAPER.font(10.0, SEMIBOLD), PAPER.color("on_accent"), Qt.AlignmentFlag.AlignCenter)
+    draw_text(
+        painter, box, str(number), PAPER.font(10.0, SEMIBOLD), PAPER.color("on_accent"), Qt.AlignmentFlag.AlignCenter
+    )
 
 
 def _paint_tick_box(painter: QPainter, box: QRectF) -> None:
@@ -233,7 +257,7 @@ def _paint_lines(painter: QPainter, box: QRectF) -> None:
         painter.drawLine(QLineF(0.0, y, box.width(), y))
 
 
-def _placed(box: QRectF, side: Side, part: QRectF) -> QTransform:
+def _fit_transform(box: QRectF, side: Side, part: QRectF) -> QTransform:
     """From a figure's plane into a box, mirrored for a left hand."""
     scale = min(box.width() / part.width(), box.height() / part.height())
     to = QTransform()
@@ -243,37 +267,37 @@ def _placed(box: QRectF, side: Side, part: QRectF) -> QTransform:
     return to
 
 
-def _shown_part(exercise: Exercise, values_deg: Sequence[float]) -> QRectF:
+def _visible_rect(exercise: Exercise, values_deg: Sequence[float]) -> QRectF:
     """What of the figure's plane is to be seen: the hands, and a piece of the forearm."""
     part = QRectF()
     for value in values_deg:
-        part = part.united(figure_at(exercise, value).hand.boundingRect())
-    arm = figure_at(exercise, 0.0).arm.boundingRect()
+        part = part.united(build_pose(exercise, value).hand.boundingRect())
+    arm = build_pose(exercise, 0.0).arm.boundingRect()
     piece = QRectF(-150.0, -60.0, 150.0, 120.0) if arm.width() > arm.height() else QRectF(-60.0, 0.0, 120.0, 150.0)
     return part.united(piece if not arm.isEmpty() else QRectF()).adjusted(-25, -25, 25, 25)
 
 
 def _paint_exercise(exercise: Exercise, side: Side, painter: QPainter, box: QRectF) -> None:
     """The hand where it begins, dashed, and where it goes, with an arrow there and back."""
-    start, end = (-SHOWN_DEG, SHOWN_DEG) if exercise.angle is not None else (REST_DEG, 1.6 * SHOWN_DEG)
+    start, end = (-DRAWN_DEG, DRAWN_DEG) if exercise.angle is not None else (REST_DEG, 1.6 * DRAWN_DEG)
     if exercise.angle == 0 or exercise.joint.endswith("abduction"):
         start, end = 0.5 * start, 0.5 * end
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(PAPER.color("sunken"))
     painter.drawRoundedRect(box, 6 * UNIT, 6 * UNIT)
     painter.setClipRect(box)
-    arc = arc_of(exercise)
+    arc = find_arc(exercise)
     way = arc.path(0.75 * start, 0.75 * end)
-    part = _shown_part(exercise, (start, end)).united(way.boundingRect().adjusted(-20, -20, 20, 20))
+    part = _visible_rect(exercise, (start, end)).united(way.boundingRect().adjusted(-20, -20, 20, 20))
     edge = 6 * UNIT
-    to = _placed(box.adjusted(edge, edge, -edge, -edge), side, part)
+    to = _fit_transform(box.adjusted(edge, edge, -edge, -edge), side, part)
     for value, is_dashed in ((start, True), (end, False)):
         _paint_hand(painter, exercise, value, to, "border" if is_dashed else "text", is_dashed=is_dashed)
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(PAPER.color("accent"), 2.2 * UNIT, c=Qt.PenCapStyle.RoundCap))
     painter.drawPath(to.map(way))
     for at, sense in ((0.75 * start, -1.0), (0.75 * end, 1.0)):
-        _paint_arrow(painter, to.map(arc.at(at - 2.0 * sense)), to.map(arc.at(at + 6.0 * sense)))
+        _paint_arrow(painter, to.map(arc.point(at - 2.0 * sense)), to.map(arc.point(at + 6.0 * sense)))
 
 
 def _paint_arrow(painter: QPainter, before: QPointF, tip: QPointF) -> None:
@@ -286,36 +310,38 @@ def _paint_arrow(painter: QPainter, before: QPointF, tip: QPointF) -> None:
 
 
 def _paint_hand(
-    painter: QPainter, exercise: Exercise, value_deg: float, to: QTransform, token: str, *, is_dashed: bool,
+    painter: QPainter, exercise: Exercise, value_deg: float, transform: QTransform, token: str, *, is_dashed: bool,
     is_filled: bool = True,
 ) -> None:  # fmt: skip
     style = Qt.PenStyle.DashLine if is_dashed else Qt.PenStyle.SolidLine
     painter.setPen(QPen(PAPER.color(token), 1.1 * UNIT, style))
     painter.setBrush(PAPER.color("surface") if is_filled and not is_dashed else Qt.BrushStyle.NoBrush)
-    painter.drawPath(to.map(figure_at(exercise, value_deg).whole))
+    painter.drawPath(transform.map(build_pose(exercise, value_deg).hand_and_arm))
 
 
-def _paint_way(exercise: Exercise, side: Side, way: OwnWay, painter: QPainter, box: QRectF) -> None:
-    shown = [("border", way.values_deg[0], True), ("text", way.values_deg[-1], False)]
-    if math.isfinite(way.goal_deg):
-        shown.insert(1, ("accent", way.goal_deg, True))
+def _paint_progress_hands(
+    exercise: Exercise, side: Side, progress: HomeProgress, painter: QPainter, box: QRectF
+) -> None:
+    shown = [("border", progress.values_deg[0], True), ("text", progress.values_deg[-1], False)]
+    if math.isfinite(progress.goal_deg):
+        shown.insert(1, ("accent", progress.goal_deg, True))
     painter.setClipRect(box)
-    to = _placed(box, side, _shown_part(exercise, [value for _, value, _ in shown]))
+    to = _fit_transform(box, side, _visible_rect(exercise, [value for _, value, _ in shown]))
     for token, value, is_dashed in shown:
         _paint_hand(painter, exercise, value, to, token, is_dashed=is_dashed, is_filled=False)
 
 
-def _paint_curve(way: OwnWay, painter: QPainter, box: QRectF) -> None:
-    area = box.adjusted(*points(20.0, 8.0, -62.0, -20.0))
-    values = [*way.values_deg, *([way.goal_deg] if math.isfinite(way.goal_deg) else [])]
+def _paint_progress_curve(progress: HomeProgress, painter: QPainter, box: QRectF) -> None:
+    area = box.adjusted(*to_layout_units(20.0, 8.0, -62.0, -20.0))
+    values = [*progress.values_deg, *([progress.goal_deg] if math.isfinite(progress.goal_deg) else [])]
     low, high = min(0.0, *values), max(values)
-    span = max((way.days[-1] - way.days[0]).days, 1)
+    span = max((progress.days[-1] - progress.days[0]).days, 1)
 
     def place(day: date, value: float) -> QPointF:
-        x = area.left() + area.width() * (day - way.days[0]).days / span
+        x = area.left() + area.width() * (day - progress.days[0]).days / span
         return QPointF(x, area.bottom() - area.height() * (value - low) / max(high - low, 1.0))
 
-    shown = [place(day, value) for day, value in zip(way.days, way.values_deg, strict=True)]
+    shown = [place(day, value) for day, value in zip(progress.days, progress.values_deg, strict=True)]
     painter.setPen(QPen(PAPER.color("line"), 0.6 * UNIT))
     painter.drawLine(QLineF(area.left() - 16.0, area.bottom(), area.right() + 16.0, area.bottom()))
     painter.setPen(QPen(PAPER.color("curve_a"), 1.8 * UNIT))
@@ -324,14 +350,14 @@ def _paint_curve(way: OwnWay, painter: QPainter, box: QRectF) -> None:
     for point in shown:
         painter.drawEllipse(point, 2.2 * UNIT, 2.2 * UNIT)
     aside, face = QPointF(8.0 * UNIT, 3.0 * UNIT), PAPER.font(9.0, SEMIBOLD)
-    write(painter, QPointF(area.right(), shown[-1].y()) + aside, tr("today"), face, PAPER.color("text"))
-    if math.isfinite(way.goal_deg):
-        y = place(way.days[0], way.goal_deg).y()
+    draw_text(painter, QPointF(area.right(), shown[-1].y()) + aside, tr("today"), face, PAPER.color("text"))
+    if math.isfinite(progress.goal_deg):
+        y = place(progress.days[0], progress.goal_deg).y()
         painter.setPen(QPen(PAPER.color("accent"), 1.4 * UNIT, Qt.PenStyle.DashLine))
         painter.drawLine(QLineF(area.left(), y, area.right(), y))
         if abs(y - shown[-1].y()) > 12 * UNIT:
-            write(painter, QPointF(area.right(), y) + aside, tr("our goal"), face, PAPER.color("accent"))
-    days = area.adjusted(*points(-4.0, 0.0, 4.0, 16.0))
-    for day, side in ((way.days[0], Qt.AlignmentFlag.AlignLeft), (way.days[-1], Qt.AlignmentFlag.AlignRight)):
-        words = numbers.day_month(day)
-        write(painter, days, words, CHART.label, PAPER.color("text2"), Qt.AlignmentFlag.AlignBottom | side)
+            draw_text(painter, QPointF(area.right(), y) + aside, tr("our goal"), face, PAPER.color("accent"))
+    days = area.adjusted(*to_layout_units(-4.0, 0.0, 4.0, 16.0))
+    for day, side in ((progress.days[0], Qt.AlignmentFlag.AlignLeft), (progress.days[-1], Qt.AlignmentFlag.AlignRight)):
+        words = numbers.format_day_month(day)
+        draw_text(painter, days, words, CHART.label_font, PAPER.color("text2"), Qt.AlignmentFlag.AlignBottom | side)

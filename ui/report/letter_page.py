@@ -1,6 +1,6 @@
 """The letter to the referring doctor: one page, whatever stands in it.
 
-Where it does not fit it is painted smaller, down to :data:`SMALLEST`. Then these go, in this order: the figures of the
+Where it does not fit it is painted smaller, down to :data:`MIN_SCALE`. Then these go, in this order: the figures of the
 other hand and of last time, the change since the first session, the comment, in whose place stands where it is.
 """
 
@@ -20,7 +20,7 @@ from carpus.ui.marker_words import finger_name
 from carpus.ui.report.page import (
     PAPER,
     Body,
-    body_room,
+    body_size,
     column,
     fit_parts,
     label,
@@ -30,17 +30,17 @@ from carpus.ui.report.page import (
     rule,
     table,
 )
-from carpus.ui.report.session_page import OfSession, SessionReport, comment_lines, comment_text
-from carpus.ui.translate import inside, tr
-from carpus.ui.words.fingers import AT_LEAST, compared_figures, range_words, trains_thumb
-from carpus.ui.words.progress import corrected_words
+from carpus.ui.report.session_page import DerivedReport, SessionReport, comment_lines, comment_text
+from carpus.ui.translate import to_mid_sentence, tr
+from carpus.ui.words.fingers import LOWER_BOUND, is_thumb_exercise, main_angles, range_words
+from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import range_table
-from carpus.ui.words.session import method, since_sessions, warnings
-from carpus.ui.words.table import TableColumn, cell_words
+from carpus.ui.words.session import change_sentences, method_words, warning_lines
+from carpus.ui.words.table import TableColumn, cell_text
 
-SMALLEST = 0.8
-OMISSIONS = 3
-MOST_ADDRESS_LINES, MOST_ADDRESS = 6, 80
+MIN_SCALE = 0.8
+MAX_OMISSIONS = 3
+MAX_ADDRESS_LINES, MAX_ADDRESS_LENGTH = 6, 80
 SIZE_PT = 10.0
 
 
@@ -49,7 +49,7 @@ def _kind() -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class LetterReport(OfSession):
+class LetterReport(DerivedReport):
     """All that is on the page: what the report has, to whom it goes and when. ``real_name`` is printed where it is not
     empty, beside the made-up one."""
 
@@ -69,40 +69,40 @@ class LetterReport(OfSession):
 def _body(letter: LetterReport, number: str) -> QLayout:
     """All of it, or what has room."""
     omitted = 0
-    while omitted < OMISSIONS and fit_parts(_parts(letter, omitted), *body_room(letter.form))[1] < SMALLEST:
+    while omitted < MAX_OMISSIONS and fit_parts(_parts(letter, omitted), *body_size(letter.form))[1] < MIN_SCALE:
         omitted += 1
     return _parts(letter, omitted)
 
 
 def _parts(letter: LetterReport, omitted: int) -> QLayout:
     """The letter without what is omitted."""
-    report, figures = letter.report, letter.report.figures
+    report, figures = letter.report, letter.report.results
     who = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
     measured = tr("On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.").format(
-        day=numbers.day_of_year(figures.when),
+        day=numbers.format_date(figures.when),
         exercise=terms.exercise_name(figures.exercise.id),
-        hand=inside(terms.hand_name(figures.side)),
-        count=figures.counted,
+        hand=to_mid_sentence(terms.hand_name(figures.side)),
+        count=figures.repetition_count,
     )
     parts: list[Part | float] = [
         line(column(*(paragraph(one, SIZE_PT) for one in address_lines(letter.recipient)), gap=3.0), STRETCH,
-             (label(numbers.day_of_year(letter.day), SIZE_PT), 0, Qt.AlignmentFlag.AlignTop)),
+             (label(numbers.format_date(letter.day), SIZE_PT), 0, Qt.AlignmentFlag.AlignTop)),
         14.0,
         paragraph(tr("Movement measured by camera: {who}").format(who=who), 12.0, SEMIBOLD),
         3.0,
         paragraph(tr("Dear colleague,"), SIZE_PT),
         paragraph(measured, SIZE_PT),
     ]  # fmt: skip
-    warned = [*warnings(figures), *filter(None, [corrected_words(figures)])]
+    warned = [*warning_lines(figures), *filter(None, [correction_words(figures)])]
     parts += [paragraph(words, SIZE_PT, SEMIBOLD, "warn") for words in warned]
-    parts.append(_figures(report, is_beside=omitted < 1))
-    if any(cell.startswith(AT_LEAST) for row in figure_rows(report) for cell in row):
-        words = tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST)
+    parts.append(_result_table(report, has_comparison=omitted < 1))
+    if any(cell.startswith(LOWER_BOUND) for row in letter_rows(report) for cell in row):
+        words = tr("{sign}: the camera did not see the end of that movement.").format(sign=LOWER_BOUND)
         parts.append(paragraph(words, 8.5, REGULAR, "text2"))
     first = report.first if omitted < 2 else None
-    parts += [paragraph(words, SIZE_PT) for words in since_sessions(figures, report.previous, first)]
+    parts += [paragraph(words, SIZE_PT) for words in change_sentences(figures, report.previous, first)]
     if report.comment.strip():
-        has_room = omitted < OMISSIONS
+        has_room = omitted < MAX_OMISSIONS
         said_of_it = tr("The comment is too long for this letter; it is in the report.")
         parts.append(
             comment_text(comment_lines(report.comment)) if has_room else paragraph(said_of_it, SIZE_PT, MEDIUM)
@@ -114,44 +114,46 @@ def _parts(letter: LetterReport, omitted: int) -> QLayout:
     return column(*parts, gap=6.5)
 
 
-def _figures(report: SessionReport, *, is_beside: bool) -> Item:
+def _result_table(report: SessionReport, *, has_comparison: bool) -> Item:
     """The main figures, with those of the other hand and of last time beside them."""
-    rows = figure_rows(report)
+    rows = letter_rows(report)
     if not rows:
         return paragraph(tr("No range could be measured."), SIZE_PT)
     heads = ["", tr("Mean ± sd"), "", ""]
-    if is_beside and report.other_hand is not None:
+    if has_comparison and report.other_hand is not None:
         heads[2] = terms.hand_name(report.other_hand.side)
-    if is_beside and report.previous is not None:
-        heads[3] = numbers.day_beside(report.previous.when, report.figures.when)
+    if has_comparison and report.previous is not None:
+        heads[3] = numbers.format_distinct_day(report.previous.when, report.results.when)
     shown = [[cell if column < 2 or heads[column] else "" for column, cell in enumerate(row)] for row in rows]
     return table((TableColumn(), TableColumn(SEMIBOLD), TableColumn(), TableColumn()), heads, shown, size=9.5)
 
 
-def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
+def letter_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
     """Name, mean with its spread, the other hand's and last time's; a figure that is not known is said to be so."""
-    figures = report.figures
+    figures = report.results
     if report.joints is None:
         shown = range_table(figures, report.previous, report.other_hand, on_paper=True)
-        lines = [[cell_words(cell) for cell in row] for row in shown.rows]
+        lines = [[cell_text(cell) for cell in row] for row in shown.rows]
         return [(name, today, beside, last) for name, today, _, beside, _, last, _ in lines]
     found = []
-    for figure in compared_figures(figures):
+    for figure in main_angles(figures):
         cells = []
         for one in (figures, report.other_hand, report.previous):
             row = None if one is None else one.find(figure.joint, "arc")
             cells.append(range_words(row) if row is not None and row.count else tr("not measured"))
-        name = figure.row_name if trains_thumb(figures) else f"{finger_name(str(figure.finger))}, {figure.row_name}"
+        name = (
+            figure.kind_name if is_thumb_exercise(figures) else f"{finger_name(str(figure.finger))}, {figure.kind_name}"
+        )
         found.append((name, cells[0], cells[1], cells[2]))
     return found
 
 
 def _foot(report: SessionReport) -> QLayout:
     """How it was measured, in what it can be wrong, and by which program: never left out."""
-    figures = report.figures
+    figures = report.results
     made_by = f" ({report.revision[:7]})" if report.revision else ""
     origin = f"Carpus {figures.software_version}{made_by} · " + tr("Session {id}").format(id=figures.session_id[:8])
-    how = paragraph(method(figures, report.markers, compared=True), 7.5, REGULAR, "text2")
+    how = paragraph(method_words(figures, report.markers, compared=True), 7.5, REGULAR, "text2")
     return column(rule(), how, legal_line(), paragraph(origin, 7.5, REGULAR, "text2"), gap=2.0)
 
 
@@ -161,5 +163,5 @@ def address_lines(recipient: str) -> list[str]:
     >>> address_lines(" Dr A \\n\\n Vienna")
     ['Dr A', 'Vienna']
     """
-    lines = [line.strip()[:MOST_ADDRESS] for line in recipient.splitlines()]
-    return [line for line in lines if line][:MOST_ADDRESS_LINES]
+    lines = [line.strip()[:MAX_ADDRESS_LENGTH] for line in recipient.splitlines()]
+    return [line for line in lines if line][:MAX_ADDRESS_LINES]

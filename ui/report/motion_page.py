@@ -4,37 +4,46 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QLayout
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.motion_curves import MotionCurves
-from carpus.core.results.seen import ReportCurves
+from carpus.core.results.seen import WristCurves
 from carpus.ui import numbers
 from carpus.ui.controls.layouts import STRETCH, Part
 from carpus.ui.plot.motion import MotionKind, MotionPlot, zyz_words
-from carpus.ui.plot.ways import WayPlot, finger_ways, paint_ways, wrist_way
-from carpus.ui.report.page import CHART, PaintedPart, column, legal_line, paragraph, session_curves, table, title
+from carpus.ui.plot.ways import PathPlot, finger_paths, paint_paths, wrist_path
+from carpus.ui.report.page import (
+    CHART,
+    PaintedPart,
+    column,
+    legal_line,
+    paragraph,
+    section_title,
+    session_chart_part,
+    table,
+)
 from carpus.ui.translate import tr
-from carpus.ui.words.further import further_table, further_title
+from carpus.ui.words.further import task_table, task_title
 
 
 def motion_page(
-    head: QLayout, figures: SessionFigures, previous: SessionFigures | None, curves: ReportCurves, motion: MotionCurves
+    head: QLayout, results: SessionResults, previous: SessionResults | None, curves: WristCurves, motion: MotionCurves
 ) -> QLayout:
     """What is on the page under its head."""
     is_hand = bool(motion.joint_names)
-    parts: list[Part] = [head, *_further(figures, previous)]
+    parts: list[Part] = [head, *_task_measure_section(results, previous)]
     height = 118.0 if is_hand else 165.0
-    parts += _ways(tr("Path of the wrist"), wrist_way(motion), height, tr("with the hand’s axes along it"))
+    parts += _path_section(tr("Path of the wrist"), wrist_path(motion), height, tr("with the hand’s axes along it"))
     if is_hand:
         words = tr("joint centres; dashed: disc hidden")
-        parts += _ways(tr("Ways of the finger tips"), finger_ways(motion, 0), height, words)
+        parts += _path_section(tr("Ways of the finger tips"), finger_paths(motion, 0), height, words)
     axes = tr("X (black) to the fingers, Y (blue) to the thumb, Z (orange) up")
     if motion.side == "left":
         axes = tr("X (black) to the fingers, Y (blue) from the thumb, Z (orange) up")
 
     def curves_part(kind: MotionKind, heading: str, aside: str, share: float) -> list[Part]:
-        plot = MotionPlot(curves, figures.exercise, figures.repetitions, -1, motion=motion, kind=kind)
+        plot = MotionPlot(curves, results.exercise, results.repetitions, -1, motion=motion, kind=kind)
         least = share * (150.0 if is_hand else 205.0)
-        return [title(heading, aside), session_curves(plot, least, 1.2 * least)]
+        return [section_title(heading, aside), session_chart_part(plot, least, 1.2 * least)]
 
     parts += curves_part("place", tr("Place, speed, turning"), axes, 1.0)
     parts += curves_part("zyz", tr("ZYZ angles"), tr("band: ± 1 sd; black: α + γ, with γ"), 0.75)
@@ -42,17 +51,21 @@ def motion_page(
     return column(*parts, STRETCH, foot, gap=6.0)
 
 
-def _further(figures: SessionFigures, previous: SessionFigures | None) -> list[Part]:
+def _task_measure_section(results: SessionResults, previous: SessionResults | None) -> list[Part]:
     """Two figures to a line."""
-    columns, _, rows = further_table(figures, previous)
+    columns, _, rows = task_table(results, previous)
     if not rows:
         return []
-    day = numbers.day_beside(previous.when, figures.when) if previous is not None and previous.group("task") else ""
+    day = (
+        numbers.format_distinct_day(previous.when, results.when)
+        if previous is not None and previous.measures_in_group("task")
+        else ""
+    )
     shown = table(columns, (), rows, size=8.5, pitch=1.5)
     aside = tr("mean ± sd; at the right: {day}").format(day=day) if day else ""
-    return [column(title(further_title(figures), aside), shown, gap=2.0)]
+    return [column(section_title(task_title(results), aside), shown, gap=2.0)]
 
 
-def _ways(heading: str, plot: WayPlot, height: float, aside: str) -> list[Part]:
-    drawn = PaintedPart(lambda painter, box: paint_ways(painter, CHART, plot, box), height, 1.2 * height)
-    return [title(heading, aside), drawn]
+def _path_section(heading: str, plot: PathPlot, height: float, aside: str) -> list[Part]:
+    drawn = PaintedPart(lambda painter, box: paint_paths(painter, CHART, plot, box), height, 1.2 * height)
+    return [section_title(heading, aside), drawn]

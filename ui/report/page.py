@@ -9,30 +9,30 @@ from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter, QPaintEvent, QPen, QRegion, QTextLayout, QTextOption
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QSizePolicy, QVBoxLayout, QWidget
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.ui import terms
-from carpus.ui.controls.card import Line
-from carpus.ui.controls.layouts import STRETCH, Part, in_column, in_line
+from carpus.ui.controls.card import Separator
+from carpus.ui.controls.layouts import STRETCH, Part, column_layout, row_layout
 from carpus.ui.controls.table import Table
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, PlainText, Sign
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
 from carpus.ui.fonts import font
-from carpus.ui.language import borrowed, speaking
+from carpus.ui.language import thread_language, use_language
 from carpus.ui.plot.session import SessionPlot, paint_session
 from carpus.ui.plot.style import PlotStyle, paper_style
 from carpus.ui.theme import Theme
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import to_mid_sentence, tr
 from carpus.ui.words.table import Cell, TableColumn
 
 UNIT = 4
 """Pixels of a layout in a point: Qt places in whole ones, and a quarter of a point is finer than print shows."""
 MARGIN_PT, TOP_PT, FOOT_PT = 42.5, 30.5, 28.5
 """At the sides, above and below; printers reach no nearer to the edge than a centimetre."""
-BODY_PT = PAPER_PT["a4"][0] - 2 * MARGIN_PT
+BODY_WIDTH_PT = PAPER_PT["a4"][0] - 2 * MARGIN_PT
 """So wide are the parts of a page at least; Letter is wider."""
 LOGO_PT = (150.0, 44.0)
 DISPLAY_FROM_PT = 20.0
-SMALLEST = 0.3
+MIN_SCALE = 0.3
 """Of the usual size: no page is ever laid out smaller."""
 
 
@@ -66,7 +66,7 @@ PAPER = _Paper()
 CHART: PlotStyle = paper_style(UNIT)
 
 
-def points(*sizes: float) -> tuple[int, ...]:
+def to_layout_units(*sizes: float) -> tuple[int, ...]:
     """Lengths in points as a layout counts them."""
     return tuple(PAPER.px(size) for size in sizes)
 
@@ -83,37 +83,37 @@ def label(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "te
 
 def column(*parts: Part | float, gap: float = 0.0, within: QWidget | None = None) -> QVBoxLayout:
     """One below the other; numbers are points of nothing."""
-    return in_column(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0), within=within)
+    return column_layout(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0), parent=within)
 
 
 def line(*parts: Part | float, gap: float = 0.0) -> QHBoxLayout:
     """Side by side; numbers are points of nothing."""
-    return in_line(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0))
+    return row_layout(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0))
 
 
 def _to_units(parts: Sequence[Part | float]) -> list[Part]:
     return [PAPER.px(part) if isinstance(part, int | float) else part for part in parts]
 
 
-def rule() -> Line:
+def rule() -> Separator:
     """A line across."""
-    return Line(PAPER)
+    return Separator(PAPER)
 
 
 def line_or_column(first: PlainText, *rest: QWidget | float, is_apart: bool = True) -> QLayout:
     """All in one line, the rest at its end or right behind, or where that is too long below the first."""
     widths = [one.sizeHint().width() if isinstance(one, QWidget) else PAPER.px(one) for one in (first, *rest, 12.0)]
-    if sum(widths) <= PAPER.px(BODY_PT):
+    if sum(widths) <= PAPER.px(BODY_WIDTH_PT):
         behind: tuple[Part | float, ...] = (STRETCH, *rest) if is_apart else (12.0, *rest, STRETCH)
         return line((first, 0, Qt.AlignmentFlag.AlignBottom), *behind)
     for one in (first, *rest):
-        if isinstance(one, PlainText) and one.sizeHint().width() > PAPER.px(BODY_PT):
+        if isinstance(one, PlainText) and one.sizeHint().width() > PAPER.px(BODY_WIDTH_PT):
             one.setText(_LONG_WORD.sub(_break_anywhere, one.text()))
             one.setWordWrap(True)
     return column(first, line(*rest, *([] if len(rest) == 1 else [STRETCH])))
 
 
-def title(words: str, *aside: str | QWidget | float) -> QLayout:
+def section_title(words: str, *aside: str | QWidget | float) -> QLayout:
     """The head of a part, with a remark or a key."""
     behind = [label(one, 8.5, REGULAR, "text2") if isinstance(one, str) else one for one in aside if one != ""]
     return line_or_column(label(words, 11.5, SEMIBOLD), *behind)
@@ -123,7 +123,7 @@ def page_head(kind: str, number: str, who: str, what: str) -> QLayout:
     """The program's mark, what kind of page and which of how many, of whom and of what."""
     aside = f"{kind} · {number}" if number else kind
     top = line(
-        Sign(PAPER, "carpus", 15, (15, 15)),
+        Icon(PAPER, "carpus", 15, (15, 15)),
         5.0,
         label("Carpus", 11.5, SEMIBOLD),
         STRETCH,
@@ -133,13 +133,13 @@ def page_head(kind: str, number: str, who: str, what: str) -> QLayout:
     return column(top, 9.0, name, 4.0, rule())
 
 
-def session_head(newest: SessionFigures, who: str, kind: str, number: str) -> QLayout:
+def session_page_head(newest: SessionResults, who: str, kind: str, number: str) -> QLayout:
     """The head of a page about an exercise of a hand."""
-    what = f"{terms.exercise_name(newest.exercise.id)}, {inside(terms.hand_name(newest.side))}"
+    what = f"{terms.exercise_name(newest.exercise.id)}, {to_mid_sentence(terms.hand_name(newest.side))}"
     return page_head(kind, number, who, what)
 
 
-def facts(pairs: Sequence[tuple[str, str]]) -> QLayout:
+def fact_row(pairs: Sequence[tuple[str, str]]) -> QLayout:
     """Small names over values, side by side."""
     parts: list[Part] = [
         (column(paragraph(name, 8.5, REGULAR, "text2"), paragraph(value, 10.0, MEDIUM)), max(len(name), len(value), 8))
@@ -158,7 +158,7 @@ def table(
     """A table as wide as the page."""
     made = Table(PAPER, size, size - 0.5, gap=8.0, pitch=pitch)
     made.show_rows(columns, heads, rows)
-    made.fit_once(PAPER.px(BODY_PT))
+    made.fit_width(PAPER.px(BODY_WIDTH_PT))
     return made
 
 
@@ -168,7 +168,7 @@ def value_rows(lines: Sequence[tuple[str, str, str]]) -> QLayout:
     for name, value, token in lines:
         named, shown = label(name, 8.5, REGULAR, "text2"), label(value, 8.5, MEDIUM, token)
         shown.setAlignment(Qt.AlignmentFlag.AlignRight)
-        if named.sizeHint().width() + shown.sizeHint().width() + PAPER.px(8.0) > PAPER.px(0.5 * BODY_PT - 28.0):
+        if named.sizeHint().width() + shown.sizeHint().width() + PAPER.px(8.0) > PAPER.px(0.5 * BODY_WIDTH_PT - 28.0):
             named.setWordWrap(True)
             shown.setWordWrap(True)
         rows.append(line((named, len(name)), (shown, len(value)), gap=8.0))
@@ -204,7 +204,7 @@ class RoundedBox(QWidget):
     def __init__(self, *parts: Part | float, fill: str = "") -> None:
         super().__init__()
         self._fill = fill
-        column(*parts, within=self).setContentsMargins(*points(11.0, 8.0, 11.0, 8.0))
+        column(*parts, within=self).setContentsMargins(*to_layout_units(11.0, 8.0, 11.0, 8.0))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter, reach = QPainter(self), 0.4 * UNIT
@@ -216,14 +216,15 @@ class RoundedBox(QWidget):
 
 
 class PaintedPart(QWidget):
-    """What is painted: at least so many points high, and up to ``most`` where there is room; as wide as there is."""
+    """What is painted: at least so many points high, and up to ``max_height`` where there is room; as wide as there
+    is."""
 
     def __init__(
-        self, paint: Callable[[QPainter, QRectF], None], least: float, most: float = 0.0, width: float = 0.0
+        self, paint: Callable[[QPainter, QRectF], None], min_height: float, max_height: float = 0.0, width: float = 0.0
     ) -> None:
         super().__init__()
-        self._paint, self._height = paint, PAPER.px(most or least)
-        self.setMinimumHeight(PAPER.px(least))
+        self._paint, self._height = paint, PAPER.px(max_height or min_height)
+        self.setMinimumHeight(PAPER.px(min_height))
         self.setMaximumHeight(self._height)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         if width:
@@ -238,9 +239,9 @@ class PaintedPart(QWidget):
         self._paint(painter, QRectF(self.rect()))
 
 
-def session_curves(plot: SessionPlot, least: float, most: float) -> PaintedPart:
+def session_chart_part(plot: SessionPlot, min_height: float, max_height: float) -> PaintedPart:
     """Curves with their axes."""
-    return PaintedPart(lambda painter, box: paint_session(painter, CHART, plot, box), least, most)
+    return PaintedPart(lambda painter, box: paint_session(painter, CHART, plot, box), min_height, max_height)
 
 
 def _watermark_words() -> str:
@@ -252,11 +253,11 @@ class Page:
 
     def __init__(self, form: ReportForm, body: QLayout, *, simulated: bool = False) -> None:
         """Laid out and painted in the language that is spoken now."""
-        self._language = borrowed()
+        self._language = thread_language()
         self.size_pt = PAPER_PT[form.paper]
         self._watermark = _watermark_words() if simulated else ""
         self._parts: list[tuple[QWidget, int, float]] = []
-        top, (width, height) = PAPER.px(TOP_PT), body_room(form)
+        top, (width, height) = PAPER.px(TOP_PT), body_size(form)
         if form.letterhead.is_set:
             top += self._place(_letterhead(form.letterhead), top, width, height)
         self._place(body, top, width, PAPER.px(self.size_pt[1] - FOOT_PT) - top, fills=True)
@@ -284,7 +285,7 @@ class Page:
             painter.save()
             painter.translate(PAPER.px(MARGIN_PT), top)
             painter.scale(share, share)
-            with speaking(self._language):
+            with use_language(self._language):
                 render_parts(part, painter)
             painter.restore()
         painter.restore()
@@ -301,11 +302,11 @@ class Page:
         painter.restore()
 
 
-def body_room(form: ReportForm) -> tuple[int, int]:
+def body_size(form: ReportForm) -> tuple[int, int]:
     """Width and height of a page between its margins, under a usual letterhead where there is one."""
     width, height = PAPER_PT[form.paper]
     head = LOGO_PT[1] + 12.0 if form.letterhead.is_set else 0.0
-    across, down = points(width - 2 * MARGIN_PT, height - TOP_PT - FOOT_PT - head)
+    across, down = to_layout_units(width - 2 * MARGIN_PT, height - TOP_PT - FOOT_PT - head)
     return across, down
 
 
@@ -325,7 +326,7 @@ def fit_parts(layout: QLayout, width: int, height: int) -> tuple[QWidget, float]
         across = round(width / share)
         return layout.minimumSize().width() <= across and layout.minimumHeightForWidth(across) <= height / share
 
-    low, high = SMALLEST, 1.0
+    low, high = MIN_SCALE, 1.0
     if has_room(high):
         return host, high
     while high - low > 0.005:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.report_form import ReportForm
-from carpus.ui.language import speaking
+from carpus.ui.language import use_language
 from carpus.ui.report.page import Body, Page
 from carpus.ui.translate import tr
 
@@ -30,15 +30,15 @@ class Report(Protocol):
     def pseudonym(self) -> str: ...
 
     @property
-    def sessions(self) -> Sequence[SessionFigures]: ...
+    def sessions(self) -> Sequence[SessionResults]: ...
 
     def bodies(self) -> Sequence[Body]: ...
 
 
-def pages_of(report: Report) -> list[Page]:
+def layout_pages(report: Report) -> list[Page]:
     """The pages, laid out in the language of the report. Only where the window lives, as all widgets."""
-    with speaking(report.language):
-        bodies, simulated = report.bodies(), any(figures.simulated for figures in report.sessions)
+    with use_language(report.language):
+        bodies, simulated = report.bodies(), any(figures.is_simulated for figures in report.sessions)
         pages = []
         for number, body in enumerate(bodies, 1):
             words = tr("page {number} of {count}").format(number=number, count=len(bodies)) if len(bodies) > 1 else ""

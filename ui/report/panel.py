@@ -11,53 +11,53 @@ from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QWidget
 
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.report_form import MOST_SENTENCES, SECTIONS, ReportForm
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.report_form import MAX_SENTENCES, SECTIONS, ReportForm
 from carpus.ui import numbers, terms
-from carpus.ui.controls.button import Button, Tick
+from carpus.ui.controls.button import Button, CheckButton
 from carpus.ui.controls.field import Combo
-from carpus.ui.controls.layouts import fill, in_column
+from carpus.ui.controls.layouts import column_layout, fill
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import Theme
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import to_mid_sentence, tr
 from carpus.ui.words.fingers import range_words
-from carpus.ui.words.ranges import is_deficit, mean_words, prints_spread
-from carpus.ui.words.session import since_words
+from carpus.ui.words.ranges import has_sd, is_deficit, mean_words
+from carpus.ui.words.session import change_sentence
 
 COMMENT_PX = 130
 PREVIEW_AFTER_MS = 400
 
 
 class ReportPanel(QWidget):
-    """``changed`` carries the report as it is to be shown; ``form_kept`` a form for all reports; ``comment_kept`` the
+    """``changed`` carries the report as it is to be shown; ``form_saved`` a form for all reports; ``comment_saved`` the
     session and its comment when that was written to its end."""
 
     changed = Signal(object)
-    form_kept = Signal(ReportForm)
-    comment_kept = Signal(str, str)
+    form_saved = Signal(ReportForm)
+    comment_saved = Signal(str, str)
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
         self._report: SessionReport | None = None
-        self._kept = ""
-        self._usual: frozenset[str] = frozenset()
-        column = in_column(Text(theme, self.tr("Comment"), 16, SEMIBOLD), gap=6, margins=(0, 0, 0, 0), within=self)
+        self._saved_comment = ""
+        self._default_omissions: frozenset[str] = frozenset()
+        column = column_layout(Text(theme, self.tr("Comment"), 16, SEMIBOLD), gap=6, margins=(0, 0, 0, 0), parent=self)
         words = self.tr("Printed on the report and kept with the session. No names here, please.")
         column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self.comment = _Comment()
+        self.comment = _CommentField()
         self.comment.setTabChangesFocus(True)
         self.comment.setAccessibleName(self.tr("Comment on the report"))
-        theme.follow(self.comment, lambda: self.comment.setFixedHeight(theme.px(COMMENT_PX)))
+        theme.on_change(self.comment, lambda: self.comment.setFixedHeight(theme.px(COMMENT_PX)))
         column.addWidget(self.comment)
-        self.sentence = self._sentence_box()
-        column.addWidget(self.sentence)
+        self.sentence_box = self._make_sentence_box()
+        column.addWidget(self.sentence_box)
         row = QHBoxLayout()
-        self.insert = Button(theme, self.tr("Insert"), height_px=38)
-        self.remember = Button(theme, self.tr("Remember"), "quiet", height_px=38)
-        self.forget = Button(theme, self.tr("Forget"), "quiet", height_px=38)
-        for button in (self.insert, self.remember, self.forget):
+        self.insert_button = Button(theme, self.tr("Insert"), height_px=38)
+        self.add_button = Button(theme, self.tr("Remember"), "quiet", height_px=38)
+        self.remove_button = Button(theme, self.tr("Forget"), "quiet", height_px=38)
+        for button in (self.insert_button, self.add_button, self.remove_button):
             row.addWidget(button)
         row.addStretch(1)
         fill(column, row, 8, Text(theme, self.tr("Parts of the report"), 16, SEMIBOLD))
@@ -67,25 +67,25 @@ class ReportPanel(QWidget):
             "quality": self.tr("How sure the figures are"), "speed": self.tr("Speed, pain, note"),
             "by_hand": self.tr("Entered by hand"), "motion": self.tr("Page of movement"),
         }  # fmt: skip
-        self.ticks: dict[str, Tick] = {}
+        self.section_checks: dict[str, CheckButton] = {}
         for name in SECTIONS:
-            self.ticks[name] = tick = Tick(theme, names[name])
-            tick.toggled.connect(self._take_ticks)
+            self.section_checks[name] = tick = CheckButton(theme, names[name])
+            tick.toggled.connect(self._update_sections)
             column.addWidget(tick)
         words = self.tr("Warnings, method and the legal sentence always stay.")
         column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self.keep = Button(theme, self.tr("Use these parts for all reports"), height_px=40)
-        column.addWidget(self.keep)
-        self._soon = QTimer(self, singleShot=True, interval=PREVIEW_AFTER_MS)
-        self._soon.timeout.connect(self._take_comment)
-        self.comment.textChanged.connect(self._soon.start)
-        self.comment.left.connect(self.keep_comment)
-        self.insert.clicked.connect(self._insert)
-        self.remember.clicked.connect(self._remember)
-        self.forget.clicked.connect(self._forget)
-        self.keep.clicked.connect(self._keep_form)
+        self.use_button = Button(theme, self.tr("Use these parts for all reports"), height_px=40)
+        column.addWidget(self.use_button)
+        self._preview_timer = QTimer(self, singleShot=True, interval=PREVIEW_AFTER_MS)
+        self._preview_timer.timeout.connect(self._update_comment)
+        self.comment.textChanged.connect(self._preview_timer.start)
+        self.comment.focus_lost.connect(self.save_comment)
+        self.insert_button.clicked.connect(self._insert)
+        self.add_button.clicked.connect(self._add_sentence)
+        self.remove_button.clicked.connect(self._remove_sentence)
+        self.use_button.clicked.connect(self._save_form)
 
-    def _sentence_box(self) -> QComboBox:
+    def _make_sentence_box(self) -> QComboBox:
         """The sentences to choose from, found by any part of them."""
         box = Combo()
         box.setEditable(True)
@@ -100,105 +100,105 @@ class ReportPanel(QWidget):
             line.setPlaceholderText(self.tr("Type part of a sentence"))
         box.setToolTip(
             self.tr("These places take the session’s figures: {places}").replace(
-                "{places}", ", ".join(f"{{{name}}}" for name in PLACES)
+                "{places}", ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
             )
         )
         return box
 
-    def begin(self, report: SessionReport) -> None:
-        self.keep_comment()
-        self._soon.stop()
-        self._report, self._kept, self._usual = None, report.comment, report.form.left_out
+    def show_report(self, report: SessionReport) -> None:
+        self.save_comment()
+        self._preview_timer.stop()
+        self._report, self._saved_comment, self._default_omissions = None, report.comment, report.form.excluded_sections
         self.comment.setPlainText(report.comment)
-        for name, tick in self.ticks.items():
-            tick.setChecked(report.form.has(name))
-        self.ticks["diagnosis"].setVisible(bool(report.diagnosis or report.onset_day))
-        self.ticks["bars"].setVisible(report.joints is None)
-        self.ticks["by_hand"].setVisible(bool(report.by_hand))
-        self.ticks["motion"].setVisible(report.motion is not None)
+        for name, tick in self.section_checks.items():
+            tick.setChecked(report.form.includes(name))
+        self.section_checks["diagnosis"].setVisible(bool(report.diagnosis or report.onset_day))
+        self.section_checks["bars"].setVisible(report.joints is None)
+        self.section_checks["by_hand"].setVisible(bool(report.manual_values))
+        self.section_checks["motion"].setVisible(report.motion is not None)
         self._report = report
-        self._soon.stop()
+        self._preview_timer.stop()
         self._show_sentences()
 
-    def keep_comment(self) -> None:
-        self._take_comment()
-        if self._report is not None and self._report.comment.strip() != self._kept.strip():
-            self._kept = self._report.comment
-            self.comment_kept.emit(self._report.figures.session_id, self._kept)
+    def save_comment(self) -> None:
+        self._update_comment()
+        if self._report is not None and self._report.comment.strip() != self._saved_comment.strip():
+            self._saved_comment = self._report.comment
+            self.comment_saved.emit(self._report.results.session_id, self._saved_comment)
 
     def hideEvent(self, event) -> None:  # type: ignore[no-untyped-def]
-        self.keep_comment()
+        self.save_comment()
         super().hideEvent(event)
 
-    def _take_comment(self) -> None:
-        self._soon.stop()
+    def _update_comment(self) -> None:
+        self._preview_timer.stop()
         if self._report is not None and self._report.comment != self.comment.toPlainText():
             self._report = replace(self._report, comment=self.comment.toPlainText())
             self.changed.emit(self._report)
 
-    def _take_ticks(self) -> None:
+    def _update_sections(self) -> None:
         if self._report is not None:
-            left_out = frozenset(name for name, tick in self.ticks.items() if not tick.isChecked())
-            self._report = replace(self._report, form=replace(self._report.form, left_out=left_out))
+            left_out = frozenset(name for name, tick in self.section_checks.items() if not tick.isChecked())
+            self._report = replace(self._report, form=replace(self._report.form, excluded_sections=left_out))
             self.changed.emit(self._report)
 
     def _sentences(self) -> tuple[str, ...]:
-        return self._report.form.sentences or proposals() if self._report is not None else ()
+        return self._report.form.sentences or default_sentences() if self._report is not None else ()
 
     def _show_sentences(self, current: str = "") -> None:
-        self.sentence.clear()
-        self.sentence.addItems(self._sentences())
-        self.sentence.setCurrentIndex(-1)
-        self.sentence.setEditText(current)
+        self.sentence_box.clear()
+        self.sentence_box.addItems(self._sentences())
+        self.sentence_box.setCurrentIndex(-1)
+        self.sentence_box.setEditText(current)
 
     def _insert(self) -> None:
-        words = self.sentence.currentText().strip()
+        words = self.sentence_box.currentText().strip()
         if words and self._report is not None:
             cursor = self.comment.textCursor()
             before = self.comment.toPlainText()[: cursor.position()]
-            cursor.insertText(("" if not before or before[-1].isspace() else " ") + filled(words, self._report))
-            self.sentence.setEditText("")
+            cursor.insertText(("" if not before or before[-1].isspace() else " ") + fill_sentence(words, self._report))
+            self.sentence_box.setEditText("")
             self.comment.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _remember(self) -> None:
-        words = self.sentence.currentText().strip()
-        if words and words not in self._sentences() and len(self._sentences()) < MOST_SENTENCES:
-            self._keep_sentences((*self._sentences(), words), words)
+    def _add_sentence(self) -> None:
+        words = self.sentence_box.currentText().strip()
+        if words and words not in self._sentences() and len(self._sentences()) < MAX_SENTENCES:
+            self._save_sentences((*self._sentences(), words), words)
 
-    def _forget(self) -> None:
-        words = self.sentence.currentText().strip()
+    def _remove_sentence(self) -> None:
+        words = self.sentence_box.currentText().strip()
         if words in self._sentences():
-            self._keep_sentences(tuple(one for one in self._sentences() if one != words), "")
+            self._save_sentences(tuple(one for one in self._sentences() if one != words), "")
 
-    def _keep_sentences(self, sentences: tuple[str, ...], current: str) -> None:
+    def _save_sentences(self, sentences: tuple[str, ...], current: str) -> None:
         if self._report is not None:
             self._report = replace(self._report, form=replace(self._report.form, sentences=sentences))
             self.changed.emit(self._report)
-            self.form_kept.emit(replace(self._report.form, left_out=self._usual))
+            self.form_saved.emit(replace(self._report.form, excluded_sections=self._default_omissions))
             self._show_sentences(current)
 
-    def _keep_form(self) -> None:
+    def _save_form(self) -> None:
         if self._report is not None:
-            self._usual = self._report.form.left_out
-            self.form_kept.emit(self._report.form)
+            self._default_omissions = self._report.form.excluded_sections
+            self.form_saved.emit(self._report.form)
 
 
-class _Comment(QPlainTextEdit):
-    """``left`` when another field is gone to."""
+class _CommentField(QPlainTextEdit):
+    """``focus_lost`` when another field is gone to."""
 
-    left = Signal()
+    focus_lost = Signal()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         super().focusOutEvent(event)
-        self.left.emit()
+        self.focus_lost.emit()
 
 
-ANGLES = {"flexion": 1, "extension": 1, "radial": 0, "ulnar": 0, "supination": 2, "pronation": 2}
-PLACES = (*ANGLES, "arc", "change", "repetitions", "date")
-_PLACE = re.compile(r"\{(\w+)\}")
+PLACEHOLDER_COLUMNS = {"flexion": 1, "extension": 1, "radial": 0, "ulnar": 0, "supination": 2, "pronation": 2}
+PLACEHOLDERS = (*PLACEHOLDER_COLUMNS, "arc", "change", "repetitions", "date")
+_PLACEHOLDER = re.compile(r"\{(\w+)\}")
 
 
-def proposals() -> tuple[str, ...]:
+def default_sentences() -> tuple[str, ...]:
     """Offered until the therapist has sentences of their own."""
     return (
         tr("Flexion {flexion}, extension {extension}."),
@@ -208,47 +208,49 @@ def proposals() -> tuple[str, ...]:
     )
 
 
-def filled(sentence: str, report: SessionReport) -> str:
+def fill_sentence(sentence: str, report: SessionReport) -> str:
     """The sentence with its places filled; a figure that is not known is said to be so, another place stays."""
-    return _PLACE.sub(lambda found: _value(found[1], report) if found[1] in PLACES else found[0], sentence)
+    return _PLACEHOLDER.sub(
+        lambda found: _placeholder_text(found[1], report) if found[1] in PLACEHOLDERS else found[0], sentence
+    )
 
 
-def _value(place: str, report: SessionReport) -> str:
-    figures = report.figures
+def _placeholder_text(place: str, report: SessionReport) -> str:
+    figures = report.results
     said: dict[str, Callable[[], str]] = {
-        "arc": lambda: _arc(figures),
-        "change": lambda: _change(report),
-        "repetitions": lambda: str(figures.counted) if figures.counted else "",
-        "date": lambda: numbers.report_date(figures.when),
+        "arc": lambda: _arc_text(figures),
+        "change": lambda: _change_text(report),
+        "repetitions": lambda: str(figures.repetition_count) if figures.repetition_count else "",
+        "date": lambda: numbers.format_date_time(figures.when),
     }
-    words = said[place]() if place in said else _row(figures, place, ANGLES[place])
+    words = said[place]() if place in said else _measure_text(figures, place, PLACEHOLDER_COLUMNS[place])
     return words or tr("not measured")
 
 
-def _row(figures: SessionFigures, movement: str, angle: int) -> str:
-    row = figures.find(WRIST_ANGLES[angle], movement)
+def _measure_text(results: SessionResults, movement: str, angle: int) -> str:
+    row = results.find(WRIST_ANGLES[angle], movement)
     if row is None or not row.count:
         return ""
-    if row.at_least:
+    if row.is_lower_bound:
         return range_words(row)
     if is_deficit(row):
-        sd_deg = row.sd if prints_spread(row) else row.measurement_sd
-        return f"{inside(terms.deficit_name(movement))} {numbers.with_spread(-row.mean, sd_deg)}"
+        sd_deg = row.sd if has_sd(row) else row.measurement_sd
+        return f"{to_mid_sentence(terms.deficit_name(movement))} {numbers.format_with_sd(-row.mean, sd_deg)}"
     return mean_words(row)
 
 
-def _arc(figures: SessionFigures) -> str:
-    angle = figures.exercise.angle
-    return "" if angle is None else _row(figures, "arc", angle)
+def _arc_text(results: SessionResults) -> str:
+    angle = results.exercise.angle
+    return "" if angle is None else _measure_text(results, "arc", angle)
 
 
-def _change(report: SessionReport) -> str:
+def _change_text(report: SessionReport) -> str:
     if report.previous is None:
-        return _sentence(tr("not measured"))
-    day = numbers.day_beside(report.previous.when, report.figures.when)
-    said = since_words(report.figures, report.previous, day)
-    return said or _sentence(tr("not measured"))
+        return _to_sentence(tr("not measured"))
+    day = numbers.format_distinct_day(report.previous.when, report.results.when)
+    said = change_sentence(report.results, report.previous, day)
+    return said or _to_sentence(tr("not measured"))
 
 
-def _sentence(words: str) -> str:
+def _to_sentence(words: str) -> str:
     return f"{words[:1].upper()}{words[1:]}."

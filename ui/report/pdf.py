@@ -9,13 +9,13 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, Q
 from PySide6.QtGui import QColor, QFontMetricsF, QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox, SheetLine, SheetText
-from carpus.core.formats.new_output import look_for_folder, new_bytes
+from carpus.core.calibration.camera.sheet import PrintedSheet, SheetBox, SheetDisc, SheetLine, SheetText
+from carpus.core.formats.new_output import open_new_file, require_folder
 from carpus.ui.fonts import REGULAR, SEMIBOLD, font, load_fonts
 from carpus.ui.report.page import DISPLAY_FROM_PT, Page
-from carpus.ui.report.pages import Report, pages_of
+from carpus.ui.report.pages import Report, layout_pages
 from carpus.ui.theme import LIGHT
-from carpus.ui.translate import say
+from carpus.ui.translate import translate_phrase
 
 TITLE = "Carpus report"
 """What a viewer writes above its window and a mail program into its list: nobody's name."""
@@ -37,13 +37,13 @@ def ensure_application() -> QApplication:
 def write_sheets(output_path: Path, sheets: Sequence[PrintedSheet], title: str) -> Path:
     """Write sheets to print, each in its own size, in millimetres as drawn; faults as of :func:`write_report`."""
     application = ensure_application()
-    pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _painting(sheet)) for sheet in sheets]
+    pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _sheet_painter(sheet)) for sheet in sheets]
     content = pdf_bytes(pages, title)
     del application
-    return store_pdf(output_path, content)
+    return save_pdf(output_path, content)
 
 
-def _painting(sheet: PrintedSheet) -> PaintPage:
+def _sheet_painter(sheet: PrintedSheet) -> PaintPage:
     return lambda painter, point: paint_sheet(painter, point, sheet)
 
 
@@ -53,9 +53,9 @@ def write_report(report: Report, output_path: Path) -> Path:
     Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-written stays.
     """
     application = ensure_application()
-    content = report_pdf(pages_of(report))
+    content = report_pdf(layout_pages(report))
     del application
-    return store_pdf(output_path, content)
+    return save_pdf(output_path, content)
 
 
 def report_pdf(pages: Sequence[Page]) -> bytes:
@@ -63,10 +63,10 @@ def report_pdf(pages: Sequence[Page]) -> bytes:
     return pdf_bytes([(page.size_mm, page.paint) for page in pages], TITLE)
 
 
-def store_pdf(output_path: Path, content: bytes) -> Path:
+def save_pdf(output_path: Path, content: bytes) -> Path:
     """Write a PDF's content; faults as of :func:`write_report`."""
-    look_for_folder(output_path)
-    with new_bytes(output_path) as file:
+    require_folder(output_path)
+    with open_new_file(output_path) as file:
         file.write(content)
     return output_path
 
@@ -112,11 +112,11 @@ def paint_sheet(painter: QPainter, point: float, sheet: PrintedSheet) -> None:
     mm = point * POINTS_PER_MM
     # Half-covered edge pixels would make two squares that meet at a corner leak into each other.
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-    for mark in sheet.marks:
+    for mark in sheet.items:
         if isinstance(mark, SheetBox):
             box = QRectF(mark.left_mm * mm, mark.top_mm * mm, mark.width_mm * mm, mark.height_mm * mm)
             painter.fillRect(box, QColor(mark.color))
-        elif isinstance(mark, Disc):
+        elif isinstance(mark, SheetDisc):
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(mark.color))
             radius = mark.radius_mm * mm
@@ -128,7 +128,7 @@ def paint_sheet(painter: QPainter, point: float, sheet: PrintedSheet) -> None:
             ends = [QPointF(x * mm, y * mm) for x, y in (mark.from_mm, mark.to_mm)]
             painter.drawLine(*ends)
         elif isinstance(mark, SheetText):
-            weight, words = SEMIBOLD if mark.bold else REGULAR, say(mark.text)
+            weight, words = SEMIBOLD if mark.bold else REGULAR, translate_phrase(mark.text)
             face = font(mark.size_pt * point, weight, display=mark.size_pt >= DISPLAY_FROM_PT)
             room = (sheet.width_mm - mark.x_mm) * mm - 12.0 * point
             wide = QFontMetricsF(face).horizontalAdvance(words)

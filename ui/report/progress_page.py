@@ -8,39 +8,46 @@ from functools import partial
 
 from PySide6.QtWidgets import QLayout
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.progress import Progress
-from carpus.core.results.report_form import USUAL_FORM, ReportForm
+from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.ui import numbers
 from carpus.ui.controls.layouts import STRETCH, Part
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.plot.course import paint_chart
+from carpus.ui.plot.course import paint_progress_chart
 from carpus.ui.report.page import (
     CHART,
     Body,
     PaintedPart,
     column,
-    facts,
+    fact_row,
     legal_line,
     paragraph,
     rule,
-    session_head,
+    section_title,
+    session_page_head,
     table,
-    title,
 )
 from carpus.ui.translate import tr
-from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
-from carpus.ui.words.by_hand import change_words, changes, day_words, full_name, verdict_words
-from carpus.ui.words.progress import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
+from carpus.ui.verdicts import duplicate_result_words, error_limit_words, verdict_token, verdict_word
+from carpus.ui.words.by_hand import change_words, day_words, find_changes, full_name, verdict_words
+from carpus.ui.words.progress import (
+    change_line,
+    comparison_name,
+    exclusion_words,
+    headline,
+    uncertainty_words,
+    value_pair,
+)
 from carpus.ui.words.table import Cell, TableColumn
 
 MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
-MOST_UNFAIR = 4
-MOST_IDS = 8
-MOST_BY_HAND, MOST_DAYS = 5, 3
+MAX_EXCLUDED = 4
+MAX_IDS = 8
+MAX_MANUAL_CHANGES, MAX_DAYS = 5, 3
 """So many changes, and days of what was taken once, are on the page; the table of them has all."""
-CHANGED = (TableColumn(MEDIUM), TableColumn(SEMIBOLD), TableColumn(), TableColumn(ends=True))
-BY_HAND = (TableColumn(MEDIUM), TableColumn(), TableColumn(SEMIBOLD, ends=True))
+CHANGE_COLUMNS = (TableColumn(MEDIUM), TableColumn(SEMIBOLD), TableColumn(), TableColumn(is_right_aligned=True))
+MANUAL_COLUMNS = (TableColumn(MEDIUM), TableColumn(), TableColumn(SEMIBOLD, is_right_aligned=True))
 
 
 def _kind() -> str:
@@ -56,13 +63,13 @@ class ProgressReport:
     therapist: str = ""
     made_by: str = ""
     """Version and revision of the program that makes the report."""
-    form: ReportForm = USUAL_FORM
+    form: ReportForm = DEFAULT_FORM
     language: str = ""
     """The language it is painted in, by two letters; empty for the window's."""
 
     @property
-    def sessions(self) -> tuple[SessionFigures, ...]:
-        return tuple(point.figures for point in self.progress.points)
+    def sessions(self) -> tuple[SessionResults, ...]:
+        return tuple(point.results for point in self.progress.points)
 
     @property
     def kind(self) -> str:
@@ -74,34 +81,38 @@ class ProgressReport:
 
 def _body(report: ProgressReport, number: str) -> QLayout:
     progress = report.progress
-    first, newest = progress.points[0].figures, progress.points[-1].figures
+    first, newest = progress.points[0].results, progress.points[-1].results
     pairs = [
         (tr("Sessions"), str(len(progress.points))),
-        (tr("First"), numbers.report_date(first.when)),
-        (tr("Last"), numbers.report_date(newest.when)),
+        (tr("First"), numbers.format_date_time(first.when)),
+        (tr("Last"), numbers.format_date_time(newest.when)),
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
     answer, basis = headline(progress)
-    chart = PaintedPart(lambda painter, box: paint_chart(painter, CHART, box, progress), MIN_CHART_PT, MAX_CHART_PT)
+    chart = PaintedPart(
+        lambda painter, box: paint_progress_chart(painter, CHART, box, progress), MIN_CHART_PT, MAX_CHART_PT
+    )
     return column(
-        session_head(newest, report.pseudonym, tr("Progress report"), number),
-        facts(pairs),
+        session_page_head(newest, report.pseudonym, tr("Progress report"), number),
+        fact_row(pairs),
         rule(),
         column(paragraph(answer, 14.0, SEMIBOLD), paragraph(basis, 9.5, REGULAR, "text2")),
         chart,
         *_changes(progress),
-        *_changes_by_hand(progress),
-        _fairness(progress),
+        *_manual_changes(progress),
+        _comparability(progress),
         STRETCH,
-        column(legal_line(), paragraph(made_of(report.made_by, report.sessions), 8.0, REGULAR, "text2"), gap=3.0),
+        column(
+            legal_line(), paragraph(provenance_words(report.made_by, report.sessions), 8.0, REGULAR, "text2"), gap=3.0
+        ),
         gap=7.0,
     )
 
 
-def made_of(made_by: str, sessions: Sequence[SessionFigures]) -> str:
+def provenance_words(made_by: str, sessions: Sequence[SessionResults]) -> str:
     """``Made by Carpus 0.1.0 (1a2b3c4) of 7 sessions: 0b1c2d3e … · they were measured by Carpus 0.1.0``."""
-    ids = ", ".join(figures.session_id[:8] for figures in sessions[-MOST_IDS:])
-    if len(sessions) > MOST_IDS:
+    ids = ", ".join(figures.session_id[:8] for figures in sessions[-MAX_IDS:])
+    if len(sessions) > MAX_IDS:
         ids = f"…, {ids}"
     versions = ", ".join(sorted({figures.software_version for figures in sessions}))
     of = tr("1 session: {ids}") if len(sessions) == 1 else tr("{count} sessions: {ids}")
@@ -115,49 +126,52 @@ def made_of(made_by: str, sessions: Sequence[SessionFigures]) -> str:
 
 
 def _changes(progress: Progress) -> list[Part]:
-    first, last = progress.first, progress.last
+    first, last = progress.reference, progress.current
     if first is None or last is None or not progress.comparisons:
         return []
     days = tr("{first} and {last}").format(
-        first=numbers.day_beside(first.when, last.when), last=numbers.day_beside(last.when, first.when)
+        first=numbers.format_distinct_day(first.when, last.when),
+        last=numbers.format_distinct_day(last.when, first.when),
     )
-    counts = tr("{before} and {after} repetitions").format(before=first.counted, after=last.counted)
+    counts = tr("{before} and {after} repetitions").format(before=first.repetition_count, after=last.repetition_count)
     rows = [
         (
-            comparison_name(item, progress.comparisons), before_after(item), change_line(item),
+            comparison_name(item, progress.comparisons), value_pair(item), change_line(item),
             Cell(verdict_word(item.verdict), SEMIBOLD, verdict_token(item.verdict)),
         )
         for item in progress.comparisons
     ]  # fmt: skip
-    shown = table(CHANGED, (), rows)
-    return [column(title(tr("First to last session"), f"{days} · {counts}"), shown, gap=2.0)]
+    shown = table(CHANGE_COLUMNS, (), rows)
+    return [column(section_title(tr("First to last session"), f"{days} · {counts}"), shown, gap=2.0)]
 
 
-def _changes_by_hand(progress: Progress) -> list[Part]:
+def _manual_changes(progress: Progress) -> list[Part]:
     """What was measured by hand, each way for itself; values of one day only in one paragraph."""
-    if not progress.by_hand:
+    if not progress.manual_measurements:
         return []
-    changed = changes(progress.by_hand)
-    rows = [(full_name(key), change_words(one), verdict_words(one)[1]) for key, one in changed[:MOST_BY_HAND]]
-    shown = table(BY_HAND, (), rows)
-    known = {key for key, _ in changed[:MOST_BY_HAND]}
-    rest = [one for one in progress.by_hand if one.key not in known]
+    changed = find_changes(progress.manual_measurements)
+    rows = [(full_name(key), change_words(one), verdict_words(one)[1]) for key, one in changed[:MAX_MANUAL_CHANGES]]
+    shown = table(MANUAL_COLUMNS, (), rows)
+    known = {key for key, _ in changed[:MAX_MANUAL_CHANGES]}
+    rest = [one for one in progress.manual_measurements if one.key not in known]
     words = "; ".join(
-        f"{numbers.day_month(day)}: {day_words([one for one in rest if one.day == day])}"
-        for day in sorted({one.day for one in rest})[-MOST_DAYS:]
+        f"{numbers.format_day_month(day)}: {day_words([one for one in rest if one.day == day])}"
+        for day in sorted({one.day for one in rest})[-MAX_DAYS:]
     )
     below = [paragraph(words, 8.5)] if words else []
-    return [column(title(tr("Entered by hand"), tr("never joined with the figures above")), shown, *below, gap=2.0)]
+    return [
+        column(section_title(tr("Entered by hand"), tr("never joined with the figures above")), shown, *below, gap=2.0)
+    ]
 
 
-def _fairness(progress: Progress) -> QLayout:
-    unfair = [unfair_words(point, progress) for point in progress.points if not point.fair]
-    doubts = [words for point in progress.points if (words := doubt_words(point, progress))]
-    lines = [paragraph(words) for words in unfair[:MOST_UNFAIR]]
-    lines += [paragraph(words, token="warn") for words in doubts[:MOST_UNFAIR]]
+def _comparability(progress: Progress) -> QLayout:
+    unfair = [exclusion_words(point, progress) for point in progress.points if not point.is_comparable]
+    doubts = [words for point in progress.points if (words := uncertainty_words(point, progress))]
+    lines = [paragraph(words) for words in unfair[:MAX_EXCLUDED]]
+    lines += [paragraph(words, token="warn") for words in doubts[:MAX_EXCLUDED]]
     if not unfair:
         lines.append(paragraph(tr("All sessions were set up alike.")))
-    if once := counted_once_words(progress.earlier_results):
+    if once := duplicate_result_words(progress.earlier_results):
         lines.append(paragraph(once))
-    words = f"{tr('± is the spread between repetitions.')} {limit_words(progress.study)}"
-    return column(title(tr("Fair comparison")), *lines, paragraph(words, 8.0, REGULAR, "text2"), gap=2.0)
+    words = f"{tr('± is the spread between repetitions.')} {error_limit_words(progress.study)}"
+    return column(section_title(tr("Fair comparison")), *lines, paragraph(words, 8.0, REGULAR, "text2"), gap=2.0)

@@ -10,22 +10,22 @@ from functools import partial
 
 from PySide6.QtWidgets import QLayout
 
-from carpus.core.measures.by_hand import HandValue
-from carpus.core.results.figures import SessionFigures
+from carpus.core.measures.by_hand import ManualValue
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.motion_curves import MotionCurves
-from carpus.core.results.progress import compare
-from carpus.core.results.report_form import USUAL_FORM, ReportForm
-from carpus.core.results.seen import JointCurves, ReportCurves
+from carpus.core.results.progress import compare_ranges
+from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
+from carpus.core.results.seen import JointCurves, WristCurves
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, PlainText, Sign
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
 from carpus.ui.plot.range_bars import BAR_PX, FOOT_PX, paint_range_bars, range_bars
 from carpus.ui.plot.session import SessionPlot
-from carpus.ui.report.hand_part import finger_curves, finger_part, wrist_line
+from carpus.ui.report.hand_part import finger_curve_section, finger_section, wrist_section
 from carpus.ui.report.motion_page import motion_page
 from carpus.ui.report.page import (
-    BODY_PT,
+    BODY_WIDTH_PT,
     CHART,
     PAPER,
     UNIT,
@@ -34,25 +34,32 @@ from carpus.ui.report.page import (
     RoundedBox,
     break_lines,
     column,
-    facts,
+    fact_row,
     label,
     legal_line,
     line,
     paragraph,
     rule,
-    session_curves,
-    session_head,
+    section_title,
+    session_chart_part,
+    session_page_head,
     table,
-    title,
     value_rows,
 )
-from carpus.ui.translate import inside, tr
-from carpus.ui.words.active_passive import active_passive
+from carpus.ui.translate import to_mid_sentence, tr
+from carpus.ui.words.active_passive import build_active_passive
 from carpus.ui.words.by_hand import day_words
-from carpus.ui.words.fingers import find_compared_ranges
-from carpus.ui.words.progress import corrected_words
-from carpus.ui.words.ranges import norm_words, range_table, repetition_words
-from carpus.ui.words.session import hand_summary, method, other_lines, quality_lines, summary, warnings
+from carpus.ui.words.fingers import find_main_ranges
+from carpus.ui.words.progress import correction_words
+from carpus.ui.words.ranges import range_table, reference_words, repetition_words
+from carpus.ui.words.session import (
+    hand_summary,
+    method_words,
+    quality_lines,
+    speed_pain_lines,
+    warning_lines,
+    wrist_summary,
+)
 
 COMMENT_PT = 9.0
 MAX_COMMENT_LINES, LINES_ON_A_PAGE = 6, 52
@@ -67,8 +74,8 @@ def _kind() -> str:
 class SessionReport:
     """All that is on the page."""
 
-    figures: SessionFigures
-    curves: ReportCurves
+    results: SessionResults
+    curves: WristCurves
     markers: int
     pseudonym: str
     session_number: int = 0
@@ -78,26 +85,26 @@ class SessionReport:
     onset_day: date | None = None
     """Why the patient comes: printed only where the form has it."""
     therapist: str = ""
-    previous: SessionFigures | None = None
-    first: SessionFigures | None = None
-    other_hand: SessionFigures | None = None
+    previous: SessionResults | None = None
+    first: SessionResults | None = None
+    other_hand: SessionResults | None = None
     joints: JointCurves | None = None
     motion: MotionCurves | None = None
     digest: str = ""
     settings_digest: str = ""
     revision: str = ""
     recording_digest: str = ""
-    by_hand: tuple[HandValue, ...] = ()
+    manual_values: tuple[ManualValue, ...] = ()
     """What was measured by hand of this hand and person on the day of the session."""
     comment: str = ""
     """The therapist's own words, several lines."""
-    form: ReportForm = USUAL_FORM
+    form: ReportForm = DEFAULT_FORM
     language: str = ""
     """The language it is painted in, by two letters; empty for the window's."""
 
     @property
-    def sessions(self) -> tuple[SessionFigures, ...]:
-        return (self.figures,)
+    def sessions(self) -> tuple[SessionResults, ...]:
+        return (self.results,)
 
     @property
     def kind(self) -> str:
@@ -107,7 +114,7 @@ class SessionReport:
         """The first page, that of movement, and those of a comment for which the first has no room."""
         lines = comment_lines(self.comment)
         pages: list[Body] = [partial(_first_page, self, lines)]
-        if self.motion is not None and self.form.has("motion"):
+        if self.motion is not None and self.form.includes("motion"):
             pages.append(partial(_motion_page, self, self.motion))
         if len(lines) > MAX_COMMENT_LINES:
             starts = range(0, len(lines), LINES_ON_A_PAGE)
@@ -116,7 +123,7 @@ class SessionReport:
 
 
 @dataclass(frozen=True, slots=True)
-class OfSession:
+class DerivedReport:
     """A page made of what the report of a session has."""
 
     report: SessionReport
@@ -131,34 +138,36 @@ class OfSession:
 
     @property
     def side(self) -> Side:
-        return self.report.figures.side
+        return self.report.results.side
 
     @property
-    def sessions(self) -> tuple[SessionFigures, ...]:
+    def sessions(self) -> tuple[SessionResults, ...]:
         return self.report.sessions
 
 
 def _head(report: SessionReport, number: str) -> QLayout:
-    return session_head(report.figures, report.pseudonym, tr("Session report"), number)
+    return session_page_head(report.results, report.pseudonym, tr("Session report"), number)
 
 
 def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> QLayout:
-    figures, form = report.figures, report.form
-    summed_up = summary if report.joints is None else hand_summary
+    figures, form = report.results, report.form
+    summed_up = wrist_summary if report.joints is None else hand_summary
     parts: list[Part] = [_head(report, number), *_facts(report)]
     parts.append(paragraph(summed_up(figures, report.previous, report.first), 10.0, SEMIBOLD))
-    if form.has("table"):
+    if form.includes("table"):
         is_hand, sessions = report.joints is not None, (figures, report.previous, report.other_hand)
-        parts += finger_part(*sessions) if is_hand else _range_table(report)
+        parts += finger_section(*sessions) if is_hand else _range_table(report)
         parts += _active_passive(report)
-        parts += wrist_line(figures) if is_hand else []
-    if form.has("curves"):
-        parts += _curves(report) if report.joints is None else finger_curves(report.curves, report.joints, figures)
-    if form.has("bars") and report.joints is None:
+        parts += wrist_section(figures) if is_hand else []
+    if form.includes("curves"):
+        parts += (
+            _curves(report) if report.joints is None else finger_curve_section(report.curves, report.joints, figures)
+        )
+    if form.includes("bars") and report.joints is None:
         parts += _bars(report)
     parts += [STRETCH, *_boxes(report)]
-    if report.by_hand and form.has("by_hand"):
-        words = tr("Entered by hand, not measured by Carpus: {values}.").format(values=day_words(report.by_hand))
+    if report.manual_values and form.includes("by_hand"):
+        words = tr("Entered by hand, not measured by Carpus: {values}.").format(values=day_words(report.manual_values))
         parts.append(paragraph(words, 8.5))
     if len(comment) > MAX_COMMENT_LINES:
         parts.append(paragraph(tr("The therapist’s comment is on the last page."), 8.5, MEDIUM))
@@ -168,7 +177,7 @@ def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> Q
 
 
 def _motion_page(report: SessionReport, motion: MotionCurves, number: str) -> QLayout:
-    figures, head = report.figures, _head(report, number)
+    figures, head = report.results, _head(report, number)
     return motion_page(head, figures, report.previous, report.curves, motion)
 
 
@@ -179,7 +188,7 @@ def _comment_page(report: SessionReport, lines: Sequence[str], number: str) -> Q
 
 def comment_lines(comment: str) -> list[str]:
     """The therapist's words as they are broken into lines."""
-    return break_lines(comment, COMMENT_PT, BODY_PT) if comment.strip() else []
+    return break_lines(comment, COMMENT_PT, BODY_WIDTH_PT) if comment.strip() else []
 
 
 def comment_text(lines: Sequence[str]) -> PlainText:
@@ -188,117 +197,120 @@ def comment_text(lines: Sequence[str]) -> PlainText:
 
 
 def _facts(report: SessionReport) -> list[Part]:
-    figures = report.figures
+    figures = report.results
     session = tr("active")
     if figures.has_passive:
-        session = tr("active and passive") if figures.counted else tr("passive")
+        session = tr("active and passive") if figures.repetition_count else tr("passive")
     if report.session_number:
-        session = f"{numbers.ordinal(report.session_number)}, {session}"
+        session = f"{numbers.format_ordinal(report.session_number)}, {session}"
     handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(
         report.dominance, ""
     )
     pairs = [
-        (tr("Date"), numbers.report_date(figures.when)),
+        (tr("Date"), numbers.format_date_time(figures.when)),
         (tr("Session"), session),
-        (tr("Hand"), ", ".join(part for part in (inside(terms.side_name(figures.side)), handed) if part)),
-        (tr("Length"), numbers.clock(figures.duration_s + 0.5)),
+        (tr("Hand"), ", ".join(part for part in (to_mid_sentence(terms.side_name(figures.side)), handed) if part)),
+        (tr("Length"), numbers.format_clock(figures.duration_s + 0.5)),
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
-    lines = [(_diagnosis_words(report), MEDIUM, "text"), *((words, SEMIBOLD, "warn") for words in warnings(figures))]
-    if corrected := corrected_words(figures):
+    lines = [
+        (_diagnosis_words(report), MEDIUM, "text"),
+        *((words, SEMIBOLD, "warn") for words in warning_lines(figures)),
+    ]
+    if corrected := correction_words(figures):
         kept = tr("Markers were put right by hand; the result as measured is kept.")
         lines.append((f"{corrected} {kept}", MEDIUM, "text"))
     shown = [paragraph(words, 8.5, weight, token) for words, weight, token in lines if words]
-    return [column(facts(pairs), *shown, gap=3.0), rule()]
+    return [column(fact_row(pairs), *shown, gap=3.0), rule()]
 
 
 def _diagnosis_words(report: SessionReport) -> str:
     """``Wrist fracture, plate, operated on 21 Aug 2026, 13 weeks before``, where the clinic wants it."""
     day = report.onset_day
-    if not report.form.has("diagnosis"):
+    if not report.form.includes("diagnosis"):
         return ""
-    parts = [report.diagnosis, inside(terms.onset_words(report.onset, day))]
-    if day is not None and (weeks := numbers.weeks_since(day, report.figures.when.date())):
+    parts = [report.diagnosis, to_mid_sentence(terms.onset_words(report.onset, day))]
+    if day is not None and (weeks := numbers.format_weeks_since(day, report.results.when.date())):
         parts.append(tr("{weeks} before").format(weeks=weeks))
     return ", ".join(part for part in parts if part)
 
 
 def _range_table(report: SessionReport) -> list[Part]:
-    figures = report.figures
+    figures = report.results
     found = range_table(figures, report.previous, report.other_hand, on_paper=True)
     if not found.rows and figures.has_passive:
         return []  # the table of what was passive says all there is
     shown = table(*found)
-    source = norm_words(figures)
+    source = reference_words(figures)
     below = [paragraph(source, 7.5, REGULAR, "text2")] if source else []
-    return [column(title(tr("Range of motion"), repetition_words(figures)), shown, *below, gap=2.0)]
+    return [column(section_title(tr("Range of motion"), repetition_words(figures)), shown, *below, gap=2.0)]
 
 
 def _active_passive(report: SessionReport) -> list[Part]:
     """Active and passive beside each other, with what was measured by hand, where there is more than the first."""
-    found = active_passive(report.figures, report.by_hand if report.form.has("by_hand") else ())
+    found = build_active_passive(report.results, report.manual_values if report.form.includes("by_hand") else ())
     if found is None:
         return []
-    aside = "" if report.figures.wrist_ranges or report.joints is not None else repetition_words(report.figures)
+    aside = "" if report.results.wrist_ranges or report.joints is not None else repetition_words(report.results)
     shown = table(*found.table)
-    above = [paragraph(found.said, 9.0, MEDIUM)] if found.said else []
+    above = [paragraph(found.sentence, 9.0, MEDIUM)] if found.sentence else []
     below = [paragraph(found.note, 7.5, REGULAR, "text2")] if found.note else []
-    return [column(title(tr("Active and passive"), aside), *above, shown, *below, gap=2.0)]
+    return [column(section_title(tr("Active and passive"), aside), *above, shown, *below, gap=2.0)]
 
 
 def _curves(report: SessionReport) -> list[Part]:
-    figures = report.figures
+    figures = report.results
     aside = tr("grey: repetitions; band: ± 1 sd of the angle")
     if any(math.isfinite(target) for target in figures.targets_deg):
         aside += "; " + tr("dashed: target")
     plot = SessionPlot(report.curves, figures.exercise, figures.repetitions, -1, *figures.targets_deg)
-    return [title(tr("Angles over time"), aside), session_curves(plot, 190.0, 250.0)]
+    return [section_title(tr("Angles over time"), aside), session_chart_part(plot, 190.0, 250.0)]
 
 
 def _bars(report: SessionReport) -> list[Part]:
     """Today, last time and the other hand from one end of the movement to the other."""
-    figures = report.figures
+    figures = report.results
     bars = range_bars(figures, report.previous, report.other_hand)
     if not bars:
         return []
-    compared = any(bar.figures is not figures for bar in bars)
+    compared = any(bar.results is not figures for bar in bars)
     words = tr("Range today, last time and other hand") if compared else tr("Range today")
     height = CHART.unit * (BAR_PX * len(bars) + 8.0 + FOOT_PX) / UNIT
     return [
-        title(words),
+        section_title(words),
         PaintedPart(lambda painter, box: paint_range_bars(painter, CHART, box, figures.exercise, bars), height),
     ]
 
 
 def _boxes(report: SessionReport) -> list[Part]:
     """How sure the figures are beside speed, pain and notes, as far as they are wanted."""
-    figures, boxes = report.figures, []
+    figures, boxes = report.results, []
     lines = quality_lines(figures)
     is_sure = all(fine for _, _, fine in lines)
-    if report.form.has("quality") or not is_sure:  # doubts are never left out
-        sign = Sign(PAPER, "good" if is_sure else "warn", 12, (12, 12))
+    if report.form.includes("quality") or not is_sure:  # doubts are never left out
+        sign = Icon(PAPER, "good" if is_sure else "warn", 12, (12, 12))
         heading = line(label(tr("How sure are these figures?"), 10.0, SEMIBOLD), STRETCH, sign)
         values = value_rows([(name, value, "text" if fine else "warn") for name, value, fine in lines])
         boxes.append(RoundedBox(heading, 3.0, values, STRETCH))
-    if report.form.has("speed"):
+    if report.form.includes("speed"):
         words = "  ".join(f"“{text}”" for _, text in figures.notes[:3])
         notes: list[Part | float] = [3.0, paragraph(words, 8.5)] if words else []
-        values = value_rows([(name, value, "text") for name, value in other_lines(figures)])
+        values = value_rows([(name, value, "text") for name, value in speed_pain_lines(figures)])
         boxes.append(RoundedBox(paragraph(tr("Speed, pain, note"), 10.0, SEMIBOLD), 3.0, values, *notes, STRETCH))
     return [line(*((box, 1) for box in boxes), gap=12.0)] if boxes else []
 
 
-def _speaks_of_error(report: SessionReport) -> bool:
+def _has_verdict(report: SessionReport) -> bool:
     """Whether any change is judged on the page, against its measurement error."""
-    figures, rows = report.figures, find_compared_ranges(report.figures)
+    figures, rows = report.results, find_main_ranges(report.results)
     before = [item for item in (report.previous, report.first) if item is not None]
-    return any(item.verdict != "not_judged" for earlier in before for item in compare(earlier, figures, rows))
+    return any(item.verdict != "not_judged" for earlier in before for item in compare_ranges(earlier, figures, rows))
 
 
 def _foot(report: SessionReport) -> list[Part]:
-    figures = report.figures
-    by_hand = report.by_hand if report.form.has("by_hand") else ()
-    how = method(figures, report.markers, compared=_speaks_of_error(report), by_hand=by_hand)
+    figures = report.results
+    by_hand = report.manual_values if report.form.includes("by_hand") else ()
+    how = method_words(figures, report.markers, compared=_has_verdict(report), manual_values=by_hand)
     residual = figures.quality.residual_mm
     made_by = f" ({report.revision[:7]})" if report.revision else ""
     parts = [tr("Session {id}").format(id=figures.session_id[:8]), f"Carpus {figures.software_version}{made_by}"]
@@ -310,7 +322,7 @@ def _foot(report: SessionReport) -> list[Part]:
         digest = f"{report.recording_digest[:4]}…{report.recording_digest[-4:]}"
         parts.append(tr("recording {digest}").format(digest=digest))
     if math.isfinite(residual):
-        parts.append(tr("calibrated to {size} mm").format(size=numbers.fixed(residual, 1)))
-    parts.append(tr("smoothed") if figures.smoothed else tr("as measured live"))
+        parts.append(tr("calibrated to {size} mm").format(size=numbers.format_fixed(residual, 1)))
+    parts.append(tr("smoothed") if figures.is_smoothed else tr("as measured live"))
     origin = paragraph(" · ".join(parts), 8.0, REGULAR, "text2")
     return [rule(), column(paragraph(how, 8.0, REGULAR, "text2"), legal_line(), origin, gap=3.0)]

@@ -10,27 +10,27 @@ from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.hand.exercises import Exercise
-from carpus.core.results.hand_cutout import DrawnAngle, cut_out, drawn_angle
+from carpus.core.results.hand_cutout import AngleOverlay, angle_overlay, cut_out_hand
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage
-from carpus.ui.controls.button import Button, Tick
-from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.button import Button, CheckButton
+from carpus.ui.controls.sheet import Dialog
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
-from carpus.ui.picture.convert import image_of
-from carpus.ui.picture.overlay import ToScreen, haloed
+from carpus.ui.picture.convert import to_qimage
+from carpus.ui.picture.overlay import ToScreen, draw_with_halo
 from carpus.ui.picture.photo import paint_label
-from carpus.ui.review.reviewed import Reviewed
+from carpus.ui.review.reviewed import ReviewedSession
 from carpus.ui.theme import DARK, ON_PICTURE_LINE, Theme
 from carpus.ui.translate import tr
 
-ARC_SHARE = 0.55
+ARC_FRACTION = 0.55
 """Where the arc runs, as a part of the lines."""
 MIN_SIDE_PX = 640
 """A small hand is shown larger, as far as whole multiples stay within this."""
 
 
 @dataclass(frozen=True, slots=True)
-class HandPicture:
+class HandImage:
     """Row of a session whose frame is wanted as a picture, and the words on it."""
 
     session: Session
@@ -39,50 +39,50 @@ class HandPicture:
     words: str
 
 
-def hand_picture(reviewed: Reviewed, row: int, time_s: float) -> HandPicture:
+def build_hand_image(reviewed: ReviewedSession, row: int, time_s: float) -> HandImage:
     """The picture of a row at a time; its words say so where the angle is not the patient's own."""
-    words, figures = reviewed.angle_words(row), reviewed.figures
-    if words and any(figures.repetitions[number].helped for number in reviewed.under(time_s)):
+    words, figures = reviewed.angle_words(row), reviewed.results
+    if words and any(figures.repetitions[number].is_passive for number in reviewed.find_repetitions(time_s)):
         words = tr("{angle}, passive").format(angle=words)
-    if reviewed.session.header.simulated:
+    if reviewed.session.header.is_simulated:
         words = " · ".join(filter(None, (words, tr("Simulated hand"))))
-    return HandPicture(reviewed.session, row, figures.exercise, words)
+    return HandImage(reviewed.session, row, figures.exercise, words)
 
 
-def paint_angle(painter: QPainter, angle: DrawnAngle, to_screen: ToScreen) -> None:
+def paint_angle(painter: QPainter, angle: AngleOverlay, to_screen: ToScreen) -> None:
     """Dashed where it is 0, a thick line where the hand stands, and the arc between them."""
     vertex, zero, hand = (to_screen(*map(float, point)) for point in (angle.vertex, angle.zero, angle.hand))
-    haloed(painter, ON_PICTURE_LINE, 2.0, lambda: painter.drawLine(vertex, zero), dash=True)
-    haloed(painter, DARK.curve_b, 4.0, lambda: painter.drawLine(vertex, hand))
+    draw_with_halo(painter, ON_PICTURE_LINE, 2.0, lambda: painter.drawLine(vertex, zero), dash=True)
+    draw_with_halo(painter, DARK.curve_b, 4.0, lambda: painter.drawLine(vertex, hand))
     lines = [point - vertex for point in (zero, hand)]
-    radius = ARC_SHARE * min(float(np.hypot(line.x(), line.y())) for line in lines)
+    radius = ARC_FRACTION * min(float(np.hypot(line.x(), line.y())) for line in lines)
     start, end = (float(np.degrees(np.arctan2(-line.y(), line.x()))) for line in lines)
     span = (end - start + 180.0) % 360.0 - 180.0
     box = QRectF(vertex.x() - radius, vertex.y() - radius, 2 * radius, 2 * radius)
-    haloed(painter, DARK.curve_b, 2.0, lambda: painter.drawArc(box, round(16 * start), round(16 * span)))
+    draw_with_halo(painter, DARK.curve_b, 2.0, lambda: painter.drawArc(box, round(16 * start), round(16 * span)))
 
 
-def draw_hand_picture(theme: Theme, wanted: HandPicture, frame: ByteImage) -> QImage | None:
+def draw_hand_image(theme: Theme, hand_image: HandImage, frame: ByteImage) -> QImage | None:
     """Draw the hand alone, its angle where that lies in the image plane, and the words; None without a hand."""
-    found = cut_out(frame, wanted.session, wanted.row)
+    found = cut_out_hand(frame, hand_image.session, hand_image.row)
     if found is None:
         return None
-    alone = image_of(found.image)
+    alone = to_qimage(found.image)
     scale = max(1, MIN_SIDE_PX // max(alone.width(), alone.height()))
     image = alone.scaled(alone.size() * scale, mode=Qt.TransformationMode.SmoothTransformation)
     painter = QPainter(image)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    angle = drawn_angle(wanted.session, wanted.row, wanted.exercise)
+    angle = angle_overlay(hand_image.session, hand_image.row, hand_image.exercise)
     if angle is not None:
         corner = QPointF(found.left_px - 0.5, found.top_px - 0.5)
         paint_angle(painter, angle, lambda u, v: (QPointF(u, v) - corner) * scale)
-    if wanted.words:
-        paint_label(painter, theme, wanted.words, 8, 8)
+    if hand_image.words:
+        paint_label(painter, theme, hand_image.words, 8, 8)
     painter.end()
     return image
 
 
-class HandPictureSheet(Sheet):
+class HandImageDialog(Dialog):
     """Emits ``accepted`` once a person has ticked that the patient agrees."""
 
     accepted = Signal()
@@ -94,35 +94,35 @@ class HandPictureSheet(Sheet):
             "The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not "
             "lie in the picture, the angle is said in words only."
         )
-        self.head(self.tr("Picture of the hand"), words)
+        self.add_heading(self.tr("Picture of the hand"), words)
         words = self.tr("Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         words = self.tr("The hand is not visible here, or its marker labels are doubtful. Choose another moment.")
-        self._refused = Text(theme, words, 14, SEMIBOLD, "warn", wrap=True)
-        body.addWidget(self._refused)
-        self.agreed = Tick(theme, self.tr("The patient has agreed"))
-        body.addWidget(self.agreed)
-        self.take = Button(theme, self.tr("Save…"), "primary", height_px=44)
-        self.close_button = self.answer_row(self.take)
-        self.agreed.toggled.connect(self._check)
-        self.take.clicked.connect(self._take)
+        self._refusal = Text(theme, words, 14, SEMIBOLD, "warn", wrap=True)
+        body.addWidget(self._refusal)
+        self.consent_check = CheckButton(theme, self.tr("The patient has agreed"))
+        body.addWidget(self.consent_check)
+        self.accept_button = Button(theme, self.tr("Save…"), "primary", height_px=44)
+        self.close_button = self.add_buttons(self.accept_button)
+        self.consent_check.toggled.connect(self._check)
+        self.accept_button.clicked.connect(self._accept)
 
-    def begin(self, *, refused: bool = False) -> None:
+    def open_form(self, *, refused: bool = False) -> None:
         """Ask for the patient's agreement, each time again; a frame that shows no sure hand is ``refused``."""
-        self._refused.setVisible(refused)
-        self.agreed.setDisabled(refused)
-        self.agreed.setChecked(False)
+        self._refusal.setVisible(refused)
+        self.consent_check.setDisabled(refused)
+        self.consent_check.setChecked(False)
         self._check(False)
         self.open()
 
     def _check(self, agreed: bool) -> None:
         """Without agreement nothing is saved, and Enter saves nothing."""
-        self.take.setEnabled(agreed)
-        answer = self.take if agreed else self.close_button
+        self.accept_button.setEnabled(agreed)
+        answer = self.accept_button if agreed else self.close_button
         self.set_default(answer)
         if self.isVisible():
             answer.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _take(self) -> None:
-        self.close_sheet()
+    def _accept(self) -> None:
+        self.close_dialog()
         self.accepted.emit()

@@ -10,24 +10,24 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.types import TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.layouts import STRETCH, Fitted, in_column, in_line, page
-from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.layouts import STRETCH, FittedWidget, column_layout, row_layout, scroll_page
+from carpus.ui.controls.sheet import Dialog
 from carpus.ui.controls.text import Text
-from carpus.ui.keys import bind_screen
-from carpus.ui.playback.transport import Playing
-from carpus.ui.plot.session import row_at
+from carpus.ui.keys import bind_screen_keys
+from carpus.ui.playback.transport import PlaybackClock
+from carpus.ui.plot.session import find_nearest_row
 from carpus.ui.review.card import ReviewCard
 from carpus.ui.review.charts import Player, ReviewCharts
-from carpus.ui.review.hand_picture import HandPicture, HandPictureSheet, hand_picture
-from carpus.ui.review.picture import ReviewPicture
-from carpus.ui.review.reviewed import Reviewed
+from carpus.ui.review.hand_picture import HandImage, HandImageDialog, build_hand_image
+from carpus.ui.review.picture import ReviewFrameView
+from carpus.ui.review.reviewed import ReviewedSession
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
-from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+from carpus.ui.tour.bubble import MIN_SCREEN_PX, BubbleView
 
 if TYPE_CHECKING:
     from carpus.core.records.library import Library
@@ -35,57 +35,60 @@ if TYPE_CHECKING:
 EDGE_STEP_S = 0.1
 
 
-class ReviewScreen(Fitted):
-    """``report`` and ``export`` carry the session's identity, ``beside`` with it that of the session to be held against
-    it; ``told`` a fault; ``again`` asks for another set; ``arrived`` when a session is on the screen; ``correct``
-    carries the session and the row whose markers are to be put right, ``result`` another result of the recording,
-    ``result_wanted`` one that is to count again, ``hand_picture_wanted`` a frame to be saved as a
+class ReviewScreen(FittedWidget):
+    """``report_requested`` and ``export_requested`` carry the session's identity, ``comparison_requested`` with it
+    that of the session to be held against
+    it; ``fault_raised`` a fault; ``repeat_requested`` asks for another set; ``session_shown`` when a session is on
+    the screen; ``correction_requested``
+    carries the session and the row whose markers are to be put right, ``version_chosen`` another result of the
+    recording,
+    ``restore_requested`` one that is to count again, ``hand_image_requested`` a frame to be saved as a
     picture."""
 
-    report = Signal(str)
-    beside = Signal(str, str)
-    export = Signal(str)
-    again = Signal()
-    correct = Signal(str, object, int)
-    result = Signal(str)
-    result_wanted = Signal(str)
-    hand_picture_wanted = Signal(HandPicture)
-    told = Signal(object)
-    arrived = Signal()
+    report_requested = Signal(str)
+    comparison_requested = Signal(str, str)
+    export_requested = Signal(str)
+    repeat_requested = Signal()
+    correction_requested = Signal(str, object, int)
+    version_chosen = Signal(str)
+    restore_requested = Signal(str)
+    hand_image_requested = Signal(HandImage)
+    fault_raised = Signal(object)
+    session_shown = Signal()
 
     def __init__(self, theme: Theme, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._session_id = ""
         self._whole_hand = self._tight = False
-        self.reviewed: Reviewed | None = None
+        self.reviewed: ReviewedSession | None = None
         self.current = -1
         """The chosen repetition, from 0; -1 for none."""
-        self.playing = Playing(self)
-        self.picture = ReviewPicture(theme, background, store.picture)
+        self.playing = PlaybackClock(self)
+        self.frame_view = ReviewFrameView(theme, background, store.read_frame)
         self.charts = ReviewCharts(theme)
         self.player = Player(theme, self.playing)
         self.card = ReviewCard(theme)
         self.bubble = BubbleView(theme, wide=True)
-        self.reason = ReasonSheet(self, theme)
-        self.hand_picture = HandPictureSheet(self, theme)
-        self._column = in_column(
-            (in_line((self.picture, 480), (self.charts, 736), gap=GAP_PX), 1),
+        self.exclusion_dialog = ExclusionDialog(self, theme)
+        self.hand_image_dialog = HandImageDialog(self, theme)
+        self._column = column_layout(
+            (row_layout((self.frame_view, 480), (self.charts, 736), gap=GAP_PX), 1),
             self.player,
             self.bubble,
             self.card,
             gap=12,
             margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
         )
-        self._page = page(self._column)
-        in_column(self._page, margins=(0, 0, 0, 0), within=self)
+        self._page = scroll_page(self._column)
+        column_layout(self._page, margins=(0, 0, 0, 0), parent=self)
         self._connect()
         self._bind()
         theme.changed.connect(self._fit)
         theme.changed.connect(self._fit_soon)
 
     def _fit(self) -> None:
-        self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale)
+        self.bubble.set_room(self.height() >= MIN_SCREEN_PX * self._theme.text_scale)
         tight = is_tight(self, self._theme)
         if tight != self._tight:  # once more, and not with every size: what is fitted again may come out otherwise
             self._tight = tight
@@ -97,51 +100,51 @@ class ReviewScreen(Fitted):
 
     def _connect(self) -> None:
         curves, card = self.charts.curves, self.card
-        self.playing.moved.connect(self._show_time)
-        self.picture.failed.connect(self.told)
-        self.picture.correct.connect(self.correct_here)
-        self.picture.save_button.clicked.connect(self.ask_hand_picture)
-        curves.cursor_moved.connect(self.playing.seek)
-        curves.edges_moved.connect(lambda *edges: self._choose(lambda one: one.with_edges(*edges)))
-        curves.menu.told.connect(self.told)
-        self.charts.chosen.connect(self._refresh)
+        self.playing.time_changed.connect(self._show_time)
+        self.frame_view.read_failed.connect(self.fault_raised)
+        self.frame_view.correction_requested.connect(self.correct_here)
+        self.frame_view.save_button.clicked.connect(self.open_hand_image_dialog)
+        curves.cursor_moved.connect(self.playing.set_time)
+        curves.edges_moved.connect(lambda *edges: self._apply_choices(lambda one: one.set_edges(*edges)))
+        curves.menu.fault_raised.connect(self.fault_raised)
+        self.charts.finger_chosen.connect(self._refresh)
         self.player.transport.stepped.connect(self.step)
         self.player.view_chosen.connect(lambda _: self._refresh())
-        self.player.repetition_wanted.connect(self.toggle_left_out)
-        self.reason.kept.connect(self._leave_out)
-        self.hand_picture.accepted.connect(self._save_hand_picture)
-        card.report_button.clicked.connect(lambda: self.report.emit(self._session_id))
-        card.export_button.clicked.connect(lambda: self.export.emit(self._session_id))
-        card.again_button.clicked.connect(self.again)
-        card.count_button.clicked.connect(self.toggle_counted)
-        card.beside_wanted.connect(lambda other: self.beside.emit(self._session_id, other))
-        card.tables.results.chosen.connect(self.result)
-        card.tables.results.wanted.connect(self.result_wanted)
+        self.player.repetition_requested.connect(self.toggle_excluded)
+        self.exclusion_dialog.reason_chosen.connect(self._exclude_repetition)
+        self.hand_image_dialog.accepted.connect(self._request_hand_image)
+        card.report_button.clicked.connect(lambda: self.report_requested.emit(self._session_id))
+        card.export_button.clicked.connect(lambda: self.export_requested.emit(self._session_id))
+        card.repeat_button.clicked.connect(self.repeat_requested)
+        card.include_button.clicked.connect(self.toggle_included)
+        card.comparison_requested.connect(lambda other: self.comparison_requested.emit(self._session_id, other))
+        card.tables.versions.chosen.connect(self.version_chosen)
+        card.tables.versions.restore_requested.connect(self.restore_requested)
 
     def _bind(self) -> None:
         curves, card = self.charts.curves, self.card
         actions: dict[str, Callable[[], object]] = {
             "play": self.playing.toggle, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
-            "repetition_back": lambda: self.go_to_repetition(self.current - 1),
-            "repetition_on": lambda: self.go_to_repetition(self.current + 1),
-            "leave_out": self.toggle_left_out, "next_view": self.player.next_view,
+            "repetition_back": lambda: self.select_repetition(self.current - 1),
+            "repetition_on": lambda: self.select_repetition(self.current + 1),
+            "leave_out": self.toggle_excluded, "next_view": self.player.next_view,
             "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S), "edge_on": lambda: self.nudge_edge(EDGE_STEP_S),
             "report": card.report_button.click, "export": card.export_button.click, "plot_in": curves.zoom_in,
             "plot_out": curves.zoom_out, "plot_all": curves.show_all, "correct": self.correct_here,
-            "beside": card.beside_button.click, "angle": self.picture.angle_button.click,
-            "hand_picture": self.ask_hand_picture,
+            "beside": card.compare_button.click, "angle": self.frame_view.angle_button.click,
+            "hand_picture": self.open_hand_image_dialog,
         }  # fmt: skip
-        bind_screen(self, actions)
+        bind_screen_keys(self, actions)
 
     # --- life ---------------------------------------------------------------------------------------------
-    def begin(
+    def load_session(
         self, patient_id: str, session_id: str, *, may_repeat: bool = False, whole_hand: bool | None = None
     ) -> None:
         """Read a session in the background, then show it. ``whole_hand`` where that is known: then everything has its
         place at once."""
         self._session_id, self.reviewed = session_id, None
-        for sheet in (self.reason, self.hand_picture):
-            sheet.close_sheet()  # what they ask about was of the session before
+        for sheet in (self.exclusion_dialog, self.hand_image_dialog):
+            sheet.close_dialog()  # what they ask about was of the session before
         self.playing.open(-1.0)
         self.charts.curves.clear()
         self.player.show_nothing()
@@ -150,51 +153,55 @@ class ReviewScreen(Fitted):
         if whole_hand is not None:
             self._whole_hand = whole_hand
             self.charts.finger.setVisible(whole_hand)
-            self.card.tables.show_places(whole_hand=whole_hand)
+            self.card.tables.show_layout(whole_hand=whole_hand)
             self._fit()
-        self.card.again_button.setVisible(may_repeat)
-        self.picture.open(None, self.tr("Reading the session…"))
+        self.card.repeat_button.setVisible(may_repeat)
+        self.frame_view.set_session(None, self.tr("Reading the session…"))
         store = self._store
 
-        def failed(fault: Exception) -> None:
+        def report_failure(fault: Exception) -> None:
             if session_id == self._session_id:
-                self.picture.open(None, self.tr("This session cannot be read. Go back, or choose another one."))
-            self.told.emit(fault)
+                self.frame_view.set_session(
+                    None, self.tr("This session cannot be read. Go back, or choose another one.")
+                )
+            self.fault_raised.emit(fault)
 
-        self._background.run(lambda: Reviewed.read(store, patient_id, session_id), self._show, failed, self)
+        self._background.run(
+            lambda: ReviewedSession.load(store, patient_id, session_id), self._show, report_failure, self
+        )
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     @property
-    def shown(self) -> bool:
+    def is_loaded(self) -> bool:
         return self.reviewed is not None
 
     @property
-    def figures(self) -> SessionFigures | None:
-        return None if self.reviewed is None else self.reviewed.figures
+    def results(self) -> SessionResults | None:
+        return None if self.reviewed is None else self.reviewed.results
 
-    def _show(self, reviewed: Reviewed) -> None:
+    def _show(self, reviewed: ReviewedSession) -> None:
         if reviewed.id != self._session_id:
             return  # another one was asked for meanwhile
         self.reviewed, self._whole_hand = reviewed, reviewed.is_hand
         self.playing.open(float(reviewed.curves.time_s[-1]) if len(reviewed.curves.time_s) else -1.0)
         self.charts.finger.setVisible(reviewed.is_hand)
-        self.card.tables.show_places(whole_hand=reviewed.is_hand)
-        self.picture.show_session(reviewed.session)
-        self.card.tables.results.show_results(reviewed.results, self._session_id)
-        all_of_them = reviewed.figures.repetitions
-        counted = (n for n, repetition in enumerate(all_of_them) if repetition.counts)
+        self.card.tables.show_layout(whole_hand=reviewed.is_hand)
+        self.frame_view.show_session(reviewed.session)
+        self.card.tables.versions.show_versions(reviewed.versions, self._session_id)
+        all_of_them = reviewed.results.repetitions
+        counted = (n for n, repetition in enumerate(all_of_them) if repetition.is_counted)
         self.current = next(counted, 0 if all_of_them else -1)  # also where all are passive
         self._refresh()
-        self.playing.seek(all_of_them[self.current].start_s if all_of_them else 0.0)
-        self.arrived.emit()
+        self.playing.set_time(all_of_them[self.current].start_s if all_of_them else 0.0)
+        self.session_shown.emit()
 
     def _refresh(self) -> None:
         reviewed = self.reviewed
         if reviewed is None:
             return
         plot = self.charts.show_plot(reviewed, str(self.player.view.currentData()), self.current)
-        self.player.show_session(plot.end_s, reviewed.figures.repetitions, self.current)
-        self.picture.show_repetition(reviewed, self.current, max(self.charts.number, 0))
+        self.player.show_session(plot.end_s, reviewed.results.repetitions, self.current)
+        self.frame_view.show_repetition(reviewed, self.current, max(self.charts.finger_number, 0))
         self.card.show_session(reviewed)
         self._fit()
 
@@ -203,127 +210,134 @@ class ReviewScreen(Fitted):
         """The repetition under the cursor becomes the current one."""
         if self.reviewed is None:
             return
-        under = self.reviewed.under(time_s)
+        under = self.reviewed.find_repetitions(time_s)
         if under and self.current not in under:
             self.current = under[0]
             self._refresh()
         self.charts.set_time(time_s)
-        self.picture.show_time(time_s, row_at(self.reviewed.curves.time_s, time_s))
+        self.frame_view.show_time(time_s, find_nearest_row(self.reviewed.curves.time_s, time_s))
 
     def step(self, frames: int) -> None:
         if self.reviewed is not None and len(times := self.reviewed.curves.time_s):
-            row = row_at(times, self.playing.time_s) + frames
-            self.playing.seek(float(times[np.clip(row, 0, len(times) - 1)]))
+            row = find_nearest_row(times, self.playing.time_s) + frames
+            self.playing.set_time(float(times[np.clip(row, 0, len(times) - 1)]))
 
-    def go_to_repetition(self, number: int) -> None:
-        if self.reviewed is not None and 0 <= number < len(self.reviewed.figures.repetitions):
+    def select_repetition(self, number: int) -> None:
+        if self.reviewed is not None and 0 <= number < len(self.reviewed.results.repetitions):
             self.current = number
             self._refresh()
-            self.playing.seek(self.reviewed.figures.repetitions[number].start_s)
+            self.playing.set_time(self.reviewed.results.repetitions[number].start_s)
 
     def correct_here(self) -> None:
-        if self.reviewed is not None and self.picture.row >= 0:
+        if self.reviewed is not None and self.frame_view.row >= 0:
             self.playing.stop()
-            self.correct.emit(self._session_id, self.reviewed.session, self.picture.row)
+            self.correction_requested.emit(self._session_id, self.reviewed.session, self.frame_view.row)
 
     # --- picture of the hand ------------------------------------------------------------------------------
-    def ask_hand_picture(self) -> None:
+    def open_hand_image_dialog(self) -> None:
         """Ask whether this frame becomes a picture; only where frames were kept."""
         reviewed = self.reviewed
-        if reviewed is None or self.picture.save_button.isHidden():
+        if reviewed is None or self.frame_view.save_button.isHidden():
             return
         self.playing.stop()
-        status = reviewed.curves.status[self.picture.row]
-        self.hand_picture.begin(refused=status in (TrackStatus.LOST, TrackStatus.DOUBTFUL))
+        status = reviewed.curves.status[self.frame_view.row]
+        self.hand_image_dialog.open_form(refused=status in (TrackStatus.LOST, TrackStatus.DOUBTFUL))
 
-    def _save_hand_picture(self) -> None:
+    def _request_hand_image(self) -> None:
         if self.reviewed is not None:
-            self.hand_picture_wanted.emit(hand_picture(self.reviewed, self.picture.row, self.playing.time_s))
+            self.hand_image_requested.emit(build_hand_image(self.reviewed, self.frame_view.row, self.playing.time_s))
 
     # --- corrections --------------------------------------------------------------------------------------
-    def toggle_left_out(self) -> None:
+    def toggle_excluded(self) -> None:
         """Leave the current repetition out or let it count as passive (asks which), or take that back."""
         if self.reviewed is None or self.current < 0:
             return
-        if self.reviewed.figures.repetitions[self.current].reason:
-            self._choose(lambda one: one.counting(self.current))
+        if self.reviewed.results.repetitions[self.current].exclusion_reason:
+            self._apply_choices(lambda one: one.include_repetition(self.current))
         else:
             self.playing.stop()  # what is asked about stays the current one
-            self.reason.begin(self.current + 1)
+            self.exclusion_dialog.open_form(self.current + 1)
 
-    def _leave_out(self, number: int, reason: str, and_after: bool) -> None:
-        self._choose(lambda one: one.left_out(number - 1, reason, and_after=and_after))
+    def _exclude_repetition(self, number: int, reason: str, and_after: bool) -> None:
+        self._apply_choices(lambda one: one.exclude_repetition(number - 1, reason, and_after=and_after))
 
     def nudge_edge(self, by_s: float) -> None:
         """Move the edge of the current repetition that is nearer to the cursor."""
         if self.current >= 0:
-            self._choose(lambda one: one.nudged(self.current, self.playing.time_s, by_s))
+            self._apply_choices(lambda one: one.nudge_edge(self.current, self.playing.time_s, by_s))
 
-    def toggle_counted(self) -> None:
+    def toggle_included(self) -> None:
         if self.reviewed is not None:
-            self._choose(lambda one: replace(one.choices, not_counted=not one.choices.not_counted))
-            self.arrived.emit()
+            self._apply_choices(
+                lambda one: replace(one.choices, is_session_excluded=not one.choices.is_session_excluded)
+            )
+            self.session_shown.emit()
 
-    def _choose(self, choices_of: Callable[[Reviewed], RepetitionChoices]) -> None:
+    def _apply_choices(self, choices_of: Callable[[ReviewedSession], RepetitionChoices]) -> None:
         if self.reviewed is None:
             return
         choices = choices_of(self.reviewed)
-        self.reviewed = self.reviewed.chosen(choices)
+        self.reviewed = self.reviewed.apply_choices(choices)
         self._refresh()
         store, session_id = self._store, self._session_id
-        self._background.run(lambda: store.keep_choices(session_id, choices), lambda _: None, self.told.emit, self)
+        self._background.run(
+            lambda: store.save_choices(session_id, choices), lambda _: None, self.fault_raised.emit, self
+        )
 
 
-class ReasonSheet(Sheet):
-    """Emits ``kept`` with the repetition's number, from 1, the reason, and whether it is that of all after it too."""
+class ExclusionDialog(Dialog):
+    """Emits ``reason_chosen`` with the repetition's number, from 1, the reason, and whether it is that of all after
+    it too."""
 
-    kept = Signal(int, str, bool)
+    reason_chosen = Signal(int, str, bool)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
         self._number = 0
-        self.head(words=self.tr("Passive: somebody else moved the hand. It counts apart, beside the active ones."))
+        self.add_heading(
+            words=self.tr("Passive: somebody else moved the hand. It counts apart, beside the active ones.")
+        )
         body = self.card.body
-        self.passive = Button(theme, self.tr("Passive"), "plain", height_px=40)
-        self.passive.clicked.connect(lambda: self._keep(PASSIVE))
-        self.passive_on = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
-        self.passive_on.clicked.connect(lambda: self._keep(PASSIVE, and_after=True))
-        body.addLayout(in_line(self.passive, self.passive_on, STRETCH))
+        self.passive_button = Button(theme, self.tr("Passive"), "plain", height_px=40)
+        self.passive_button.clicked.connect(lambda: self._accept(PASSIVE))
+        self.passive_onwards_button = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
+        self.passive_onwards_button.clicked.connect(lambda: self._accept(PASSIVE, and_after=True))
+        body.addLayout(row_layout(self.passive_button, self.passive_onwards_button, STRETCH))
         words = self.tr(
             "Left out: it stays in the recording and on the curves, and counts no longer. The report says so."
         )
         body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
         quick = QHBoxLayout()
-        self.buttons: list[Button] = []
+        self.reason_buttons: list[Button] = []
         for reason in (self.tr("pain"), self.tr("other movement"), self.tr("trial")):
             button = Button(theme, reason, "plain", height_px=40)
-            button.clicked.connect(lambda _=False, reason=reason: self._keep(reason))
+            button.clicked.connect(lambda _=False, reason=reason: self._accept(reason))
             quick.addWidget(button)
-            self.buttons.append(button)
+            self.reason_buttons.append(button)
         quick.addStretch(1)
         body.addLayout(quick)
-        self.line = QLineEdit(placeholderText=self.tr("Another reason"))
-        self.line.setAccessibleName(self.tr("Another reason"))
-        self.line.textChanged.connect(self._written)
-        self._take = Button(theme, self.tr("Leave it out"), "plain")
-        self._take.clicked.connect(lambda: self._keep(self.line.text().strip()))
-        self._close = Button(theme, self.tr("Keep it in"), "plain")
-        self._close.clicked.connect(self.close_sheet)
-        body.addLayout(in_line((self.line, 1), self._take, self._close))
+        self.reason_field = QLineEdit(placeholderText=self.tr("Another reason"))
+        self.reason_field.setAccessibleName(self.tr("Another reason"))
+        self.reason_field.textChanged.connect(self._update_default)
+        self._accept_button = Button(theme, self.tr("Leave it out"), "plain")
+        self._accept_button.clicked.connect(lambda: self._accept(self.reason_field.text().strip()))
+        self._cancel_button = Button(theme, self.tr("Keep it in"), "plain")
+        self._cancel_button.clicked.connect(self.close_dialog)
+        body.addLayout(row_layout((self.reason_field, 1), self._accept_button, self._cancel_button))
 
-    def begin(self, number: int) -> None:
+    def open_form(self, number: int) -> None:
         self._number = number
         self.title.setText(self.tr("Is repetition {number} passive, or left out?").format(number=number))
-        self.line.clear()
-        self._written("")
+        self.reason_field.clear()
+        self._update_default("")
         self.open()
 
-    def _written(self, text: str) -> None:
+    def _update_default(self, text: str) -> None:
         """Who writes a reason means it; without one nothing is left out by Enter."""
-        self._take.setEnabled(bool(text.strip()))
-        self.set_default(self._take if text.strip() else self._close)
+        self._accept_button.setEnabled(bool(text.strip()))
+        self.set_default(self._accept_button if text.strip() else self._cancel_button)
 
-    def _keep(self, reason: str, *, and_after: bool = False) -> None:
+    def _accept(self, reason: str, *, and_after: bool = False) -> None:
         if reason:
-            self.close_sheet()
-            self.kept.emit(self._number, reason, and_after)
+            self.close_dialog()
+            self.reason_chosen.emit(self._number, reason, and_after)

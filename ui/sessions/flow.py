@@ -6,47 +6,47 @@ from contextlib import suppress
 
 from carpus.core.errors import SessionUnreadable
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.messages import put_off_last
+from carpus.ui.messages.messages import postpone_last_notice
 from carpus.ui.sessions.screen import SessionsScreen
-from carpus.ui.sessions.stored import StoredSessions
+from carpus.ui.sessions.stored import SessionStore
 
 
 class SessionsFlow(Flow):
     """All sessions of a patient."""
 
-    place, guide = "sessions", "sessions"
+    screen_name, guide_page = "sessions", "sessions"
     screen: SessionsScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        stored = StoredSessions(context.library)
+        stored = SessionStore(context.library)
         super().__init__(context, SessionsScreen(context.theme, context.background, stored))
-        screen, way = self.screen, context.way
-        screen.told.connect(context.messages.fault)
-        screen.opened.connect(lambda session_id: way.show("review", session_id))
-        screen.progress.connect(self._show_progress)
-        screen.pair_wanted.connect(lambda one, other: way.show("beside", one, other))
-        screen.changed.connect(self._look_for_open)
+        screen, way = self.screen, context.navigator
+        screen.fault_raised.connect(context.messages.show_fault)
+        screen.open_requested.connect(lambda session_id: way.open_screen("review", session_id))
+        screen.progress_requested.connect(self._show_progress)
+        screen.pair_requested.connect(lambda one, other: way.open_screen("beside", one, other))
+        screen.sessions_changed.connect(self._clear_missing_session)
 
-    def show(self, patient_id: str) -> None:
+    def open(self, patient_id: str) -> None:
         self.open_patient(patient_id)
-        now = self.context.now
-        self.screen.begin(patient_id, now.name, now.session_id)
-        self.context.way.go("sessions")
+        now = self.context.current
+        self.screen.show_patient(patient_id, now.patient_name, now.session_id)
+        self.context.navigator.switch_screen("sessions")
 
-    def up(self) -> None:
-        if not put_off_last(self.screen):
-            self.to_patient()
+    def navigate_back(self) -> None:
+        if not postpone_last_notice(self.screen):
+            self.return_to_patients()
 
     def _show_progress(self, session_id: str) -> None:
-        now = self.context.now
+        now = self.context.current
         assert now.patient is not None
         now.session_id = session_id
-        self.context.way.show("progress", now.patient.patient_id)
+        self.context.navigator.open_screen("progress", now.patient.patient_id)
 
-    def _look_for_open(self) -> None:
+    def _clear_missing_session(self) -> None:
         """A session was moved, renamed or deleted: the one that was open may be gone."""
         with suppress(SessionUnreadable):
-            if self.context.now.session_id:
-                self.context.library.entry(self.context.now.session_id)
+            if self.context.current.session_id:
+                self.context.library.entry(self.context.current.session_id)
                 return
-        self.context.now.session_id = ""
+        self.context.current.session_id = ""

@@ -15,14 +15,14 @@ from carpus.core.records.values import SessionEntry
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, font
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import to_mid_sentence, tr
 
 ROW_PX = 58
 TICK_PX, TICK_LEFT_PX = 20, 18
-MOST_TICKED = 2
+MAX_TICKED = 2
 COLUMNS = (0.062, 0.242, 0.490, 0.680, 0.760, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
-TWO_LINES_BELOW_PX, TWO_LINES = 720, (0.42, 0.84, 1.0)
+TWO_LINE_MAX_WIDTH_PX, TWO_LINE_EDGES = 720, (0.42, 0.84, 1.0)
 """In a narrower list, text at 100 %, date, figure and what counted stand over exercise and remark: right edges as
 shares of what is right of the tick."""
 
@@ -30,53 +30,53 @@ shares of what is right of the tick."""
 @dataclass(frozen=True, slots=True)
 class SessionLine:
     """One row of the list of sessions. What must be read from the file is empty until it has been: ``figure`` the main
-    one in words, ``counted`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
+    one in words, ``counted_repetitions`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
 
     entry: SessionEntry
-    of_practice: bool = False
-    set_aside: str = ""
+    is_practice: bool = False
+    exclusion_reason: str = ""
     """Why it does not count; empty when it does."""
-    damaged: bool = False
-    away: bool = False
+    is_damaged: bool = False
+    is_missing: bool = False
     """Its file is not where it was."""
-    figure: str = ""
-    counted: str = ""
+    main_value: str = ""
+    counted_repetitions: str = ""
     counted_words: str = ""
     warning: str = ""
-    corrected: str = ""
+    correction: str = ""
     """That and since when markers were put right, in words; empty as measured."""
 
 
 def remark(line: SessionLine) -> str:
     """What must be known of a session before its figures."""
-    if line.entry.simulated and not line.of_practice:
+    if line.entry.simulated and not line.is_practice:
         return tr("does not count: simulated")
-    if line.set_aside:
-        return tr("set aside: {reason}").format(reason=line.set_aside)
-    if line.damaged:
-        return tr("its file is not there") if line.away else tr("cannot be read")
+    if line.exclusion_reason:
+        return tr("set aside: {reason}").format(reason=line.exclusion_reason)
+    if line.is_damaged:
+        return tr("its file is not there") if line.is_missing else tr("cannot be read")
     return ""
 
 
-def cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, str, str, str, str]:
+def row_cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, str, str, str, str]:
     """The texts of a row, which is told from the other ``lines``; what is not known yet is empty."""
     entry, others = line.entry, (other.entry.recorded for other in lines)
-    day = f"{numbers.short_date(entry.recorded)} {numbers.time_beside(entry.recorded, *others)}"
-    what = f"{terms.exercise_name(entry.exercise)}, {inside(terms.side_name(entry.hand))}"
-    return day, what, line.figure, line.counted, remark(line) or line.corrected.rstrip(".")
+    day = f"{numbers.format_short_date(entry.recorded)} {numbers.format_distinct_time(entry.recorded, *others)}"
+    what = f"{terms.exercise_name(entry.exercise)}, {to_mid_sentence(terms.side_name(entry.hand))}"
+    return day, what, line.main_value, line.counted_repetitions, remark(line) or line.correction.rstrip(".")
 
 
-def cut_figure(figure: str, metrics: QFontMetricsF, width_px: float) -> str:
+def elide_value(value: str, metrics: QFontMetricsF, width_px: float) -> str:
     """``Supin… −50° ± 1°``: only the name is cut, for a number that lost its sign is another one."""
-    number = re.search(r"\N{MINUS SIGN}?\d.*", figure)
-    if number is None or metrics.horizontalAdvance(figure) <= width_px:
-        return metrics.elidedText(figure, Qt.TextElideMode.ElideRight, width_px)
+    number = re.search(r"\N{MINUS SIGN}?\d.*", value)
+    if number is None or metrics.horizontalAdvance(value) <= width_px:
+        return metrics.elidedText(value, Qt.TextElideMode.ElideRight, width_px)
     rest = width_px - metrics.horizontalAdvance(f" {number[0]}")
-    name = metrics.elidedText(figure[: number.start()].rstrip(), Qt.TextElideMode.ElideRight, rest)
+    name = metrics.elidedText(value[: number.start()].rstrip(), Qt.TextElideMode.ElideRight, rest)
     return f"{name} {number[0]}"
 
 
-class SessionModel(QAbstractListModel):
+class SessionListModel(QAbstractListModel):
     """The sessions of one patient, newest first."""
 
     def __init__(self) -> None:
@@ -97,7 +97,7 @@ class SessionModel(QAbstractListModel):
         session_id = self.lines[row].entry.session_id
         before = self.ticked
         rest = tuple(one for one in before if one != session_id)
-        self.ticked = rest if session_id in before else (*rest, session_id)[-MOST_TICKED:]
+        self.ticked = rest if session_id in before else (*rest, session_id)[-MAX_TICKED:]
         for number, line in enumerate(self.lines):
             if (line.entry.session_id in before) != (line.entry.session_id in self.ticked):
                 self.dataChanged.emit(self.index(number), self.index(number))
@@ -108,7 +108,7 @@ class SessionModel(QAbstractListModel):
                 self.lines = (*self.lines[:number], line, *self.lines[number + 1 :])
                 self.dataChanged.emit(self.index(number), self.index(number))
 
-    def find(self, session_id: str) -> int:
+    def find_row(self, session_id: str) -> int:
         """Row of a session, -1 when not shown."""
         return next((number for number, line in enumerate(self.lines) if line.entry.session_id == session_id), -1)
 
@@ -121,14 +121,14 @@ class SessionModel(QAbstractListModel):
         line = self.lines[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
             ticked = self.tr("ticked") if line.entry.session_id in self.ticked else ""
-            return ", ".join(part for part in (*cells(line, self.lines), ticked) if part)
+            return ", ".join(part for part in (*row_cells(line, self.lines), ticked) if part)
         return line if role == Qt.ItemDataRole.UserRole else None
 
 
 class SessionRowPainter(QStyledItemDelegate):
     """Paints one row from the tokens; a session that does not count is grey and hatched, and says why."""
 
-    def __init__(self, theme: Theme, model: SessionModel) -> None:
+    def __init__(self, theme: Theme, model: SessionListModel) -> None:
         super().__init__()
         self._theme, self._model = theme, model
 
@@ -141,7 +141,7 @@ class SessionRowPainter(QStyledItemDelegate):
         theme, line = self._theme, self._model.lines[index.row()]
         box = QRectF(option.rect)
         state = option.state
-        counts = not (line.set_aside or line.damaged or (line.entry.simulated and not line.of_practice))
+        counts = not (line.exclusion_reason or line.is_damaged or (line.entry.simulated and not line.is_practice))
         painter.save()
         if state & QStyle.StateFlag.State_Selected:
             painter.fillRect(box, theme.color("soft"))
@@ -153,8 +153,8 @@ class SessionRowPainter(QStyledItemDelegate):
         painter.setPen(QPen(theme.color("line"), 1))
         painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
         self._paint_tick(painter, box, ticked=line.entry.session_id in self._model.ticked)
-        texts = cells(line, self._model.lines)
-        rooms = _rooms(box, theme, remarked=bool(texts[4]))
+        texts = row_cells(line, self._model.lines)
+        rooms = _cell_boxes(box, theme, has_remark=bool(texts[4]))
         for number, text in enumerate(texts):
             face = font((16 if number == 2 else 14) * theme.text_scale, MEDIUM)
             painter.setFont(face)
@@ -164,7 +164,7 @@ class SessionRowPainter(QStyledItemDelegate):
             where = Qt.TextElideMode.ElideMiddle if number == 1 else Qt.TextElideMode.ElideRight
             metrics = QFontMetricsF(face)
             if number == 2:
-                shown = cut_figure(text, metrics, room.width())
+                shown = elide_value(text, metrics, room.width())
             else:
                 shown = metrics.elidedText(text, where, room.width())
             painter.drawText(room, int(Qt.AlignmentFlag.AlignVCenter), shown)
@@ -184,9 +184,9 @@ class SessionRowPainter(QStyledItemDelegate):
             painter.drawPolyline(QPolygonF([square.topLeft() + QPointF(x * size, y * size) for x, y in places]))
 
 
-def _rooms(box: QRectF, theme: Theme, *, remarked: bool) -> list[QRectF]:
+def _cell_boxes(box: QRectF, theme: Theme, *, has_remark: bool) -> list[QRectF]:
     """Where the texts of a row stand: beside each other, or on two lines."""
-    if box.width() >= TWO_LINES_BELOW_PX * theme.text_scale:
+    if box.width() >= TWO_LINE_MAX_WIDTH_PX * theme.text_scale:
         edges = [box.left() + share * box.width() for share in COLUMNS]
         return [QRectF(left, box.top(), right - left - 8, box.height()) for left, right in pairwise(edges)]
     left = box.left() + TICK_LEFT_PX + theme.px(TICK_PX) + 12
@@ -194,9 +194,9 @@ def _rooms(box: QRectF, theme: Theme, *, remarked: bool) -> list[QRectF]:
     upper, lower, high = box.top() + 0.08 * box.height(), box.top() + 0.5 * box.height(), 0.42 * box.height()
     day, figure, counted = (
         QRectF(left + begin * whole, upper, (end - begin) * whole - 8, high)
-        for begin, end in pairwise((0.0, *TWO_LINES))
+        for begin, end in pairwise((0.0, *TWO_LINE_EDGES))
     )
-    what = QRectF(left, lower, (0.66 if remarked else 1.0) * whole - 8, high)
+    what = QRectF(left, lower, (0.66 if has_remark else 1.0) * whole - 8, high)
     return [day, what, figure, counted, QRectF(what.right() + 8, lower, whole - what.width() - 16, high)]
 
 
@@ -207,22 +207,22 @@ class SessionList(QListView):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.rows = SessionModel()
-        self.setModel(self.rows)
-        self._painter_of_rows = SessionRowPainter(theme, self.rows)
-        self.setItemDelegate(self._painter_of_rows)
+        self.session_model = SessionListModel()
+        self.setModel(self.session_model)
+        self._delegate = SessionRowPainter(theme, self.session_model)
+        self.setItemDelegate(self._delegate)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setMouseTracking(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setAccessibleName(self.tr("Sessions"))
         self.setUniformItemSizes(True)
         self._theme = theme
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
+        theme.changed.connect(self._apply_theme)
+        self._apply_theme()
 
     def tick_current(self) -> None:
         if self.currentIndex().isValid():
-            self.rows.toggle(self.currentIndex().row())
+            self.session_model.toggle(self.currentIndex().row())
             self.ticks_changed.emit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
@@ -239,7 +239,7 @@ class SessionList(QListView):
         else:
             super().mouseDoubleClickEvent(event)
 
-    def _take_theme(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._theme.tokens
         self.setStyleSheet(
             f"QListView {{ background: {tokens.surface}; border: 1px solid {tokens.line}; "

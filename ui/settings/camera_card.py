@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import STRETCH, fill, in_line
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
+from carpus.ui.controls.layouts import STRETCH, fill, row_layout
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Icon, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
 
@@ -22,19 +22,19 @@ class CameraCard(Card):
             "seconds whether it still measures right."
         )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self._row = in_line(gap=10)
-        self._sign = Sign(theme, "none")
+        self._row = row_layout(gap=10)
+        self._sign = Icon(theme, "none")
         self._state = Text(theme, "", 14, SEMIBOLD, wrap=True)
         fill(self._row, self._sign, (self._state, 1))
         self.body.addLayout(self._row)
-        buttons = in_line(gap=12)
+        buttons = row_layout(gap=12)
         self.check_button = Button(theme, self.tr("Chec&k card…"), height_px=40)
         self.calibrate_button = Button(theme, self.tr("Cali&brate the camera…"), height_px=40)
         fill(buttons, self.check_button, self.calibrate_button, STRETCH)
         self.body.addLayout(buttons)
 
     def show_status(self, state: State, words: str) -> None:
-        sign = Sign(self._theme, state)
+        sign = Icon(self._theme, state)
         self._row.replaceWidget(self._sign, sign)
         self._sign.hide()
         self._sign.deleteLater()

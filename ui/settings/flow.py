@@ -7,63 +7,69 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QDialog, QFileDialog, QPlainTextEdit, QWidget
 
-from carpus.core.about import licence_texts, newest_version
-from carpus.core.agreement.limits_file import store_limits
-from carpus.core.agreement.retest import StudyFigures, studies
+from carpus.core.about import find_latest_version, licence_texts
+from carpus.core.agreement.limits_file import save_limits
+from carpus.core.agreement.retest import RetestAnalysis, analyse_retests
 from carpus.core.errors import CarpusFault
 from carpus.core.measures.change import RetestStudy
-from carpus.core.results.figures import SessionFigures
+from carpus.core.results.figures import SessionResults
 from carpus.ui.background import Background
-from carpus.ui.controls.layouts import in_column
+from carpus.ui.controls.layouts import column_layout
 from carpus.ui.controls.text import Text
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.ports import Preferences
-from carpus.ui.settings.retest import RetestSheet
-from carpus.ui.settings.screen import PartName, SettingsScreen
+from carpus.ui.settings.retest import RetestDialog
+from carpus.ui.settings.screen import SettingsPage, SettingsScreen
 from carpus.ui.theme import MARGIN_PX, Theme
 
-ReadFigures = Callable[[Sequence[Path], Callable[[CarpusFault], object]], tuple[list[SessionFigures], dict[str, str]]]
+ReadFiguresFunction = Callable[
+    [Sequence[Path], Callable[[CarpusFault], object]], tuple[list[SessionResults], dict[str, str]]
+]
 """Reads sessions of files and folders; hears of those that cannot be read."""
 
 
 class SettingsFlow(Flow):
     """What a person chooses for the program. ``updates`` is the clinic's folder of packages, empty for none."""
 
-    place, guide = "settings", "data"
+    screen_name, guide_page = "settings", "data"
     screen: SettingsScreen
 
-    def __init__(self, context: ScreenContext, chosen: Preferences, updates: str, read_figures: ReadFigures) -> None:
+    def __init__(
+        self, context: ScreenContext, chosen: Preferences, updates: str, read_figures: ReadFiguresFunction
+    ) -> None:
         measured = context.library.error_limits
         super().__init__(context, SettingsScreen(context.theme, chosen, measured))
-        self.screen.of_demo.setVisible(context.is_demo)
+        self.screen.demo_notice.setVisible(context.is_demo)
         self._updates, self._background, self._read_figures = updates, Background(), read_figures
-        self.retest = RetestSheet(context.shell, context.theme)
-        self.retest.accepted.connect(self._use_limits)
-        self.screen.retest.clicked.connect(self._ask_sessions)
-        self.screen.back.clicked.connect(context.way.back)
-        self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, context.theme, licence_texts()).exec())
+        self.retest_dialog = RetestDialog(context.window, context.theme)
+        self.retest_dialog.accepted.connect(self._apply_limits)
+        self.screen.retest_button.clicked.connect(self._compute_limits)
+        self.screen.done_button.clicked.connect(context.navigator.navigate_back)
+        self.screen.licences_button.clicked.connect(
+            lambda: LicencesWindow(self.screen, context.theme, licence_texts()).exec()
+        )
 
-    def show(self, part: PartName | None = None) -> None:
+    def open(self, part: SettingsPage | None = None) -> None:
         """Where help and settings can be opened now; as it was left, or at a part."""
         if part is not None:
-            self.screen.choose(part)
-        self.context.way.aside("settings")
-        self._look_for_newer()
+            self.screen.show_page(part)
+        self.context.navigator.open_overlay("settings")
+        self._check_for_update()
 
-    def _look_for_newer(self) -> None:
+    def _check_for_update(self) -> None:
         """Where the clinic named a folder of packages, and nowhere else."""
         folder, screen = self._updates, self.screen
         if folder:
             self._background.run(
-                lambda: newest_version(Path(folder).expanduser()),
-                lambda newest: screen.show_newest(folder, newest),
-                lambda _: screen.show_newest(folder, None),
+                lambda: find_latest_version(Path(folder).expanduser()),
+                lambda newest: screen.show_available_version(folder, newest),
+                lambda _: screen.show_available_version(folder, None),
                 screen,
             )
 
-    def _ask_sessions(self) -> None:
+    def _compute_limits(self) -> None:
         """Compute error limits from the sessions of a folder, beside the window."""
-        places, shell = self.context.places, self.context.shell
+        places, shell = self.context.recent_locations, self.context.window
         title = self.tr("Folder of the test-retest sessions")
         folder = QFileDialog.getExistingDirectory(shell, title, places.folder("exports"))
         if not folder:
@@ -71,25 +77,25 @@ class SettingsFlow(Flow):
         self.screen.show_computing(on=True)
         unreadable: list[CarpusFault] = []
 
-        def work() -> list[StudyFigures]:
-            return studies(*self._read_figures([Path(folder)], unreadable.append))
+        def work() -> list[RetestAnalysis]:
+            return analyse_retests(*self._read_figures([Path(folder)], unreadable.append))
 
-        def done(found: list[StudyFigures]) -> None:
+        def on_done(found: list[RetestAnalysis]) -> None:
             self.screen.show_computing(on=False)
-            self.retest.begin(found, len(unreadable), self.context.today())
+            self.retest_dialog.show_studies(found, len(unreadable), self.context.today())
 
-        def failed(fault: Exception) -> None:
+        def on_failed(fault: Exception) -> None:
             self.screen.show_computing(on=False)
-            self.context.messages.fault(fault)
+            self.context.messages.show_fault(fault)
 
-        self._background.run(work, done, failed, self.screen)
+        self._background.run(work, on_done, on_failed, self.screen)
 
-    def _use_limits(self, studies: Sequence[RetestStudy]) -> None:
+    def _apply_limits(self, studies: Sequence[RetestStudy]) -> None:
         library = self.context.library
 
         def work() -> None:
-            store_limits(library.folder, studies)
-            library.limits_changed()
+            save_limits(library.folder, studies)
+            library.reload_error_limits()
 
         self.run(work, lambda _: self.screen.show_limits(library.error_limits))
 
@@ -105,5 +111,5 @@ class LicencesWindow(QDialog):
         self.text.setAccessibleName(self.windowTitle())
         words = self.tr("The licences are legal texts, and stay in the language that they were written in.")
         margins = (MARGIN_PX, MARGIN_PX, MARGIN_PX, MARGIN_PX)
-        in_column(Text(theme, words, 14, wrap=True), (self.text, 1), margins=margins, within=self)
+        column_layout(Text(theme, words, 14, wrap=True), (self.text, 1), margins=margins, parent=self)
         self.resize(theme.px(860), theme.px(600))

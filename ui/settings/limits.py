@@ -11,7 +11,7 @@ from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import (
     ARC_LIMIT_FACTOR,
     DEFAULT_LIMITS,
-    FEWEST_PEOPLE,
+    MIN_PEOPLE,
     TOTAL_ACTIVE_MOTION,
     ErrorLimits,
     RetestStudy,
@@ -19,21 +19,21 @@ from carpus.core.measures.change import (
 )
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import fill, in_column, in_grid
+from carpus.ui.controls.layouts import column_layout, fill, grid_layout
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
-from carpus.ui.figures import figure_of
+from carpus.ui.figures import find_finger_angle
 from carpus.ui.theme import Theme
-from carpus.ui.translate import inside, tr
-from carpus.ui.verdicts import limit_words
+from carpus.ui.translate import to_mid_sentence, tr
+from carpus.ui.verdicts import error_limit_words
 
 
 def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
     """Limits of single angles and of their arcs, in two columns; below what the clinic ``measured`` itself."""
     card = Card(theme, 24)
     card.body.addWidget(Text(theme, tr("What counts as a change"), 20, SEMIBOLD))
-    card.body.addWidget(Text(theme, limit_words(), 14, REGULAR, "text2", wrap=True))
-    grid = in_grid(24, 6)
-    lines = limit_lines()
+    card.body.addWidget(Text(theme, error_limit_words(), 14, REGULAR, "text2", wrap=True))
+    grid = grid_layout(24, 6)
+    lines = limit_rows()
     half = (len(lines) + 1) // 2
     for place, (name, limit) in enumerate(lines):
         column = 2 * (place // half)
@@ -50,15 +50,15 @@ def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
 def study_view(theme: Theme, study: RetestStudy, words: str) -> QWidget:
     """A study with each of its limits, below what is said of it."""
     title = tr("Measured by this clinic: {exercise}").format(exercise=terms.exercise_name(study.exercise))
-    table = in_grid(24, 6)
-    for place, cells in enumerate(study_lines(study)):
+    table = grid_layout(24, 6)
+    for place, cells in enumerate(study_rows(study)):
         for column, cell in enumerate(cells):
             table.addWidget(Text(theme, cell, 14, MEDIUM if column == len(cells) - 1 else REGULAR), place, column)
     table.setColumnStretch(0, 1)
     view = QWidget()
-    in_column(
+    column_layout(
         Text(theme, title, 16, SEMIBOLD), Text(theme, words, 14, REGULAR, "text2", wrap=True), table,
-        margins=(0, 0, 0, 0), within=view,
+        margins=(0, 0, 0, 0), parent=view,
     )  # fmt: skip
     return view
 
@@ -66,14 +66,14 @@ def study_view(theme: Theme, study: RetestStudy, words: str) -> QWidget:
 def study_words(study: RetestStudy) -> str:
     """When and with how many, and whether it is in force."""
     said = tr("On {date} with {count} people in {sessions} sessions; 95 % intervals in brackets.").format(
-        date=numbers.day_of_year(date.fromisoformat(study.made)), count=study.people, sessions=study.sessions
+        date=numbers.format_date(date.fromisoformat(study.made)), count=study.people, sessions=study.sessions
     )
-    if study.in_force:
+    if study.is_in_force:
         return said + " " + tr("In force in progress and reports, in place of the limits above.")
-    return said + " " + tr("Not in force: {count} people are the least.").format(count=FEWEST_PEOPLE)
+    return said + " " + tr("Not in force: {count} people are the least.").format(count=MIN_PEOPLE)
 
 
-def study_lines(study: RetestStudy) -> list[tuple[str, str, str]]:
+def study_rows(study: RetestStudy) -> list[tuple[str, str, str]]:
     """Name, SEM, and smallest real change with its interval, of each figure."""
     out = []
     for limit in study.limits:
@@ -82,24 +82,24 @@ def study_lines(study: RetestStudy) -> list[tuple[str, str, str]]:
         if limit.of in WRIST_ANGLES and arc:
             name = terms.arc_name(WRIST_ANGLES.index(limit.of))
         elif limit.of not in WRIST_ANGLES:
-            name = figure_of(limit.of).long_name + ("" if arc else f", {inside(terms.movement_name(limit.movement))}")
+            name = find_finger_angle(limit.of).long_name + (
+                "" if arc else f", {to_mid_sentence(terms.movement_name(limit.movement))}"
+            )
         low, high = limit.mdc95_interval_deg
-        sem = tr("SEM {size}").format(size=_tenths(limit.sem_deg))
-        change = f"{numbers.degrees(limit.limit_deg)} ({_tenths(low)} – {_tenths(high)})"
+        sem = tr("SEM {size}").format(size=_format_tenths(limit.sem_deg))
+        change = f"{numbers.format_degrees(limit.limit_deg)} ({_format_tenths(low)} – {_format_tenths(high)})"
         few = (
-            ""
-            if limit.people >= FEWEST_PEOPLE
-            else " · " + tr("{count} people, not in force").format(count=limit.people)
+            "" if limit.people >= MIN_PEOPLE else " · " + tr("{count} people, not in force").format(count=limit.people)
         )
         out.append((name, sem, change + few))
     return out
 
 
-def _tenths(size_deg: float) -> str:
-    return f"{numbers.fixed(size_deg, 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN
+def _format_tenths(size_deg: float) -> str:
+    return f"{numbers.format_fixed(size_deg, 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN
 
 
-def limit_lines() -> list[tuple[str, str]]:
+def limit_rows() -> list[tuple[str, str]]:
     """Name of each kind of angle and its limit; of the wrist the whole arc beside one end."""
     named = (
         (tr("Flexion, extension"), tr("Flexion and extension, whole arc"), "flexion"),
@@ -109,15 +109,15 @@ def limit_lines() -> list[tuple[str, str]]:
     out = []
     for end, arc, angle in named:
         limit_deg = math.degrees(change_limit_rad(angle))
-        out += [(end, numbers.degrees(limit_deg)), (arc, numbers.degrees(ARC_LIMIT_FACTOR * limit_deg))]
+        out += [(end, numbers.format_degrees(limit_deg)), (arc, numbers.format_degrees(ARC_LIMIT_FACTOR * limit_deg))]
     joints = (
         (tr("Range of a finger’s knuckle, middle or end joint"), "PIP3_flexion"),
         (tr("Range of a finger’s spreading"), "MCP2_abduction"),
         (tr("Range of the thumb’s joints"), "CMC1_abduction"),
     )
     for name, joint in joints:
-        out.append((name, numbers.degrees(ARC_LIMIT_FACTOR * math.degrees(change_limit_rad(joint)))))
+        out.append((name, numbers.format_degrees(ARC_LIMIT_FACTOR * math.degrees(change_limit_rad(joint)))))
     return [
         *out,
-        (tr("Total active motion (TAM)"), numbers.degrees(math.degrees(change_limit_rad(TOTAL_ACTIVE_MOTION)))),
+        (tr("Total active motion (TAM)"), numbers.format_degrees(math.degrees(change_limit_rad(TOTAL_ACTIVE_MOTION)))),
     ]

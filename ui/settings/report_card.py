@@ -9,11 +9,11 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, Qt, Signal
 from PySide6.QtGui import QImage, QImageReader, QPixmap
 from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QPlainTextEdit
 
-from carpus.core.results.report_form import MOST_ADDRESS, MOST_ADDRESS_LINES, MOST_NAME, ReportForm
+from carpus.core.results.report_form import MAX_ADDRESS_CHARACTERS, MAX_ADDRESS_LINES, MAX_NAME_CHARACTERS, ReportForm
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.field import Choices, Labelled
-from carpus.ui.controls.layouts import STRETCH, fill, in_line
+from carpus.ui.controls.field import ChoiceRow, LabelledField
+from carpus.ui.controls.layouts import STRETCH, fill, row_layout
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
@@ -32,69 +32,71 @@ class ReportCard(Card):
         self.body.addWidget(Text(theme, self.tr("Report"), 20, SEMIBOLD))
         words = self.tr("Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.")
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self.name = QLineEdit(form.letterhead.name, maxLength=MOST_NAME)
+        self.name = QLineEdit(form.letterhead.name, maxLength=MAX_NAME_CHARACTERS)
         self.address = QPlainTextEdit("\n".join(form.letterhead.address))
         self.address.setTabChangesFocus(True)
-        theme.follow(self.address, lambda: self.address.setFixedHeight(theme.px(ADDRESS_PX)))
-        self.body.addWidget(Labelled(theme, self.tr("Name of the clinic"), self.name))
-        self.body.addWidget(Labelled(theme, self.tr("Address, up to four lines"), self.address))
-        row = in_line(gap=12)
-        self.picture = QLabel()
-        self.picture.setAccessibleName(self.tr("Logo"))
-        self.choose = Button(theme, self.tr("Choose a logo…"), height_px=40)
-        self.remove = Button(theme, self.tr("Remove the logo"), "quiet", height_px=40)
-        fill(row, self.picture, self.choose, self.remove, STRETCH)
+        theme.on_change(self.address, lambda: self.address.setFixedHeight(theme.px(ADDRESS_PX)))
+        self.body.addWidget(LabelledField(theme, self.tr("Name of the clinic"), self.name))
+        self.body.addWidget(LabelledField(theme, self.tr("Address, up to four lines"), self.address))
+        row = row_layout(gap=12)
+        self.logo_label = QLabel()
+        self.logo_label.setAccessibleName(self.tr("Logo"))
+        self.choose_button = Button(theme, self.tr("Choose a logo…"), height_px=40)
+        self.remove_button = Button(theme, self.tr("Remove the logo"), "quiet", height_px=40)
+        fill(row, self.logo_label, self.choose_button, self.remove_button, STRETCH)
         self.body.addLayout(row)
-        self.problem = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.problem.hide()
-        fill(self.body, self.problem, Text(theme, self.tr("Paper"), 14, REGULAR, "text2"))
-        self.paper = Choices(theme, [("a4", "A4"), ("letter", self.tr("US Letter"))], form.paper)
+        self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.error_text.hide()
+        fill(self.body, self.error_text, Text(theme, self.tr("Paper"), 14, REGULAR, "text2"))
+        self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", self.tr("US Letter"))], form.paper)
         self.body.addWidget(self.paper)
-        self.name.editingFinished.connect(self._take)
-        self.address.textChanged.connect(self._take)
-        self.choose.clicked.connect(self.ask_logo)
-        self.remove.clicked.connect(lambda: self._take_logo(b""))
+        self.name.editingFinished.connect(self._apply_letterhead)
+        self.address.textChanged.connect(self._apply_letterhead)
+        self.choose_button.clicked.connect(self.choose_logo)
+        self.remove_button.clicked.connect(lambda: self._set_logo(b""))
         self.paper.chosen.connect(lambda paper: self._change(replace(self._form, paper=paper)))
         self._show_logo()
 
     def show_form(self, form: ReportForm) -> None:
         self._form = form
 
-    def ask_logo(self) -> None:
+    def choose_logo(self) -> None:
         kinds = self.tr("Pictures (*.png *.jpg *.jpeg)")
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a logo"), "", kinds)
         if path:
-            self.take_picture(Path(path))
+            self.load_logo(Path(path))
 
-    def take_picture(self, path: Path) -> None:
+    def load_logo(self, path: Path) -> None:
         try:
             found = logo_png(path)
-        except LogoRefused as refused:
-            self.problem.setText(str(refused))
-            self.problem.show()
+        except LogoError as refused:
+            self.error_text.setText(str(refused))
+            self.error_text.show()
             return
-        self._take_logo(found)
+        self._set_logo(found)
 
-    def _take_logo(self, png: bytes) -> None:
-        self.problem.hide()
+    def _set_logo(self, png: bytes) -> None:
+        self.error_text.hide()
         self._change(replace(self._form, letterhead=replace(self._form.letterhead, logo_png=png)))
         self._show_logo()
 
     def _show_logo(self) -> None:
         logo = QPixmap()
         logo.loadFromData(self._form.letterhead.logo_png)
-        self.picture.setVisible(not logo.isNull())
-        self.remove.setVisible(not logo.isNull())
+        self.logo_label.setVisible(not logo.isNull())
+        self.remove_button.setVisible(not logo.isNull())
         if not logo.isNull():
             mode = Qt.TransformationMode.SmoothTransformation
-            self.picture.setPixmap(logo.scaled(3 * LOGO_PX, LOGO_PX, Qt.AspectRatioMode.KeepAspectRatio, mode))
+            self.logo_label.setPixmap(logo.scaled(3 * LOGO_PX, LOGO_PX, Qt.AspectRatioMode.KeepAspectRatio, mode))
 
-    def _take(self) -> None:
-        lines = [line.strip()[:MOST_ADDRESS] for line in self.address.toPlainText().splitlines() if line.strip()]
-        if len(lines) > MOST_ADDRESS_LINES:
-            self.problem.setText(self.tr("Address, up to four lines"))
-        self.problem.setVisible(len(lines) > MOST_ADDRESS_LINES)
-        head = replace(self._form.letterhead, name=self.name.text().strip(), address=tuple(lines[:MOST_ADDRESS_LINES]))
+    def _apply_letterhead(self) -> None:
+        lines = [
+            line.strip()[:MAX_ADDRESS_CHARACTERS] for line in self.address.toPlainText().splitlines() if line.strip()
+        ]
+        if len(lines) > MAX_ADDRESS_LINES:
+            self.error_text.setText(self.tr("Address, up to four lines"))
+        self.error_text.setVisible(len(lines) > MAX_ADDRESS_LINES)
+        head = replace(self._form.letterhead, name=self.name.text().strip(), address=tuple(lines[:MAX_ADDRESS_LINES]))
         self._change(replace(self._form, letterhead=head))
 
     def _change(self, form: ReportForm) -> None:
@@ -103,35 +105,35 @@ class ReportCard(Card):
             self.changed.emit(form)
 
 
-MOST_BYTES = 8_000_000
-LONGEST_PX = 1200
-LEAST_PX = 32
-MOST_PIXELS = 40_000_000
-KINDS = (b"png", b"jpeg")
+MAX_LOGO_BYTES = 8_000_000
+MAX_LOGO_PX = 1200
+MIN_LOGO_PX = 32
+MAX_LOGO_PIXELS = 40_000_000
+LOGO_FORMATS = (b"png", b"jpeg")
 """A drawing (SVG) is a program of its own: it may load other files and take any time."""
 
 
-class LogoRefused(ValueError):
+class LogoError(ValueError):
     """The picture cannot be a logo; its words say why, for the person."""
 
 
 def logo_png(path: Path) -> bytes:
-    """The picture as a PNG, made smaller where it is very large. Raises :class:`LogoRefused` with one sentence."""
+    """The picture as a PNG, made smaller where it is very large. Raises :class:`LogoError` with one sentence."""
     try:
         size = path.stat().st_size
-        data = path.read_bytes() if size <= MOST_BYTES else b""
+        data = path.read_bytes() if size <= MAX_LOGO_BYTES else b""
     except OSError:
-        raise LogoRefused(tr("This picture cannot be read. Choose a PNG or JPEG file.")) from None
-    if size > MOST_BYTES:
-        raise LogoRefused(tr("This picture is larger than 8 MB. Choose a smaller one."))
-    image = _of_pixels(data)
+        raise LogoError(tr("This picture cannot be read. Choose a PNG or JPEG file.")) from None
+    if size > MAX_LOGO_BYTES:
+        raise LogoError(tr("This picture is larger than 8 MB. Choose a smaller one."))
+    image = _decode_image(data)
     if image.isNull():
-        raise LogoRefused(tr("This file is no picture that Carpus can read. Choose a PNG or JPEG file."))
-    if min(image.width(), image.height()) < LEAST_PX:
-        raise LogoRefused(tr("This picture is too small to print. Choose one of at least 32 pixels each way."))
-    if max(image.width(), image.height()) > LONGEST_PX:
+        raise LogoError(tr("This file is no picture that Carpus can read. Choose a PNG or JPEG file."))
+    if min(image.width(), image.height()) < MIN_LOGO_PX:
+        raise LogoError(tr("This picture is too small to print. Choose one of at least 32 pixels each way."))
+    if max(image.width(), image.height()) > MAX_LOGO_PX:
         image = image.scaled(
-            LONGEST_PX, LONGEST_PX, Qt.AspectRatioMode.KeepAspectRatio, Qt.TransformationMode.SmoothTransformation
+            MAX_LOGO_PX, MAX_LOGO_PX, Qt.AspectRatioMode.KeepAspectRatio, Qt.TransformationMode.SmoothTransformation
         )
     store = QByteArray()
     buffer = QBuffer(store)
@@ -140,7 +142,7 @@ def logo_png(path: Path) -> bytes:
     return bytes(store.data())
 
 
-def _of_pixels(data: bytes) -> QImage:
+def _decode_image(data: bytes) -> QImage:
     store = QByteArray(data)
     buffer = QBuffer(store)
     buffer.open(QIODevice.OpenModeFlag.ReadOnly)
@@ -148,6 +150,6 @@ def _of_pixels(data: bytes) -> QImage:
     reader.setAutoTransform(True)
     reader.setDecideFormatFromContent(True)
     size = reader.size()  # as its head says, before anything is unpacked
-    if bytes(reader.format().data()).lower() not in KINDS or size.width() * size.height() > MOST_PIXELS:
+    if bytes(reader.format().data()).lower() not in LOGO_FORMATS or size.width() * size.height() > MAX_LOGO_PIXELS:
         return QImage()
     return reader.read()

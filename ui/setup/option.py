@@ -8,8 +8,8 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QButtonGroup, QPushButton, QSizePolicy, QWidget
 
-from carpus.ui.controls.layouts import in_column, in_grid
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, StateText, Text
+from carpus.ui.controls.layouts import column_layout, grid_layout
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Icon, StateText, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
 
@@ -21,9 +21,9 @@ class Option(QPushButton):
 
     def __init__(self, theme: Theme, name: str, sentence: str) -> None:
         super().__init__()
-        self._mark, self._state = Sign(theme, "open", 22, (22, 22)), StateText(theme, 14, REGULAR)
+        self._mark, self._state = Icon(theme, "open", 22, (22, 22)), StateText(theme, 14, REGULAR)
         self._sentence = Text(theme, sentence, 14, REGULAR, "text2", wrap=True)
-        grid = in_grid(18, 2, shares=(0, 1), margins=(18, 14, 22, 14), within=self)
+        grid = grid_layout(18, 2, stretches=(0, 1), margins=(18, 14, 22, 14), parent=self)
         grid.addWidget(self._mark, 0, 0)
         grid.setRowStretch(1, 1)
         grid.addWidget(Text(theme, name, 16, SEMIBOLD), 0, 1)
@@ -40,7 +40,7 @@ class Option(QPushButton):
         policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
-        self.toggled.connect(lambda on: self._mark.show_sign("chosen" if on else "open", size_px=22))
+        self.toggled.connect(lambda on: self._mark.show_icon("chosen" if on else "open", size_px=22))
 
     def show_sentence(self, sentence: str, state: State = "none", words: str = "") -> None:
         self._sentence.setText(sentence)
@@ -74,7 +74,7 @@ class Options(QWidget):
 
     def __init__(self, theme: Theme, options: Sequence[tuple[object, str, str]]) -> None:
         super().__init__()
-        column = in_column(gap=12, margins=(0, 0, 0, 0), within=self)
+        column = column_layout(gap=12, margins=(0, 0, 0, 0), parent=self)
         self._group = QButtonGroup(self)
         self._values: list[object] = []
         for number, (value, name, sentence) in enumerate(options):

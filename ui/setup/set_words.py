@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from carpus.core.records.set_up import Course, CoursePart, ExerciseSet
+from carpus.core.records.set_up import ExerciseSet, SetPart, SetRun
 from carpus.ui import terms
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import tr, translate_phrase
 
 
-def part_words(part: CoursePart) -> str:
-    """``Full fist, 10 times``; ``Free movement, 60 s``."""
+def part_words(part: SetPart) -> str:
+    """``Full fist, 10 times``; ``ReleaseSlot movement, 60 s``."""
     if part.repetitions:
         pattern = tr("{exercise}, {count} times")
         return pattern.format(exercise=terms.exercise_name(part.exercise.id), count=part.repetitions)
@@ -20,8 +20,11 @@ def set_words(one: ExerciseSet) -> str:
     return " → ".join(part_words(part) for part in one.parts)
 
 
-def course_words(course: Course) -> str:
+def course_words(course: SetRun) -> str:
     """``Set “Wrist, all ways”, 2 of 3: Wrist side to side, 10 times``."""
     return tr("Set “{name}”, {number} of {count}: {part}").format(
-        name=say(course.name), number=course.number + 1, count=len(course.parts), part=part_words(course.part)
+        name=translate_phrase(course.name),
+        number=course.part_index + 1,
+        count=len(course.parts),
+        part=part_words(course.part),
     )

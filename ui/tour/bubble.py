@@ -7,13 +7,13 @@ from PySide6.QtGui import QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.layouts import fill, in_line
+from carpus.ui.controls.layouts import fill, row_layout
 from carpus.ui.controls.text import MEDIUM, Text, caption
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
-from carpus.ui.tour.order import PARTS, POINTLESS, Bubble, part_of, words_of
+from carpus.ui.tour.order import PARTS, WITHOUT_POINTER, Bubble, bubble_words, part_number
 
 TAIL_PX = 9
-LEAST_SCREEN_PX = 445
+MIN_SCREEN_PX = 445
 """On a screen lower than this in text-scaled pixels, what is worked with goes before the bubble."""
 TAIL_WIDTH_PX = 20
 TAIL_IN_PX = 96
@@ -35,22 +35,22 @@ class BubbleView(QWidget):
         self._theme, self._wide = theme, wide
         self.bubble: Bubble | None = None
         self._has_room = True
-        self.words = Text(theme, "", 14, MEDIUM, wrap=True)
-        self.part = caption(theme)
+        self.text = Text(theme, "", 14, MEDIUM, wrap=True)
+        self.part_label = caption(theme)
         self.next_button = Button(theme, self.tr("&Next"), height_px=36)
         self.leave_button = Button(theme, self.tr("Leave the guide"), "quiet", hint=self.tr("Esc"), height_px=36)
         for button in (self.next_button, self.leave_button):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus if keys else Qt.FocusPolicy.NoFocus)
-        foot = in_line(gap=4)
+        foot = row_layout(gap=4)
         whole = QHBoxLayout(self) if wide else QVBoxLayout(self)
         if wide:
             whole.setSpacing(16)
-            whole.addWidget(self.words, 1)
-            fill(foot, self.part, 8)
+            whole.addWidget(self.text, 1)
+            fill(foot, self.part_label, 8)
         else:
             whole.setSpacing(6)
-            whole.addWidget(self.part)
-            whole.addWidget(self.words)
+            whole.addWidget(self.part_label)
+            whole.addWidget(self.text)
             foot.addStretch(1)
         fill(foot, self.leave_button, self.next_button)
         whole.addLayout(foot)
@@ -64,30 +64,30 @@ class BubbleView(QWidget):
             return
         self.bubble = bubble
         if bubble is not None:
-            number = part_of(bubble)
-            self.words.setText(words_of(bubble))
-            self.part.setText(
+            number = part_number(bubble)
+            self.text.setText(bubble_words(bubble))
+            self.part_label.setText(
                 self.tr("First session · {number} of {count}").format(number=number, count=len(PARTS))
                 if number
                 else self.tr("First session")
             )
-            self.next_button.set_face(self.tr("&Done") if bubble == "end" else self.tr("&Next"))
-            self.setAccessibleName(words_of(bubble))
-        self._appear()
+            self.next_button.set_label(self.tr("&Done") if bubble == "end" else self.tr("&Next"))
+            self.setAccessibleName(bubble_words(bubble))
+        self._update_visibility()
         self.update()
 
     @property
-    def points(self) -> bool:
+    def has_pointer(self) -> bool:
         """Whether what it says is about the control below it."""
-        return self.bubble not in POINTLESS
+        return self.bubble not in WITHOUT_POINTER
 
-    def give_room(self, has_room: bool) -> None:
+    def set_room(self, has_room: bool) -> None:
         """Where large text leaves no room for it, what is measured goes before it."""
         if has_room != self._has_room:
             self._has_room = has_room
-            self._appear()
+            self._update_visibility()
 
-    def _appear(self) -> None:
+    def _update_visibility(self) -> None:
         self.setVisible(self.bubble is not None and self._has_room)
         self.changed.emit()
 
@@ -104,4 +104,4 @@ class BubbleView(QWidget):
         tail.closeSubpath()
         painter.setPen(QPen(self._theme.color("accent"), 1.5))
         painter.setBrush(self._theme.color("soft"))
-        painter.drawPath(outline.united(tail) if self.points else outline)
+        painter.drawPath(outline.united(tail) if self.has_pointer else outline)

@@ -9,7 +9,7 @@ from typing import Literal
 from carpus.ui.translate import tr
 
 Bubble = Literal["patient", "camera", "aim", "click", "check", "record", "stop", "results", "report", "save", "end"]
-Work = Literal["aiming", "clicking", "checked", "doubtful"]
+LabelStage = Literal["aiming", "clicking", "checked", "doubtful"]
 """How far the markers are: no picture is taken yet, some have no name, all are found good, something is wrong."""
 
 PLACES: Mapping[Bubble, str] = {
@@ -22,49 +22,54 @@ PARTS = ("patients", "markers", "live", "review", "report")
 """The way as it is counted: who is measured on what is set up once, and mostly passed over."""
 ONLY_READ: tuple[Bubble, ...] = ("click", "results")
 """Bubbles whose “Next” presses nothing: only a person can do it, or there is nothing to do."""
-POINTLESS: tuple[Bubble, ...] = (*ONLY_READ, "end")
+WITHOUT_POINTER: tuple[Bubble, ...] = (*ONLY_READ, "end")
 """Bubbles that speak of something else than the control below them, and so do not point at it."""
 
 
 @dataclass(frozen=True, slots=True)
-class TourMoment:
-    """What decides. ``is_meant``: the practice patient is open, or somebody asked to be shown around; ``is_covered``: a
+class TourState:
+    """What decides. ``is_wanted``: the practice patient is open, or somebody asked to be shown around;
+    ``is_covered``: a
     message or a sheet lies over the screen; ``is_busy``: what was begun here is still under way."""
 
     place: str
-    is_meant: bool = True
+    is_wanted: bool = True
     is_covered: bool = False
     is_busy: bool = False
-    work: Work = "aiming"
+    label_stage: LabelStage = "aiming"
     is_recording: bool = False
     is_saved: bool = False
 
 
-def bubble_at(moment: TourMoment, read: frozenset[Bubble] = frozenset()) -> Bubble | None:
+def find_bubble(state: TourState, read: frozenset[Bubble] = frozenset()) -> Bubble | None:
     """The bubble to show, None for none: what was read is not shown again."""
-    if moment.is_covered or moment.is_busy or not moment.is_meant:
+    if state.is_covered or state.is_busy or not state.is_wanted:
         return None
-    return next((bubble for bubble in _fitting(moment) if bubble not in read), None)
+    return next((bubble for bubble in _candidate_bubbles(state) if bubble not in read), None)
 
 
-def _fitting(moment: TourMoment) -> tuple[Bubble, ...]:
-    if moment.place == "markers":
-        at_work: Mapping[Work, tuple[Bubble, ...]] = {"aiming": ("aim",), "clicking": ("click",), "checked": ("check",)}
-        return at_work.get(moment.work, ())  # the screen itself says what is wrong
-    if moment.place == "live":
-        return ("stop",) if moment.is_recording else ("record",)
-    if moment.place == "report":
-        return ("end",) if moment.is_saved else ("save",)
-    return tuple(bubble for bubble, place in PLACES.items() if place == moment.place)
+def _candidate_bubbles(state: TourState) -> tuple[Bubble, ...]:
+    if state.place == "markers":
+        at_work: Mapping[LabelStage, tuple[Bubble, ...]] = {
+            "aiming": ("aim",),
+            "clicking": ("click",),
+            "checked": ("check",),
+        }
+        return at_work.get(state.label_stage, ())  # the screen itself says what is wrong
+    if state.place == "live":
+        return ("stop",) if state.is_recording else ("record",)
+    if state.place == "report":
+        return ("end",) if state.is_saved else ("save",)
+    return tuple(bubble for bubble, place in PLACES.items() if place == state.place)
 
 
-def part_of(bubble: Bubble) -> int:
+def part_number(bubble: Bubble) -> int:
     """Which part of the way a bubble is in, from 1; 0 for what is set up in between."""
     place = PLACES[bubble]
     return PARTS.index(place) + 1 if place in PARTS else 0
 
 
-def words_of(bubble: Bubble) -> str:
+def bubble_words(bubble: Bubble) -> str:
     """One sentence."""
     words: Mapping[Bubble, str] = {
         "patient": tr("Choose in the list who is measured and start here; the practice patient is simulated."),

@@ -11,12 +11,12 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.purpose import PURPOSE
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
+from carpus.ui.controls.card import Card, Separator
+from carpus.ui.controls.layouts import STRETCH, column_layout, fill, row_layout, scroll_column
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Icon, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
-from carpus.ui.translate import say
+from carpus.ui.translate import translate_phrase
 
 CheckState = Literal["good", "warning", "bad"]
 _ICONS: dict[CheckState, State] = {"good": "good", "warning": "warn", "bad": "bad"}
@@ -34,7 +34,7 @@ class Check:
 
 def purpose_lines() -> str:
     """The five things that Carpus does, a line each."""
-    return "\n".join(f"{say(word)}: {say(meaning)}" for word, meaning in PURPOSE)
+    return "\n".join(f"{translate_phrase(word)}: {translate_phrase(meaning)}" for word, meaning in PURPOSE)
 
 
 class WelcomePanel(Card):
@@ -43,10 +43,10 @@ class WelcomePanel(Card):
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 0)
         self._theme = theme
-        self.checks: list[CheckRow] = []
-        self.state = Text(theme, "", 14, MEDIUM, wrap=True)
-        self.where = Text(theme, "", 14, MEDIUM, wrap=True)
-        self.counts = Text(theme, "", 14, MEDIUM, "warn", wrap=True)
+        self.check_rows: list[CheckRow] = []
+        self.state_label = Text(theme, "", 14, MEDIUM, wrap=True)
+        self.folder_label = Text(theme, "", 14, MEDIUM, wrap=True)
+        self.restart_label = Text(theme, "", 14, MEDIUM, "warn", wrap=True)
         self.folder_button = Button(theme, self.tr("Another &folder…"), height_px=36)
         self.close_button = Button(theme, self.tr("Close Carpus"), height_px=36)
         self.again_button = Button(theme, self.tr("&Look again"), "quiet", icon="rotate-ccw", height_px=36)
@@ -54,55 +54,57 @@ class WelcomePanel(Card):
         self.details_button.setCheckable(True)
         self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
         self.later_button = Button(theme, self.tr("Not now"), "quiet", hint=self.tr("Esc"))
-        self._rows = in_column(gap=4)
-        self._lay_out()
+        self._rows = column_layout(gap=4)
+        self._build_layout()
         for button in (
             self.tour_button, self.later_button, self.again_button, self.folder_button, self.close_button,
             self.details_button,
         ):  # fmt: skip
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves the keyboard with the search
-        self.details_button.toggled.connect(self._fold)
-        self.show_looking()
-        self.show_folder("", counts_later=False)
+        self.details_button.toggled.connect(self._show_rows)
+        self.show_checking()
+        self.show_folder("", needs_restart=False)
 
-    def _lay_out(self) -> None:
+    def _build_layout(self) -> None:
         theme = self._theme
-        text = in_column(Text(theme, self.tr("Welcome to Carpus"), 20, SEMIBOLD), gap=8)
+        text = column_layout(Text(theme, self.tr("Welcome to Carpus"), 20, SEMIBOLD), gap=8)
         self.purpose = Text(theme, purpose_lines(), 14, REGULAR, "text2", wrap=True)
-        fill(text, self.purpose, in_line((self.state, 1), self.details_button, self.again_button), self._rows)
-        text.addWidget(Line(theme))
+        fill(text, self.purpose, row_layout((self.state_label, 1), self.details_button, self.again_button), self._rows)
+        text.addWidget(Separator(theme))
         note = self.tr("Patients and sessions will lie here; nothing leaves this computer.")
-        lies = in_column(Text(theme, note, 14, REGULAR, "text2", wrap=True), self.where, gap=0)
-        text.addLayout(in_line((lies, 1), self.folder_button, gap=12))
+        lies = column_layout(Text(theme, note, 14, REGULAR, "text2", wrap=True), self.folder_label, gap=0)
+        text.addLayout(row_layout((lies, 1), self.folder_button, gap=12))
         later = QHBoxLayout()
         later.setContentsMargins(20, 6, 20, 8)  # its widgets hide it whole, and this with it
         later.setSpacing(12)
-        fill(later, (self.counts, 1), self.close_button)
+        fill(later, (self.restart_label, 1), self.close_button)
         text.addStretch(1)
-        foot = in_line(self.tour_button, STRETCH, self.later_button, gap=8, margins=(20, 10, 20, 12))
+        foot = row_layout(self.tour_button, STRETCH, self.later_button, gap=8, margins=(20, 10, 20, 12))
         self.body.setSpacing(0)
         self.body.setContentsMargins(1, 1, 1, 1)
-        area = scrolled(text)
+        area = scroll_column(text)
         text.setContentsMargins(20, 14, 20, 8)
         self.body.addWidget(area, 1)
         self.body.addLayout(later)  # never scrolled away: it came after what was looked at
-        fill(self.body, Line(theme), foot)
+        fill(self.body, Separator(theme), foot)
 
-    def show_looking(self) -> None:
-        self.state.setText(self.tr("This computer is being looked at …"))
+    def show_checking(self) -> None:
+        self.state_label.setText(self.tr("This computer is being looked at …"))
         self.again_button.setEnabled(False)
 
     def show_checks(self, checks: Sequence[Check]) -> None:
         """What was found; what needs something stands first."""
-        for old in self.checks:
+        for old in self.check_rows:
             self._rows.removeWidget(old)
             old.hide()
             old.deleteLater()
         order = {"bad": 0, "warning": 1, "good": 2}
-        self.checks = [CheckRow(self._theme, check) for check in sorted(checks, key=lambda check: order[check.state])]
-        for row in self.checks:
+        self.check_rows = [
+            CheckRow(self._theme, check) for check in sorted(checks, key=lambda check: order[check.state])
+        ]
+        for row in self.check_rows:
             self._rows.addWidget(row)
-        self._fold()
+        self._show_rows()
         wanting = sum(check.state != "good" for check in checks)
         if not wanting:
             words = self.tr("This computer has everything that Carpus needs.")
@@ -110,23 +112,23 @@ class WelcomePanel(Card):
             words = self.tr("One thing is to be done; the practice patient needs none of it.")
         else:
             words = self.tr("{count} things are to be done; the practice patient needs none of them.")
-        self.state.setText(words.format(count=wanting))
+        self.state_label.setText(words.format(count=wanting))
         self.again_button.setEnabled(True)
 
-    def _fold(self) -> None:
-        for row in self.checks:
+    def _show_rows(self) -> None:
+        for row in self.check_rows:
             row.setVisible(row.check.state != "good" or self.details_button.isChecked())
 
-    def show_folder(self, folder: str, *, counts_later: bool) -> None:
+    def show_folder(self, folder: str, *, needs_restart: bool) -> None:
         """Where the data lie, or will from the next start on."""
-        self.where.setText(folder)
-        self.counts.setText(
+        self.folder_label.setText(folder)
+        self.restart_label.setText(
             self.tr("The folder counts from the next start on: close Carpus and open it again before you measure.")
-            if counts_later
+            if needs_restart
             else ""
         )
-        self.counts.setVisible(counts_later)
-        self.close_button.setVisible(counts_later)
+        self.restart_label.setVisible(needs_restart)
+        self.close_button.setVisible(needs_restart)
 
 
 class CheckRow(QWidget):
@@ -135,15 +137,15 @@ class CheckRow(QWidget):
     def __init__(self, theme: Theme, check: Check) -> None:
         super().__init__()
         self.check = check
-        words = in_column(Text(theme, f"{check.name}: {check.found}", 14, REGULAR, wrap=True), gap=0)
+        words = column_layout(Text(theme, f"{check.name}: {check.found}", 14, REGULAR, wrap=True), gap=0)
         if check.remedy:
             words.addWidget(Text(theme, check.remedy, 14, MEDIUM, wrap=True))
-        in_line(
-            (Sign(theme, _ICONS[check.state], 16, (18, 20), lean=0.5), 0, Qt.AlignmentFlag.AlignTop),
+        row_layout(
+            (Icon(theme, _ICONS[check.state], 16, (18, 20), alignment=0.5), 0, Qt.AlignmentFlag.AlignTop),
             (words, 1),
             gap=10,
             margins=(0, 0, 0, 0),
-            within=self,
+            parent=self,
         )
         states = {"good": self.tr("good"), "warning": self.tr("to be looked at"), "bad": self.tr("missing")}
         self.setAccessibleName(f"{check.name}, {states[check.state]}: {check.found}. {check.remedy}")

@@ -6,11 +6,11 @@ import math
 from typing import TYPE_CHECKING
 
 from carpus.ui import numbers
-from carpus.ui.figures import FIGURES, figure_of
-from carpus.ui.translate import say, tr
+from carpus.ui.figures import FINGER_ANGLES, find_finger_angle
+from carpus.ui.translate import tr, translate_phrase
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
-    from carpus.core.agreement.compare import Compared
+    from carpus.core.agreement.compare import Comparison
     from carpus.core.agreement.statistics import Interval
 
 TOKENS = {"deviation": "curve_b", "flexion": "curve_a", "pronosupination": "curve_c"}
@@ -24,17 +24,19 @@ def angle_name(name: str) -> str:
     }  # fmt: skip
     if name in wrist:
         return wrist[name]
-    if any(figure.joint == name for figure in FIGURES):
-        return figure_of(name).long_name
+    if any(figure.joint == name for figure in FINGER_ANGLES):
+        return find_finger_angle(name).long_name
     return tr("Thumb, knuckle sideways") if name == "MCP1_abduction" else name
 
 
 def angle_token(name: str) -> str:
     """Colour of an angle."""
-    return TOKENS.get(name) or (figure_of(name).token if any(one.joint == name for one in FIGURES) else "curve_a")
+    return TOKENS.get(name) or (
+        find_finger_angle(name).token if any(one.joint == name for one in FINGER_ANGLES) else "curve_a"
+    )
 
 
-def ends(name: str) -> tuple[str, str]:
+def direction_names(name: str) -> tuple[str, str]:
     """What is more, and what is less, of an angle: ``flexion``, ``extension``."""
     wrist = {
         "flexion": (tr("flexion"), tr("extension")),
@@ -44,40 +46,40 @@ def ends(name: str) -> tuple[str, str]:
     return wrist.get(name, (tr("more"), tr("less")))
 
 
-def tenths(size_deg: float) -> str:
+def format_tenths(size_deg: float) -> str:
     """``0.6°`` without sign; a dash where it is not known."""
-    return f"{numbers.fixed(abs(size_deg), 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN
+    return f"{numbers.format_fixed(abs(size_deg), 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN
 
 
-def signed(value_deg: float, name: str) -> str:
+def format_difference(value_deg: float, name: str) -> str:
     """``0.6° flexion``: the sign is the word."""
     if not math.isfinite(value_deg):
         return numbers.UNKNOWN
-    return f"{tenths(value_deg)} {ends(name)[0 if value_deg >= 0.0 else 1]}"
+    return f"{format_tenths(value_deg)} {direction_names(name)[0 if value_deg >= 0.0 else 1]}"
 
 
-def interval(low_high: Interval, name: str) -> str:
+def format_interval(low_high: Interval, name: str) -> str:
     """``0.0° to 1.2°`` where both are on one side, else each with its word."""
     low, high = low_high
     if not (math.isfinite(low) and math.isfinite(high)):
         return numbers.UNKNOWN
     if low * high < 0.0:
-        return tr("{low} to {high}").format(low=signed(low, name), high=signed(high, name))
+        return tr("{low} to {high}").format(low=format_difference(low, name), high=format_difference(high, name))
     near, far = sorted((abs(low), abs(high)))
-    return tr("{low} to {high}").format(low=tenths(near), high=tenths(far))
+    return tr("{low} to {high}").format(low=format_tenths(near), high=format_tenths(far))
 
 
-def share(value: float) -> str:
+def format_coefficient(value: float) -> str:
     """``0.995`` of a coefficient; a dash where there is none."""
-    return numbers.fixed(value, 3) if math.isfinite(value) else numbers.UNKNOWN
+    return numbers.format_fixed(value, 3) if math.isfinite(value) else numbers.UNKNOWN
 
 
-def remark_words(compared: Compared, name: str = "") -> list[str]:
+def remark_words(compared: Comparison, name: str = "") -> list[str]:
     """What must be looked at before the figures are believed, of one angle or of all."""
-    said = [_reason(remark) for remark in (compared.remarks_on(name) if name else compared.remarks)]
+    said = [_remark_text(remark) for remark in (compared.angle_remarks(name) if name else compared.remarks)]
     return [f"{words[:1].upper()}{words[1:]}." for words in said]
 
 
-def _reason(reason: str) -> str:
-    name, found, rest = say(reason).partition(": ")
-    return f"{angle_name(name)}: {rest}" if found else say(reason)
+def _remark_text(reason: str) -> str:
+    name, found, rest = translate_phrase(reason).partition(": ")
+    return f"{angle_name(name)}: {rest}" if found else translate_phrase(reason)

@@ -7,16 +7,30 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core.calibration.camera.board import BOARDS, Board, Pattern
-from carpus.core.calibration.camera.calibrate import FAIR_PX, GOOD_PX, MOST_APART_PX, CameraCalibration, DepthCheck
+from carpus.core.calibration.camera.calibrate import (
+    FAIR_ERROR_PX,
+    GOOD_ERROR_PX,
+    MAX_REGISTRATION_ERROR_PX,
+    CameraCalibration,
+    DepthCheck,
+)
 from carpus.core.calibration.camera.sheet import RULER_MM, Paper
-from carpus.core.calibration.camera.views import FEWEST_FIELDS, FEWEST_SIDES, FIELDS, SIDES, Judgement, Lack, side_name
-from carpus.core.rounding import written
+from carpus.core.calibration.camera.views import (
+    FIELDS,
+    MIN_FIELDS,
+    MIN_TILT_SIDES,
+    TILT_SIDES,
+    RejectReason,
+    ViewCoverage,
+    side_name,
+)
+from carpus.core.rounding import format_rounded
 from carpus.ui import numbers
 from carpus.ui.icons import State
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import tr, translate_phrase
 
 
-def lack_words(lack: Lack) -> str:
+def view_fault_words(lack: RejectReason) -> str:
     """What a picture lacks; empty where it lacks nothing."""
     return {
         "": "",
@@ -29,49 +43,57 @@ def lack_words(lack: Lack) -> str:
     }[lack]
 
 
-def there_rows(judged: Judgement) -> list[tuple[State, str]]:
+def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
     """What is there, and what is still missing: places, tilts, distances."""
-    missing = [side for side in SIDES if side not in judged.sides]
+    missing = [side for side in TILT_SIDES if side not in judgement.sides]
     places = tr("Places: {count} of {all} fields, {least} or more").format(
-        count=judged.fields, all=FIELDS[0] * FIELDS[1], least=FEWEST_FIELDS
+        count=judgement.covered_fields, all=FIELDS[0] * FIELDS[1], least=MIN_FIELDS
     )
-    tilts = tr("Tilts: {side} missing").format(side=say(side_name(missing[0]))) if missing else tr("Tilts: all sides")
+    tilts = (
+        tr("Tilts: {side} missing").format(side=translate_phrase(side_name(missing[0])))
+        if missing
+        else tr("Tilts: all sides")
+    )
     away = tr("Distance: near and far missing")
-    if judged.is_near_and_far:
-        near, far = (written(100 * one) for one in (judged.nearest_m, judged.farthest_m))
+    if judgement.is_near_and_far:
+        near, far = (format_rounded(100 * one) for one in (judgement.nearest_m, judgement.farthest_m))
         away = tr("Distance: {near}–{far} cm").format(near=near, far=far)
-    reached = (judged.fields >= FEWEST_FIELDS, len(judged.sides) >= FEWEST_SIDES, judged.is_near_and_far)
+    reached = (
+        judgement.covered_fields >= MIN_FIELDS,
+        len(judgement.sides) >= MIN_TILT_SIDES,
+        judgement.is_near_and_far,
+    )
     return [("good" if one else "partly", words) for one, words in zip(reached, (places, tilts, away), strict=True)]
 
 
-def to_go_words(now: BoardProgress | None) -> str:
+def button_words(progress: BoardProgress | None) -> str:
     """The primary button: what it does, or what it waits for."""
-    if now is None:
+    if progress is None:
         return tr("Work out · show the board")
-    left = now.asked - now.judgement.views
+    left = progress.required_views - progress.judgement.view_count
     if left > 0:
         one = tr("Work out · 1 picture to go") if left == 1 else tr("Work out · {count} pictures to go")
         return one.format(count=left)
-    return tr("Work out · more places and tilts") if now.judgement.missing else tr("Work out")
+    return tr("Work out · more places and tilts") if progress.judgement.missing_text else tr("Work out")
 
 
-def headline(made: CameraCalibration) -> tuple[str, str]:
+def headline(calibration: CameraCalibration) -> tuple[str, str]:
     """The sentence, and what it means."""
-    error_px = made.intrinsics.error_px
-    if error_px > FAIR_PX:
+    error_px = calibration.intrinsics.reprojection_error_px
+    if error_px > FAIR_ERROR_PX:
         return (
-            tr("Not good enough: lines land {error} px off.").format(error=numbers.fixed(error_px, 1)),
+            tr("Not good enough: lines land {error} px off.").format(error=numbers.format_fixed(error_px, 1)),
             tr("Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures "
                "again."),
         )  # fmt: skip
-    if made.depth is not None and not made.depth.is_registered:
+    if calibration.depth is not None and not calibration.depth.is_registered:
         return (
-            tr("Depth lies {apart} px beside the colours.").format(apart=_apart(made.depth)),
+            tr("Depth lies {apart} px beside the colours.").format(apart=_offset_px(calibration.depth)),
             tr("Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how."),
         )
     return (
-        tr("The camera is calibrated. {depth}").format(depth=depth_words(made.depth)),
-        tr("Lines land within {error} pixels of where they are.").format(error=numbers.fixed(error_px, 2)),
+        tr("The camera is calibrated. {depth}").format(depth=depth_words(calibration.depth)),
+        tr("Lines land within {error} pixels of where they are.").format(error=numbers.format_fixed(error_px, 2)),
     )
 
 
@@ -83,41 +105,55 @@ def depth_words(depth: DepthCheck | None) -> str:
     if abs(share) < 0.05 and abs(shift) < 0.5:
         return tr("Depth reads right.")
     pattern = tr("Depth read {share} % too long.") if share > 0 else tr("Depth read {share} % too short.")
-    return pattern.format(share=numbers.fixed(abs(share), 1))
+    return pattern.format(share=numbers.format_fixed(abs(share), 1))
 
 
-def _apart(depth: DepthCheck) -> str:
-    return numbers.fixed(float(np.hypot(*depth.apart_px)), 1)
+def _offset_px(depth: DepthCheck) -> str:
+    return numbers.format_fixed(float(np.hypot(*depth.registration_error_px)), 1)
 
 
-def result_rows(made: CameraCalibration) -> list[tuple[State, str, str, str]]:
+def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, str]]:
     """State, what, value, in words."""
-    error_px, depth = made.intrinsics.error_px, made.depth
+    error_px, depth = calibration.intrinsics.reprojection_error_px, calibration.depth
     lands = (
-        tr("good: below {limit} px").format(limit=GOOD_PX) if error_px <= GOOD_PX
-        else tr("fair: below {limit} px").format(limit=FAIR_PX) if error_px <= FAIR_PX
-        else tr("poor: above {limit} px").format(limit=FAIR_PX)
+        tr("good: below {limit} px").format(limit=GOOD_ERROR_PX) if error_px <= GOOD_ERROR_PX
+        else tr("fair: below {limit} px").format(limit=FAIR_ERROR_PX) if error_px <= FAIR_ERROR_PX
+        else tr("poor: above {limit} px").format(limit=FAIR_ERROR_PX)
     )  # fmt: skip
-    focal = f"{numbers.fixed(made.intrinsics.camera.fx_px, 1)} ± {numbers.fixed(made.intrinsics.focal_sd_px, 1)} px"
+    focal = f"{numbers.format_fixed(calibration.intrinsics.camera.fx_px, 1)} ± {numbers.format_fixed(calibration.intrinsics.focal_sd_px, 1)} px"  # noqa: E501
     rows: list[tuple[State, str, str, str]] = [
-        ("good" if error_px <= FAIR_PX else "bad", tr("Lines land within"), f"{numbers.fixed(error_px, 2)} px", lands),
-        ("good", tr("Focal length"), focal, tr("{px} px before").format(px=numbers.fixed(made.before.fx_px, 1))),
-    ]  # fmt: skip
+        (
+            "good" if error_px <= FAIR_ERROR_PX else "bad",
+            tr("Lines land within"),
+            f"{numbers.format_fixed(error_px, 2)} px",
+            lands,
+        ),
+        (
+            "good",
+            tr("Focal length"),
+            focal,
+            tr("{px} px before").format(px=numbers.format_fixed(calibration.previous_camera.fx_px, 1)),
+        ),
+    ]
     if depth is None:
         return [*rows, ("warn", tr("Depth"), numbers.UNKNOWN, tr("too few pictures with depth on the board"))]
-    scale = f"{numbers.signed(100 * (depth.scale - 1.0), 2)} ± {numbers.fixed(100 * depth.scale_sd, 2)} %"
-    registered = tr("good: below {most} px").format(most=written(MOST_APART_PX))
+    scale = f"{numbers.format_signed(100 * (depth.scale - 1.0), 2)} ± {numbers.format_fixed(100 * depth.scale_sd, 2)} %"
+    registered = tr("good: below {most} px").format(most=format_rounded(MAX_REGISTRATION_ERROR_PX))
     return [
         *rows,
-        ("good", tr("Depth scale"), scale, tr("put right") if made.is_usable else ""),
-        ("good" if depth.is_registered else "bad", tr("Colour on depth"), tr("{apart} px apart").format(
-            apart=_apart(depth)), registered if depth.is_registered else tr("registration is off")),
-    ]  # fmt: skip
+        ("good", tr("Depth scale"), scale, tr("put right") if calibration.is_usable else ""),
+        (
+            "good" if depth.is_registered else "bad",
+            tr("Colour on depth"),
+            tr("{apart} px apart").format(apart=_offset_px(depth)),
+            registered if depth.is_registered else tr("registration is off"),
+        ),
+    ]
 
 
-def kept_words(result: BoardResult) -> str:
+def storage_words(result: BoardResult) -> str:
     """Where it will be kept, and what of sessions before; empty where it may not be used."""
-    if not result.made.is_usable:
+    if not result.calibration.is_usable:
         return ""
     if not result.serial:
         return tr(
@@ -144,22 +180,23 @@ class BoardChoice:
 
 @dataclass(frozen=True, slots=True)
 class BoardProgress:
-    """What the newest picture lacked, all that was kept, the next step in words, empty when all is there; ``asked`` so
+    """What the newest picture lacked, all that was kept, the next step in words, empty when all is there;
+    ``required_views`` so
     many pictures."""
 
-    lack: Lack
-    judgement: Judgement
+    lack: RejectReason
+    judgement: ViewCoverage
     step: str
-    asked: int
+    required_views: int
 
 
 @dataclass(frozen=True, slots=True)
 class BoardResult:
     """A calibration before it is kept, for the camera of ``serial``, empty where nobody knows which it is."""
 
-    made: CameraCalibration
+    calibration: CameraCalibration
     serial: str
 
     @property
     def is_usable(self) -> bool:
-        return self.made.is_usable and bool(self.serial)
+        return self.calibration.is_usable and bool(self.serial)

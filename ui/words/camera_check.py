@@ -11,7 +11,7 @@ from carpus.core.calibration.card.card import verdict_sentence
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.icons import State
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import tr, translate_phrase
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.calibration.card.checks import CheckStatus
@@ -19,14 +19,14 @@ if TYPE_CHECKING:  # a window loads nothing that reads files
 
 def check_words(status: CheckStatus) -> tuple[State, str]:
     """The verdict of the last check with its date, and what to do next."""
-    check = status.check
+    check = status.last_check
     if check is None:
         return "open", tr("This camera has not been checked yet.")
-    day = numbers.report_date(datetime.fromisoformat(check.when))
-    words = tr("{verdict} Checked {day}.").format(verdict=say(verdict_sentence(check.reading)), day=day)
-    if status.recalibrated:
+    day = numbers.format_date_time(datetime.fromisoformat(check.checked_at))
+    words = tr("{verdict} Checked {day}.").format(verdict=translate_phrase(verdict_sentence(check.reading)), day=day)
+    if status.is_recalibrated:
         return "warn", f"{words} {tr('Check it again: it was calibrated since.')}"
-    if status.is_out:
+    if status.is_out_of_tolerance:
         next_step = tr("Check once more, then calibrate the camera. Still out: do not measure with it.")
         return "bad", f"{words} {next_step}"
     if status.is_due:
@@ -39,8 +39,8 @@ def camera_words(status: CheckStatus) -> tuple[State, str]:
     if not status.serial:
         return "open", tr("Not calibrated and not checked yet.")
     calibrated = tr("never calibrated")
-    if math.isfinite(status.calibrated_days):
-        days = int(status.calibrated_days)
+    if math.isfinite(status.calibration_age_days):
+        days = int(status.calibration_age_days)
         ago = {0: tr("today"), 1: tr("yesterday")}.get(days, tr("{days} days ago").format(days=days))
         calibrated = tr("calibrated {ago}").format(ago=ago)
     state, words = check_words(status)
@@ -51,23 +51,24 @@ def camera_words(status: CheckStatus) -> tuple[State, str]:
 
 @dataclass(frozen=True, slots=True)
 class CardProgress:
-    """How far a check is: ``pixel`` of the discs (6, 2), None while they are not all seen; how many ``blue`` discs are;
-    ``seconds`` of steady pictures; ``moved``: the card lies elsewhere and all began again."""
+    """How far a check is: ``disc_px`` of the discs (6, 2), None while they are not all seen; how many ``disc_count``
+    discs are;
+    ``seconds`` of steady pictures; ``has_moved``: the card lies elsewhere and all began again."""
 
-    pixel: FloatArray | None
-    blue: int
+    disc_px: FloatArray | None
+    disc_count: int
     seconds: float
-    moved: bool = False
+    has_moved: bool = False
 
 
-def card_hint(now: CardProgress | None) -> str:
+def card_hint(progress: CardProgress | None) -> str:
     """What to do with the card."""
-    if now is None or (now.pixel is None and now.blue == 0):
+    if progress is None or (progress.disc_px is None and progress.disc_count == 0):
         return tr("Lay the card flat under the camera, all of it in the picture, about 60 cm away.")
-    if now.moved:
+    if progress.has_moved:
         return tr("The card has moved: the seconds begin again.")
-    if now.pixel is None:
+    if progress.disc_px is None:
         return tr("{count} of 6 discs seen: all of the card in the picture, even light, its wedge upright.").format(
-            count=min(now.blue, 6)
+            count=min(progress.disc_count, 6)
         )
     return tr("All six discs are seen. Leave it lying.")

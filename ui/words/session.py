@@ -6,135 +6,141 @@ import math
 from collections.abc import Sequence
 from datetime import datetime
 
-from carpus.core.hand.exercises import SIDES, STILL_NAMES, STILL_RADIUS_MM
-from carpus.core.measures.by_hand import HandValue
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measure import Measure, is_total
-from carpus.core.results.progress import Comparison, compare
-from carpus.core.rounding import written
+from carpus.core.hand.exercises import DIRECTIONS, STILL_NAMES, STILL_RADIUS_MM
+from carpus.core.measures.by_hand import ManualValue
+from carpus.core.results.figures import SessionResults
+from carpus.core.results.measure import Measure, is_total_active_motion
+from carpus.core.results.progress import Comparison, compare_ranges
+from carpus.core.rounding import format_rounded
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words
-from carpus.ui.figures import Figure
+from carpus.ui.figures import FingerAngle
 from carpus.ui.marker_words import finger_name
-from carpus.ui.translate import inside, say, tr
-from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
+from carpus.ui.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.verdicts import duplicate_result_words, error_limit_words, reason_words
 from carpus.ui.words.fingers import (
-    AT_LEAST,
-    compared_figures,
-    find_compared_ranges,
-    name_compared_joints,
+    LOWER_BOUND,
+    find_main_ranges,
+    is_joint_exercise,
+    is_thumb_exercise,
+    main_angles,
+    main_kind_name,
     range_words,
-    trains_joints,
-    trains_thumb,
 )
-from carpus.ui.words.further import main_words
-from carpus.ui.words.ranges import is_deficit, prints_spread, speed_words
+from carpus.ui.words.further import task_summary
+from carpus.ui.words.ranges import has_sd, is_deficit, speed_words
 
 
-def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
+def wrist_summary(results: SessionResults, previous: SessionResults | None, first: SessionResults | None) -> str:
     """Today's figures, then what may be said of change."""
-    free = figures.exercise.angle is None
-    rows = [row for row in figures.wrist_ranges if row.what == "arc" or not free][:3]
+    free = results.exercise.angle is None
+    rows = [row for row in results.wrist_ranges if row.quantity == "arc" or not free][:3]
     today = ", ".join(
-        f"{inside(terms.deficit_name(row.what))} {numbers.degrees(-row.mean)}"
+        f"{to_mid_sentence(terms.deficit_name(row.quantity))} {numbers.format_degrees(-row.mean)}"
         if is_deficit(row)
-        else f"{_name(row, figures)} {terms.end_words(row.mean, row.what)}"
+        else f"{_range_name(row, results)} {terms.end_words(row.mean, row.quantity)}"
         for row in rows
     )
     if not today:
-        return tr("No range could be measured.") if not figures.has_passive else tr("No active range was measured.")
+        return tr("No range could be measured.") if not results.has_passive else tr("No active range was measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
-    return " ".join([*parts, *since_sessions(figures, previous, first)])
+    return " ".join([*parts, *change_sentences(results, previous, first)])
 
 
-def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
+def hand_summary(results: SessionResults, previous: SessionResults | None, first: SessionResults | None) -> str:
     """Today's value of every finger, then what may be said of change; of reaches what they were like."""
-    main = main_words(figures)
-    if main and not trains_joints(figures):
+    main = task_summary(results)
+    if main and not is_joint_exercise(results):
         return f"{main}."
-    shown, what = compared_figures(figures), name_compared_joints(figures)
-    if trains_thumb(figures):
-        shown = tuple(Figure(1, row) for row in ("middle", "spread", "knuckle", "end"))
+    shown, what = main_angles(results), main_kind_name(results)
+    if is_thumb_exercise(results):
+        shown = tuple(FingerAngle(1, row) for row in ("middle", "spread", "knuckle", "end"))
     today, bounds = [], 0
     for figure in shown:
-        row = figures.find(figure.joint, "arc")
-        words = range_words(row, spread=False) if row is not None and row.count else tr("not seen")
-        name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
-        today.append(f"{inside(name)} {words}")
-        bounds += bool(row is not None and row.count and row.at_least)
+        row = results.find(figure.joint, "arc")
+        words = range_words(row, has_sd=False) if row is not None and row.count else tr("not seen")
+        name = figure.kind_name if is_thumb_exercise(results) else finger_name(str(figure.finger))
+        today.append(f"{to_mid_sentence(name)} {words}")
+        bounds += bool(row is not None and row.count and row.is_lower_bound)
     parts = [f"{main}."] if main else []
     parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
     if bounds:
-        parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
-    return " ".join([*parts, *since_sessions(figures, previous, first)])
+        parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=LOWER_BOUND))
+    return " ".join([*parts, *change_sentences(results, previous, first)])
 
 
-def since_sessions(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> list[str]:
+def change_sentences(
+    results: SessionResults, previous: SessionResults | None, first: SessionResults | None
+) -> list[str]:
     """What may be said of change since last time, and since the first session where that is another one."""
     found = []
     if previous is not None:
-        found.append(since_words(figures, previous, numbers.day_beside(previous.when, figures.when)))
+        found.append(change_sentence(results, previous, numbers.format_distinct_day(previous.when, results.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
-        day = numbers.day_beside(first.when, figures.when)
-        found.append(since_words(figures, first, tr("the first session on {day}").format(day=day)))
+        day = numbers.format_distinct_day(first.when, results.when)
+        found.append(change_sentence(results, first, tr("the first session on {day}").format(day=day)))
     return [words for words in found if words]
 
 
-def since_words(figures: SessionFigures, before: SessionFigures, when: str) -> str:
+def change_sentence(results: SessionResults, earlier: SessionResults, since: str) -> str:
     """What may be said of change since a session, of the error once where it is the same; empty without anything to
     compare."""
-    changes = compare(before, figures, find_compared_ranges(figures))
+    changes = compare_ranges(earlier, results, find_main_ranges(results))
     judged = [item for item in changes if item.verdict != "not_judged"]
     if not judged:
         why = reason_words([reason for item in changes for reason in item.reasons])
-        return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
-    beyond = [item for item in judged if item.is_beyond]
-    said = tr("No change proven since {when}.").format(when=when)
+        return tr("Change since {when} is not judged: {why}.").format(when=since, why=why) if changes else ""
+    beyond = [item for item in judged if item.is_beyond_error]
+    said = tr("No change proven since {when}.").format(when=since)
     if beyond:
-        limits = [numbers.degrees(item.limit_deg) for item in beyond]
+        limits = [numbers.format_degrees(item.limit_deg) for item in beyond]
         once = len(set(limits)) == 1
         words = ", ".join(
             _describe_change(item, "" if once else limit) for item, limit in zip(beyond, limits, strict=True)
         )
         pattern = tr("Since {when}: {changes} (error {limit}).") if once else tr("Since {when}: {changes}.")
-        said = pattern.format(when=when, changes=words, limit=limits[0])
-    hidden = bool(figures.joint_ranges) and len(judged) < len(changes)
+        said = pattern.format(when=since, changes=words, limit=limits[0])
+    hidden = bool(results.joint_ranges) and len(judged) < len(changes)
     return f"{said} {tr('What was hidden in part is not judged.')}" if hidden else said
 
 
 def _describe_change(item: Comparison, limit: str) -> str:
     """``whole arc 34° better (error 14°)``, ``index at least 20° better``."""
     of, what = item.key
-    name = inside(finger_name(of[3:4]) if item.is_of_joint else terms.movement_long_name(what))
-    size = numbers.degrees(item.shown_difference_deg)
-    size = tr("at least {size}").format(size=size) if item.at_least else size
+    name = to_mid_sentence(finger_name(of[3:4]) if item.is_joint else terms.movement_long_name(what))
+    size = numbers.format_degrees(item.display_difference_deg)
+    size = tr("at least {size}").format(size=size) if item.is_lower_bound else size
     pattern = tr("{name} {size} better") if item.verdict == "improved" else tr("{name} {size} less")
-    words = pattern.format(name=tr("whole arc") if what == "arc" and not item.is_of_joint else name, size=size)
+    words = pattern.format(name=tr("whole arc") if what == "arc" and not item.is_joint else name, size=size)
     return f"{words} {tr('(error {limit})').format(limit=limit)}" if limit else words
 
 
-def _name(row: Measure, figures: SessionFigures) -> str:
-    if row.what == "arc":
-        return tr("whole arc") if figures.exercise.angle is not None else inside(terms.arc_name(row.angle))
-    return inside(terms.movement_long_name(row.what))
+def _range_name(row: Measure, results: SessionResults) -> str:
+    if row.quantity == "arc":
+        return (
+            tr("whole arc") if results.exercise.angle is not None else to_mid_sentence(terms.arc_name(row.wrist_angle))
+        )
+    return to_mid_sentence(terms.movement_long_name(row.quantity))
 
 
-def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Sequence[HandValue] = ()) -> str:
+def method_words(
+    results: SessionResults, markers: int, *, compared: bool, manual_values: Sequence[ManualValue] = ()
+) -> str:
     """How it was measured, in three lines; ``compared``: the page speaks of measurement error, which is explained."""
-    quality = figures.quality
+    quality = results.quality
     distance = (
-        f"{written(100 * quality.distance_m)}{numbers.NARROW_GAP}cm"
+        f"{format_rounded(100 * quality.distance_m)}{numbers.NARROW_GAP}cm"
         if math.isfinite(quality.distance_m)
         else numbers.UNKNOWN
     )
-    given = terms.start_angle_words(figures.start_angles_deg * math.pi / 180.0)
+    given = terms.start_angle_words(results.start_angles_deg * math.pi / 180.0)
     zero = tr("zero is the neutral hand")
     order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
-    if figures.angle_order == "isb":
+    if results.angle_order == "isb":
         order = tr("Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.")
-    if figures.joint_ranges:
+    if results.joint_ranges:
         order = tr("Fingers: zero is straight, below it bent back. Wrist: {zero}.")
-    if any(is_total(row.of) for row in figures.joint_ranges):
+    if any(is_total_active_motion(row.subject) for row in results.joint_ranges):
         order = tr(
             "Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. "
             "Wrist: {zero}."
@@ -146,43 +152,43 @@ def method(figures: SessionFigures, markers: int, *, compared: bool, by_hand: Se
             markers=markers, distance=distance
         ),
         order.format(zero=zero),
-        zero_words(figures, by_hand),
+        zero_words(results, manual_values),
         tr("The wrist’s angles are in the order of the ISB.")
-        if figures.joint_ranges and figures.angle_order == "isb"
+        if results.joint_ranges and results.angle_order == "isb"
         else "",
-        camera_words(figures),
-        _sd_words(figures).format(sd=numbers.spread(quality.angle_sd_deg))
+        camera_words(results),
+        _sd_words(results).format(sd=numbers.format_sd(quality.angle_sd_deg))
         if math.isfinite(quality.angle_sd_deg)
         else "",
-        limit_words(figures.study) if compared else "",
-        counted_once_words(figures.earlier_results),
+        error_limit_words(results.study) if compared else "",
+        duplicate_result_words(results.earlier_results),
         tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
     ]
     return " ".join(filter(None, sentences))
 
 
-def zero_words(figures: SessionFigures, by_hand: Sequence[HandValue] = ()) -> str:
+def zero_words(results: SessionResults, manual_values: Sequence[ManualValue] = ()) -> str:
     """Where pronation and supination are counted from, where there are any, measured or entered by hand."""
-    named = {row.what for row in figures.wrist_ranges} | {one.measure.lower() for one in by_hand}
+    named = {row.quantity for row in results.wrist_ranges} | {one.measure.lower() for one in manual_values}
     return terms.thumb_up_words() if named & set(terms.FOREARM) else ""
 
 
-def camera_words(figures: SessionFigures) -> str:
+def camera_words(results: SessionResults) -> str:
     """Which calibration of the camera was used, and how old it was; empty where nobody knows which camera it was."""
-    camera = figures.camera
+    camera = results.camera
     if not camera.serial:
         return ""
-    if not camera.calibrated:
+    if not camera.calibrated_at:
         return tr("Camera not calibrated with a board.")
-    day = numbers.day_of_year(datetime.fromisoformat(camera.calibrated))
+    day = numbers.format_date(datetime.fromisoformat(camera.calibrated_at))
     if not math.isfinite(camera.age_days):
         return tr("Camera calibrated {day}.").format(day=day)
     return tr("Camera calibrated {day}, {days} days before.").format(day=day, days=int(camera.age_days))
 
 
-def _sd_words(figures: SessionFigures) -> str:
+def _sd_words(results: SessionResults) -> str:
     """Whose standard deviation stands behind the ±: of the repetitions, or of the tracker where there are too few."""
-    spreads = {prints_spread(row) for row in figures.group("range") if row.count and not row.at_least}
+    spreads = {has_sd(row) for row in results.measures_in_group("range") if row.count and not row.is_lower_bound}
     if spreads == {True}:
         return tr("± is the spread between repetitions; each angle itself is known to about {sd} where seen.")
     if spreads == {True, False}:
@@ -193,30 +199,30 @@ def _sd_words(figures: SessionFigures) -> str:
     return tr("± is the tracker’s own sd of one value: there was no spread to give; each angle is known to about {sd}.")
 
 
-def warnings(figures: SessionFigures) -> list[str]:
+def warning_lines(results: SessionResults) -> list[str]:
     """What must be read before any figure: that it is simulated, doubtful, cut short, is not to count, is an older
     result, or was measured with a camera that was out."""
     lines = []
-    if figures.simulated:
+    if results.is_simulated:
         lines.append(tr("Simulated hand: nobody’s movement was measured."))
-    if figures.findings:
-        said = " ".join(finding_words(finding).happened for finding in figures.findings)
+    if results.findings:
+        said = " ".join(finding_words(finding).summary for finding in results.findings)
         lines.append(tr("Measured although doubtful: {findings}").format(findings=said))
-    if figures.not_counted:
+    if results.is_excluded:
         lines.append(tr("This session is marked as not counting."))
-    if figures.older:
+    if results.is_superseded:
         lines.append(tr("An older result: there is a newer one of the same recording."))
-    if figures.recovered:
+    if results.is_recovered:
         lines.append(tr("This recording was cut short and recovered."))
     return lines
 
 
-def target_words(figures: SessionFigures) -> str:
+def target_words(results: SessionResults) -> str:
     """``Flexion 40°, Extension 35°``; empty without targets."""
-    angle = figures.exercise.angle
+    angle = results.exercise.angle
     if angle is None:
         return ""
-    named = zip(SIDES[angle], figures.targets_deg, (1.0, -1.0), strict=True)
+    named = zip(DIRECTIONS[angle], results.targets_deg, (1.0, -1.0), strict=True)
     return ", ".join(
         f"{terms.movement_name(movement)} {terms.end_words(direction * value, movement)}"
         for movement, value, direction in named
@@ -224,80 +230,83 @@ def target_words(figures: SessionFigures) -> str:
     )
 
 
-def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
+def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
     """Name, value, and whether it is as it should be."""
-    quality = figures.quality
-    measured = f"{numbers.fixed(100 * quality.measured_share, 1)}{numbers.NARROW_GAP}%"
+    quality = results.quality
+    measured = f"{numbers.format_fixed(100 * quality.measured_share, 1)}{numbers.NARROW_GAP}%"
     missed = tr("{share} of {frames}; {dropped} missed").format(
-        share=measured, frames=f"{quality.frames:,}".replace(",", numbers.NARROW_GAP), dropped=quality.dropped
+        share=measured, frames=f"{quality.frames:,}".replace(",", numbers.NARROW_GAP), dropped=quality.dropped_frames
     )
     pattern = tr("{share} % of the time")
-    if figures.joint_ranges and figures.counted:
+    if results.joint_ranges and results.repetition_count:
         pattern = tr("{share} % of the repetitions")
-    hidden = pattern.format(share=numbers.fixed(100 * quality.hidden_share, 1))
+    hidden = pattern.format(share=numbers.format_fixed(100 * quality.hidden_share, 1))
     lines = [
         (tr("Pictures measured"), missed, quality.measured_share > 0.9),
         (tr("Markers hidden"), hidden, quality.hidden_share < 0.1),
     ]
-    arcs = [row for row in figures.joint_ranges if row.what == "arc"]
+    arcs = [row for row in results.joint_ranges if row.quantity == "arc"]
     if arcs:
-        bounds = sum(row.at_least or not row.count for row in arcs)
+        bounds = sum(row.is_lower_bound or not row.count for row in arcs)
         words = tr("{count} of {all} figures").format(count=bounds, all=len(arcs)) if bounds else tr("none")
         lines.append((tr("At least (≥) or not seen"), words, not bounds))
-    if figures.exercise.pure_wrist and math.isfinite(quality.forearm_mm):
+    if results.exercise.is_forearm_fixed and math.isfinite(quality.forearm_movement_mm):
         words = tr("{distance} (limit {limit})").format(
-            distance=numbers.millimetres(quality.forearm_mm), limit=numbers.millimetres(STILL_RADIUS_MM)
+            distance=numbers.format_millimetres(quality.forearm_movement_mm),
+            limit=numbers.format_millimetres(STILL_RADIUS_MM),
         )
-        lines.append((tr("Forearm moved"), words, not quality.forearm_moved))
+        lines.append((tr("Forearm moved"), words, not quality.has_forearm_moved))
         if math.isfinite(quality.centre_residual_mm):
             words = tr("{depth} under its disc (scatter {residual})").format(
-                depth=numbers.millimetres(-quality.centre_mm[2]),
-                residual=f"{numbers.fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
+                depth=numbers.format_millimetres(-quality.centre_mm[2]),
+                residual=f"{numbers.format_fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
             )
             lines.append((tr("Point the wrist turns about"), words, True))
-    limit = figures.exercise.trick_limit_deg
-    for row in figures.group("still"):
+    limit = results.exercise.trick_limit_deg
+    for row in results.measures_in_group("still"):
         words = tr("{angle} at most (limit {limit})")
-        words = words.format(angle=numbers.degrees(row.mean), limit=numbers.degrees(limit))
-        lines.append((say(STILL_NAMES[row.angle]), words, row.mean <= limit))
-    if warnings(figures):
+        words = words.format(angle=numbers.format_degrees(row.mean), limit=numbers.format_degrees(limit))
+        lines.append((translate_phrase(STILL_NAMES[row.wrist_angle]), words, row.mean <= limit))
+    if warning_lines(results):
         lines.append((tr("Warning"), tr("at the top of the page"), False))
     return lines
 
 
-def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
+def speed_pain_lines(results: SessionResults) -> list[tuple[str, str]]:
     """Speed, smoothness, pain."""
-    speed, smooth = figures.speed("peak speed"), figures.speed("smoothness")
-    pauses, pause_time = figures.speed("pauses"), figures.speed("pause time")
+    speed, smooth = results.speed_measure("peak speed"), results.speed_measure("smoothness")
+    pauses, pause_time = results.speed_measure("pauses"), results.speed_measure("pause time")
     lines = []
-    if speed is not None and (speed.count or speed.unknown):
+    if speed is not None and (speed.count or speed.unknown_reason):
         lines.append((tr("Peak speed, mean ± sd"), speed_words(speed)))
-    if smooth is not None and smooth.unknown:
+    if smooth is not None and smooth.unknown_reason:
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to judge")))
     if smooth is not None and smooth.count:
         spread = (
-            f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{numbers.fixed(smooth.sd, 1)}"
+            f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{numbers.format_fixed(smooth.sd, 1)}"
             if math.isfinite(smooth.sd)
             else ""
         )
-        value = numbers.fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
+        value = numbers.format_fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
     if pauses is not None and pause_time is not None and pauses.count:
         words = tr("{count} per stroke, {seconds} s in all") if pauses.mean else tr("none")
-        count, seconds = numbers.fixed(pauses.mean, 1), numbers.fixed(pause_time.mean, 1)
+        count, seconds = numbers.format_fixed(pauses.mean, 1), numbers.format_fixed(pause_time.mean, 1)
         lines.append((tr("Stops on the way, mean"), words.format(count=count, seconds=seconds)))
-    if targets := target_words(figures):
+    if targets := target_words(results):
         lines.append((tr("Target"), targets))
-    if len(figures.pain) > 1:
-        lines.append((tr("Pain first / last (0–10)"), f"{figures.pain[0]} / {figures.pain[-1]}"))
+    if len(results.pain_scores) > 1:
+        lines.append((tr("Pain first / last (0–10)"), f"{results.pain_scores[0]} / {results.pain_scores[-1]}"))
     else:
-        lines.append((tr("Pain (0–10)"), _single_pain(figures)))
+        lines.append((tr("Pain (0–10)"), _single_pain(results)))
     return lines
 
 
-def _single_pain(figures: SessionFigures) -> str:
+def _single_pain(results: SessionResults) -> str:
     """``3 at 01:14``."""
-    if not figures.pain:
+    if not results.pain_scores:
         return tr("not asked")
-    said, when = figures.pain[0], (*figures.pain_s, math.nan)[0]
-    return tr("{pain} at {time}").format(pain=said, time=numbers.clock(when)) if math.isfinite(when) else str(said)
+    said, when = results.pain_scores[0], (*results.pain_times_s, math.nan)[0]
+    return (
+        tr("{pain} at {time}").format(pain=said, time=numbers.format_clock(when)) if math.isfinite(when) else str(said)
+    )

@@ -13,41 +13,43 @@ VERDICT_TOKENS = {"improved": "good", "worse": "bad", "warn": "warn"}
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Words with a look of their own, a smaller line ``below`` them, and before them the ``mark`` of their curve or a
-    state's ``sign``."""
+    """Words with a look of their own, a smaller line ``subtext`` them, and before them the ``mark_token`` of their
+    curve or a
+    state's ``state``."""
 
     text: str
     weight: int = REGULAR
     token: str = "text"
-    below: str = ""
-    mark: str = ""
-    sign: State | None = None
+    subtext: str = ""
+    mark_token: str = ""
+    state: State | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class TableColumn:
-    """How the cells of a column look: ``ends`` where they end at its right edge, ``wraps`` where words go on in the
-    next line once they have so many letters as ``least``, ``scale`` of the table's size."""
+    """How the cells of a column look: ``is_right_aligned`` where they end at its right edge, ``is_wrapped`` where
+    words go on in the
+    next line once they have so many letters as ``min_letters``, ``scale`` of the table's size."""
 
     weight: int = REGULAR
     token: str = "text"
-    ends: bool = False
-    wraps: bool = True
-    least: int = 0
+    is_right_aligned: bool = False
+    is_wrapped: bool = True
+    min_letters: int = 0
     scale: float = 1.0
 
 
-TableLine = tuple[str | Cell, ...]
+TableRow = tuple[str | Cell, ...]
 
 
-class TableWords(NamedTuple):
+class TableContent(NamedTuple):
     """All of a table; a column without words has an empty head and is not shown."""
 
     columns: tuple[TableColumn, ...]
-    heads: TableLine
-    rows: tuple[TableLine, ...]
+    heads: TableRow
+    rows: tuple[TableRow, ...]
 
 
-def cell_words(cell: str | Cell) -> str:
+def cell_text(cell: str | Cell) -> str:
     """Return the words of a cell, whatever it looks like."""
     return cell if isinstance(cell, str) else cell.text

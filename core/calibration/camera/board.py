@@ -12,13 +12,21 @@ from typing import Literal
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.sheet import PAPER_MM, Mark, Paper, PrintedSheet, SheetBox, SheetText, ruler
+from carpus.core.calibration.camera.sheet import (
+    PAPER_MM,
+    Paper,
+    PrintedSheet,
+    SheetBox,
+    SheetItem,
+    SheetText,
+    ruler_items,
+)
 from carpus.core.phrase import phrase
 from carpus.core.types import ByteImage, FloatArray
 
 Pattern = Literal["chessboard", "charuco"]
 _DICTIONARY = cv2.aruco.DICT_4X4_50
-EDGE_MM = 12.0
+PAGE_MARGIN_MM = 12.0
 """Nothing is printed nearer to the edge of the paper: many printers leave it white, and hands hold it there."""
 _CODE_CELLS = 6
 """Cells of a code along one side, its black border included."""
@@ -72,10 +80,10 @@ def charuco_board(board: Board) -> cv2.aruco.CharucoBoard:
     return cv2.aruco.CharucoBoard((board.columns, board.rows), board.square_m, board.code_m, codes)
 
 
-def board_sheet(board: Board, paper: Paper) -> PrintedSheet:
+def create_board_sheet(board: Board, paper: Paper) -> PrintedSheet:
     """The board on a sheet that lies on its side, with a ruler under it."""
     height_mm, width_mm = PAPER_MM[paper]
-    marks = board_marks(board, *_placed(board, width_mm, height_mm))
+    marks = board_items(board, *_board_corner_mm(board, width_mm, height_mm))
     square = f"{board.square_m * 1e3:g} mm"
     said = SheetText(
         phrase(
@@ -84,18 +92,18 @@ def board_sheet(board: Board, paper: Paper) -> PrintedSheet:
             square=square,
         ),
         25.0,
-        height_mm - EDGE_MM - 0.8,
+        height_mm - PAGE_MARGIN_MM - 0.8,
         8.0,
     )
-    return PrintedSheet(width_mm, height_mm, (*marks, *ruler(25.0, height_mm - EDGE_MM - 8.5), said))
+    return PrintedSheet(width_mm, height_mm, (*marks, *ruler_items(25.0, height_mm - PAGE_MARGIN_MM - 8.5), said))
 
 
-def _placed(board: Board, width_mm: float, height_mm: float) -> tuple[float, float]:
+def _board_corner_mm(board: Board, width_mm: float, height_mm: float) -> tuple[float, float]:
     left = 0.5 * (width_mm - board.columns * board.square_m * 1e3)
-    return left, EDGE_MM + 0.3 * (height_mm - PAPER_MM["a4"][0])
+    return left, PAGE_MARGIN_MM + 0.3 * (height_mm - PAPER_MM["a4"][0])
 
 
-def board_marks(board: Board, left_mm: float, top_mm: float) -> tuple[Mark, ...]:
+def board_items(board: Board, left_mm: float, top_mm: float) -> tuple[SheetItem, ...]:
     """Black squares, and the codes in the white ones, with the first square's corner at a place."""
     side = board.square_m * 1e3
     black = [
@@ -104,10 +112,10 @@ def board_marks(board: Board, left_mm: float, top_mm: float) -> tuple[Mark, ...]
         for column in range(board.columns)
         if (row + column) % 2 == 0
     ]
-    return (*black, *_codes(board, left_mm, top_mm)) if board.pattern == "charuco" else tuple(black)
+    return (*black, *_code_boxes(board, left_mm, top_mm)) if board.pattern == "charuco" else tuple(black)
 
 
-def _codes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
+def _code_boxes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
     described = charuco_board(board)
     codes = described.getDictionary()
     out = []
@@ -123,34 +131,34 @@ def _codes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
     return out
 
 
-LEAST_CORNERS = 8
+MIN_CORNERS = 8
 """Of a ChArUco board that is partly out of the picture."""
 _CODE_WINDOW_PX = 3
 """Half the window of the fine search beside codes: a larger one would reach them."""
-_SHARPEST_SHARE = 0.35
+_MAX_WINDOW_SHARE = 0.35
 """Half the window of the fine search over the distance between corners: more would reach the next corner."""
 
 
 @dataclass(frozen=True, slots=True)
-class FoundBoard:
-    """``corner`` (K,) numbers of the board's corners and ``pixel`` (K, 2) where they are."""
+class DetectedBoard:
+    """``corner_ids`` (K,) numbers of the board's corners and ``pixel`` (K, 2) where they are."""
 
     board: Board
-    corner: np.ndarray
+    corner_ids: np.ndarray
     pixel: FloatArray
 
 
-def find_board(color_rgb: ByteImage, boards: Sequence[Board]) -> FoundBoard | None:
+def find_board(color_rgb: ByteImage, boards: Sequence[Board]) -> DetectedBoard | None:
     """The first of ``boards`` that is seen, None where none is."""
     gray = np.asarray(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2GRAY), dtype=np.uint8)
     for board in boards:
-        found = _charuco(gray, board) if board.pattern == "charuco" else _chessboard(gray, board)
+        found = _find_charuco(gray, board) if board.pattern == "charuco" else _find_chessboard(gray, board)
         if found is not None:
             return found
     return None
 
 
-def _chessboard(gray: ByteImage, board: Board) -> FoundBoard | None:
+def _find_chessboard(gray: ByteImage, board: Board) -> DetectedBoard | None:
     size = (board.columns - 1, board.rows - 1)
     flags = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
     there, pixel = cv2.findChessboardCorners(gray, size, flags=flags)
@@ -158,44 +166,44 @@ def _chessboard(gray: ByteImage, board: Board) -> FoundBoard | None:
         return None
     grid = np.asarray(pixel, dtype=np.float32).reshape(size[1], size[0], 2)
     steps = (np.linalg.norm(np.diff(grid, axis=axis), axis=-1).min() for axis in (0, 1))
-    half = int(np.clip(_SHARPEST_SHARE * min(steps), 2, 7))
-    return FoundBoard(board, np.arange(board.corner_count), _fine(gray, grid.reshape(-1, 1, 2), half))
+    half = int(np.clip(_MAX_WINDOW_SHARE * min(steps), 2, 7))
+    return DetectedBoard(board, np.arange(board.corner_count), _refine_corners(gray, grid.reshape(-1, 1, 2), half))
 
 
-def _fine(gray: ByteImage, rough: np.ndarray, half_px: int) -> FloatArray:
+def _refine_corners(gray: ByteImage, rough: np.ndarray, half_px: int) -> FloatArray:
     """Corners (K, 2) to a fraction of a pixel."""
     criteria = (cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_MAX_ITER, 40, 1e-3)
     fine = cv2.cornerSubPix(gray, rough, (half_px, half_px), (-1, -1), criteria)
     return np.asarray(fine, dtype=np.float64).reshape(-1, 2)
 
 
-def _charuco(gray: ByteImage, board: Board) -> FoundBoard | None:
+def _find_charuco(gray: ByteImage, board: Board) -> DetectedBoard | None:
     # A cell of a code has three or four pixels: twice enlarged, twice as many codes are read.
     large = cv2.resize(gray, None, fx=2, fy=2, interpolation=cv2.INTER_LANCZOS4)
-    pixel, corner, _, _ = _detector(board).detectBoard(large)
-    if corner is None or len(corner) < LEAST_CORNERS:  # type: ignore[redundant-expr]  # OpenCV gives None
+    pixel, corner, _, _ = _charuco_detector(board).detectBoard(large)
+    if corner is None or len(corner) < MIN_CORNERS:  # type: ignore[redundant-expr]  # OpenCV gives None
         return None
     numbers = np.asarray(corner).ravel().astype(np.int64)
     rough = (np.asarray(pixel, dtype=np.float32).reshape(-1, 1, 2) + 0.5) / 2.0 - 0.5
-    return FoundBoard(board, numbers, _fine(gray, rough.astype(np.float32), _CODE_WINDOW_PX))
+    return DetectedBoard(board, numbers, _refine_corners(gray, rough.astype(np.float32), _CODE_WINDOW_PX))
 
 
 @cache
-def _detector(board: Board) -> cv2.aruco.CharucoDetector:
+def _charuco_detector(board: Board) -> cv2.aruco.CharucoDetector:
     parameters = cv2.aruco.DetectorParameters()
     parameters.perspectiveRemovePixelPerCell = 8
     parameters.perspectiveRemoveIgnoredMarginPerCell = 0.33  # blurred cells speak in their middle
     return cv2.aruco.CharucoDetector(charuco_board(board), cv2.aruco.CharucoParameters(), parameters)
 
 
-MOST_EDGE_PX = 5.0
+MAX_EDGE_WIDTH_PX = 5.0
 """An edge of a moving or blurred board is wider; in good light and at rest it is about 3.5 wide."""
-_REACH_SHARE, _REACH_PX = 0.3, (2, 6)
+_EDGE_WINDOW_SHARE, _EDGE_WINDOW_PX = 0.3, (2, 6)
 """Half the window about the middle of an edge, over the distance between corners."""
-_LEAST_CONTRAST = 20.0
+_MIN_CONTRAST = 20.0
 
 
-def edge_px(color_rgb: ByteImage, found: FoundBoard) -> float:
+def edge_width_px(color_rgb: ByteImage, detected: DetectedBoard) -> float:
     """Width of the edges between black and white, the contrast over its steepest rise; NaN where none can be told.
 
     Half-way between two neighbouring corners there is an edge and nothing else.
@@ -203,29 +211,29 @@ def edge_px(color_rgb: ByteImage, found: FoundBoard) -> float:
     gray = np.asarray(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2GRAY), dtype=np.float32)
     smooth = cv2.GaussianBlur(gray, (3, 3), 0.0)
     steep = np.hypot(cv2.Sobel(smooth, cv2.CV_32F, 1, 0, scale=0.125), cv2.Sobel(smooth, cv2.CV_32F, 0, 1, scale=0.125))
-    widths = [_width(smooth, steep, *_middles(found, along)) for along in ("row", "column")]
+    widths = [_median_edge_width_px(smooth, steep, *_edge_midpoints(detected, along)) for along in ("row", "column")]
     return max(widths) if not any(map(math.isnan, widths)) else math.nan
 
 
-def _width(smooth: np.ndarray, steep: np.ndarray, middles: FloatArray, steps: FloatArray) -> float:
+def _median_edge_width_px(smooth: np.ndarray, gradient: np.ndarray, midpoints: FloatArray, steps: FloatArray) -> float:
     """Median width of the edges at these places of a picture."""
     widths = []
-    for (u, v), step in zip(middles, steps, strict=True):
-        half = int(np.clip(_REACH_SHARE * step, *_REACH_PX))
+    for (u, v), step in zip(midpoints, steps, strict=True):
+        half = int(np.clip(_EDGE_WINDOW_SHARE * step, *_EDGE_WINDOW_PX))
         box = (slice(round(v) - half, round(v) + half + 1), slice(round(u) - half, round(u) + half + 1))
         if min(box[0].start, box[1].start) < 0 or smooth[box].shape != (2 * half + 1, 2 * half + 1):
             continue
         contrast = float(np.ptp(smooth[box]))
-        if contrast >= _LEAST_CONTRAST:
-            widths.append(contrast / max(float(steep[box].max()), 1e-6))
+        if contrast >= _MIN_CONTRAST:
+            widths.append(contrast / max(float(gradient[box].max()), 1e-6))
     return float(np.median(widths)) if widths else math.nan
 
 
-def _middles(found: FoundBoard, along: Literal["row", "column"]) -> tuple[FloatArray, FloatArray]:
+def _edge_midpoints(detected: DetectedBoard, along: Literal["row", "column"]) -> tuple[FloatArray, FloatArray]:
     """Middles (E, 2) between neighbouring corners of a row or a column, and how far these are apart (E,): a blur to
     the side shows on edges that stand upright alone."""
-    across = found.board.columns - 1
-    place = {int(corner): pixel for corner, pixel in zip(found.corner, found.pixel, strict=True)}
+    across = detected.board.columns - 1
+    place = {int(corner): pixel for corner, pixel in zip(detected.corner_ids, detected.pixel, strict=True)}
     step = 1 if along == "row" else across
     pairs = [
         (place[corner], place[corner + step])

@@ -15,49 +15,50 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.views import NEAR_FAR_RATIO, BoardView, Judgement, board_of, judge
+from carpus.core.calibration.camera.views import MIN_DISTANCE_RATIO, BoardView, ViewCoverage, assess_views, common_board
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
+from carpus.core.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar
 from carpus.core.phrase import phrase
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 from carpus.core.types import FloatArray
 
-MOST_APART_PX = 2.0
+MAX_REGISTRATION_ERROR_PX = 2.0
 """Colour and depth further apart than this: depths are read beside the markers."""
-FEWEST_VIEWS = 6
-SURE_SD = 2.0
+MIN_DEPTH_VIEWS = 6
+MIN_OFFSET_SDS = 2.0
 """A shift smaller than this many standard deviations is none."""
 _STEP_PX = 4
-_EDGE_PX = 6
+_BOARD_MARGIN_PX = 6
 """Left out along the board's edge: a depth window there holds two surfaces."""
-_LEAST_READINGS = 200
-_ROUNDS, _TRIM_SD = 3, 3.5
-_FURTHEST = 0.2
+_MIN_READINGS = 200
+_ITERATIONS, _TRIM_SDS = 3, 3.5
+_MAX_DEPTH_ERROR_SHARE = 0.2
 """Share of the distance: readings further off are not of the board."""
 
 
 @dataclass(frozen=True, slots=True)
 class DepthCheck:
     """``scale`` and ``offset_m`` of measured against true depth, with standard deviations; the offset is 0 and its
-    standard deviation NaN where no shift beside the scale is sure. ``apart_px`` (2,) how far depth lies
-    beside the colours, with ``apart_sd_px``; ``flat_m`` scatter of the board's readings about its plane."""
+    standard deviation NaN where no shift beside the scale is sure. ``registration_error_px`` (2,) how far depth lies
+    beside the colours, with ``registration_sd_px``; ``plane_scatter_m`` scatter of the board's readings about its
+    plane."""
 
     scale: float
     scale_sd: float
     offset_m: float
     offset_sd_m: float
-    apart_px: FloatArray
-    apart_sd_px: float
-    flat_m: float
-    views: int
+    registration_error_px: FloatArray
+    registration_sd_px: float
+    plane_scatter_m: float
+    view_count: int
 
     @property
     def is_registered(self) -> bool:
         """Whether depth lies on colour well enough to be read under a marker."""
-        return float(np.linalg.norm(self.apart_px)) <= MOST_APART_PX
+        return float(np.linalg.norm(self.registration_error_px)) <= MAX_REGISTRATION_ERROR_PX
 
-    def in_words(self) -> str:
+    def sentence(self) -> str:
         """One sentence for people.
 
         >>> DepthCheck(0.996, 0.001, 0.0, float("nan"), np.zeros(2), 0.1, 0.001, 20).in_words()
@@ -66,28 +67,30 @@ class DepthCheck:
         share = 100.0 * (self.scale - 1.0)
         if abs(share) < 0.05 and abs(self.offset_m) < 0.5e-3:
             return "Depth reads right."
-        shift = f" and {written(abs(self.offset_m) * 1e3, 1)} mm too {'long' if self.offset_m > 0 else 'short'}"
+        shift = f" and {format_rounded(abs(self.offset_m) * 1e3, 1)} mm too {'long' if self.offset_m > 0 else 'short'}"
         shift = shift if math.isfinite(self.offset_sd_m) else ""
-        return f"Depth reads {written(abs(share), 1)} % too {'long' if share > 0 else 'short'}{shift}."
+        return f"Depth reads {format_rounded(abs(share), 1)} % too {'long' if share > 0 else 'short'}{shift}."
 
 
 def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
     """Depth against the board's plane over all views that count; None where too few have depth."""
     blocks = [
-        _readings(views[k], intrinsics.camera, turn, shift)
-        for k, turn, shift in zip(intrinsics.used, intrinsics.board_turn, intrinsics.board_shift_m, strict=True)
+        _depth_readings(views[k], intrinsics.camera, turn, shift)
+        for k, turn, shift in zip(
+            intrinsics.used_views, intrinsics.board_rotation_vector, intrinsics.board_translation_m, strict=True
+        )
     ]
     known = [block for block in blocks if block is not None]
-    if len(known) < FEWEST_VIEWS:
+    if len(known) < MIN_DEPTH_VIEWS:
         return None
     middle = np.array([np.median(block[:, 1]) for block in known])
-    with_offset = bool(middle.max() >= NEAR_FAR_RATIO * middle.min())
-    values, sd = _with_sd(known, with_offset, sensor)
-    if with_offset and abs(values[3]) < SURE_SD * sd[3]:
+    with_offset = bool(middle.max() >= MIN_DISTANCE_RATIO * middle.min())
+    values, sd = _fit_with_sd(known, with_offset, sensor)
+    if with_offset and abs(values[3]) < MIN_OFFSET_SDS * sd[3]:
         # A shift that is not sure of itself only makes the scale less sure.
-        values, sd = _with_sd(known, False, sensor)
+        values, sd = _fit_with_sd(known, False, sensor)
         with_offset = False
-    scatter = np.concatenate([block[:, 0] - _design(block, with_offset) @ values for block in known])
+    scatter = np.concatenate([block[:, 0] - _design_matrix(block, with_offset) @ values for block in known])
     flat_m = 1.4826 * float(np.median(np.abs(scatter)))
     offset, offset_sd = (float(values[3]), float(sd[3])) if with_offset else (0.0, math.nan)
     apart_sd = float(sd[1:3].max())
@@ -96,49 +99,51 @@ def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: Dept
     return DepthCheck(float(values[0]), scale_sd, offset, offset_sd, values[1:3], apart_sd, flat_m, len(known))
 
 
-def _with_sd(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> tuple[FloatArray, FloatArray]:
+def _fit_with_sd(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> tuple[FloatArray, FloatArray]:
     """The fit and its standard deviations, of what leaving out each view changes: readings of one view agree in what
     is off."""
     count = len(blocks)
-    others = np.array([_robust([*blocks[:k], *blocks[k + 1 :]], with_offset, sensor) for k in range(count)])
+    others = np.array([_fit_robust([*blocks[:k], *blocks[k + 1 :]], with_offset, sensor) for k in range(count)])
     spread = others - others.mean(axis=0)
     sd = np.sqrt((count - 1) / count * np.sum(spread**2, axis=0))
-    return _robust(blocks, with_offset, sensor), np.asarray(sd)
+    return _fit_robust(blocks, with_offset, sensor), np.asarray(sd)
 
 
-def _design(block: FloatArray, with_offset: bool) -> FloatArray:
+def _design_matrix(block: FloatArray, with_offset: bool) -> FloatArray:
     """Columns of the fit: true depth, both slopes, and 1 for an offset."""
     return np.column_stack((block[:, 1:4], np.ones(len(block)))) if with_offset else block[:, 1:4]
 
 
-def _robust(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> FloatArray:
+def _fit_robust(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> FloatArray:
     """Weighted least squares, readings far off left out; each view counts the same."""
-    design = np.concatenate([_design(block, with_offset) for block in blocks])
+    design = np.concatenate([_design_matrix(block, with_offset) for block in blocks])
     measured = np.concatenate([block[:, 0] for block in blocks])
     share = np.concatenate([np.full(len(block), 1.0 / math.sqrt(len(block))) for block in blocks])
     sd = sensor.reading_sd_m(design[:, 0])
     kept = np.ones(len(measured), dtype=bool)
     values: FloatArray = np.zeros(design.shape[1])
-    for _ in range(_ROUNDS):
+    for _ in range(_ITERATIONS):
         weight = (share / sd)[kept]
         found = np.linalg.lstsq(design[kept] * weight[:, None], measured[kept] * weight, rcond=None)[0]
         values = np.asarray(found, dtype=np.float64)
         off = (measured - design @ values) / sd
         spread = 1.4826 * float(np.median(np.abs(off[kept])))
-        kept = np.abs(off) <= _TRIM_SD * max(spread, 1e-9)
+        kept = np.abs(off) <= _TRIM_SDS * max(spread, 1e-9)
     return values
 
 
-def _readings(view: BoardView, camera: Camera, turn: FloatArray, shift_m: FloatArray) -> FloatArray | None:
+def _depth_readings(
+    view: BoardView, camera: Camera, rotation_vector: FloatArray, translation_m: FloatArray
+) -> FloatArray | None:
     """Rows (R, 4) of measured and true depth and the true depth's slope along u and v, inside the board."""
     if view.depth_raw is None:
         return None
-    rotation = np.asarray(cv2.Rodrigues(turn)[0], dtype=np.float64)
-    outline = view.found.board.outline_m @ rotation.T + shift_m
+    rotation = np.asarray(cv2.Rodrigues(rotation_vector)[0], dtype=np.float64)
+    outline = view.detected.board.outline_m @ rotation.T + translation_m
     inside = np.zeros((camera.height_px, camera.width_px), np.uint8)
     corners = camera.distort(camera.project(outline))
     cv2.fillConvexPoly(inside, np.round(corners).astype(np.int32), 1)
-    edge = 2 * _EDGE_PX + 1
+    edge = 2 * _BOARD_MARGIN_PX + 1
     inside = np.asarray(
         cv2.erode(inside, np.ones((edge, edge), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
     )
@@ -147,87 +152,91 @@ def _readings(view: BoardView, camera: Camera, turn: FloatArray, shift_m: FloatA
     measured = view.depth_raw[v, u] * view.depth_unit_m
     pixel = np.stack((u, v), axis=-1).astype(np.float64)
     normal = rotation[:, 2]
-    height = float(normal @ shift_m)
+    height = float(normal @ translation_m)
 
-    def plane_m(at: FloatArray) -> FloatArray:
-        ideal = camera.undistort(at)
-        return np.asarray(height / (camera.back_project(ideal, np.ones(len(at))) @ normal))
+    def plane_distance_m(pixel_at: FloatArray) -> FloatArray:
+        ideal = camera.undistort(pixel_at)
+        return np.asarray(height / (camera.backproject(ideal, np.ones(len(pixel_at))) @ normal))
 
-    true = plane_m(pixel)
-    slopes = [0.5 * (plane_m(pixel + step) - plane_m(pixel - step)) for step in np.eye(2)]
+    true = plane_distance_m(pixel)
+    slopes = [0.5 * (plane_distance_m(pixel + step) - plane_distance_m(pixel - step)) for step in np.eye(2)]
     rows = np.column_stack((measured, true, *slopes))
-    kept = (measured > 0.0) & (np.abs(measured - true) < _FURTHEST * true)
-    return rows[kept] if np.count_nonzero(kept) >= _LEAST_READINGS else None
+    kept = (measured > 0.0) & (np.abs(measured - true) < _MAX_DEPTH_ERROR_SHARE * true)
+    return rows[kept] if np.count_nonzero(kept) >= _MIN_READINGS else None
 
 
-GOOD_PX, FAIR_PX, MOST_PX = 0.3, 0.6, 1.2
+GOOD_ERROR_PX, FAIR_ERROR_PX, MAX_ERROR_PX = 0.3, 0.6, 1.2
 """Root mean square distance of a corner from where the calibration has it."""
-MOST_FOCAL_SD = 0.002
+MAX_FOCAL_SD_SHARE = 0.002
 """Of the focal length: with more the views were too alike, whatever else they were."""
-_OUTLIER = 3.0
-_FEWEST_AFTER = 10
+_OUTLIER_FACTOR = 3.0
+_MIN_VIEWS_KEPT = 10
 
 
 @dataclass(frozen=True, slots=True)
 class Intrinsics:
-    """``camera`` as found; standard deviations of focal lengths and of the middle of the picture; ``error_px`` root
+    """``camera`` as found; standard deviations of focal lengths and of the middle of the picture;
+    ``reprojection_error_px`` root
     mean square over all corners; the pose of the board in each view, as rotation vectors and shifts (V, 3);
-    ``used`` the numbers of the views that count."""
+    ``used_views`` the numbers of the views that count."""
 
     camera: Camera
     focal_sd_px: float
-    middle_sd_px: float
-    error_px: float
-    board_turn: FloatArray
-    board_shift_m: FloatArray
-    used: tuple[int, ...]
+    principal_point_sd_px: float
+    reprojection_error_px: float
+    board_rotation_vector: FloatArray
+    board_translation_m: FloatArray
+    used_views: tuple[int, ...]
 
     @property
-    def error_in_words(self) -> str:
+    def error_text(self) -> str:
         """How good the fit is."""
-        for limit, words in ((GOOD_PX, "good"), (FAIR_PX, "fair")):
-            if self.error_px <= limit:
+        for limit, words in ((GOOD_ERROR_PX, "good"), (FAIR_ERROR_PX, "fair")):
+            if self.reprojection_error_px <= limit:
                 return f"{words}: below {limit:g} px"
-        return f"poor: above {FAIR_PX:g} px"
+        return f"poor: above {FAIR_ERROR_PX:g} px"
 
 
 def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> Intrinsics:
     """Intrinsics and distortion (k1, k2, p1, p2) from the views.
 
-    Raises :class:`BoardMissing` where no board was seen, :class:`BoardViewsAlike` where the views are too few or too
+    Raises :class:`BoardNotVisible` where no board was seen, :class:`BoardViewsTooSimilar` where the views are too few
+    or too
     alike, :class:`BoardUnfit` where the corners are not those of a flat board.
     """
     if not views:
-        raise BoardMissing(subject, phrase("in none of the pictures"))
-    missing = judge(views, width_px, height_px).missing
+        raise BoardNotVisible(subject, phrase("in none of the pictures"))
+    missing = assess_views(views, width_px, height_px).missing_text
     if missing:
-        raise BoardViewsAlike(subject, missing)
-    fit, view_error_px = _fitted(views, range(len(views)), width_px, height_px)
+        raise BoardViewsTooSimilar(subject, missing)
+    fit, view_error_px = _fit_intrinsics(views, range(len(views)), width_px, height_px)
     # A picture that was blurred or bent the board counts no more.
-    kept = np.flatnonzero(view_error_px <= _OUTLIER * float(np.median(view_error_px))).tolist()
-    if _FEWEST_AFTER <= len(kept) < len(views):
-        fit, _ = _fitted(views, kept, width_px, height_px)
-    if fit.error_px > MOST_PX or not math.isfinite(fit.error_px):
+    kept = np.flatnonzero(view_error_px <= _OUTLIER_FACTOR * float(np.median(view_error_px))).tolist()
+    if _MIN_VIEWS_KEPT <= len(kept) < len(views):
+        fit, _ = _fit_intrinsics(views, kept, width_px, height_px)
+    if fit.reprojection_error_px > MAX_ERROR_PX or not math.isfinite(fit.reprojection_error_px):
         raise BoardUnfit(
             subject,
             phrase(
                 "corners lie {error_px} px off, at most {most_px} are fair",
-                error_px=written(fit.error_px, 1),
-                most_px=f"{MOST_PX:g}",
+                error_px=format_rounded(fit.reprojection_error_px, 1),
+                most_px=f"{MAX_ERROR_PX:g}",
             ),
         )
-    if fit.focal_sd_px > MOST_FOCAL_SD * fit.camera.fx_px:
+    if fit.focal_sd_px > MAX_FOCAL_SD_SHARE * fit.camera.fx_px:
         share = 100.0 * fit.focal_sd_px / fit.camera.fx_px
-        raise BoardViewsAlike(subject, phrase("the focal length is known to {share} % only", share=written(share, 1)))
+        raise BoardViewsTooSimilar(
+            subject, phrase("the focal length is known to {share} % only", share=format_rounded(share, 1))
+        )
     return fit
 
 
-def _fitted(
-    views: Sequence[BoardView], used: Sequence[int], width_px: int, height_px: int
+def _fit_intrinsics(
+    views: Sequence[BoardView], used_views: Sequence[int], width_px: int, height_px: int
 ) -> tuple[Intrinsics, FloatArray]:
-    """The intrinsics by the ``used`` views, and the root mean square error (U,) of each of these."""
-    some = [views[k].found for k in used]
-    points = [found.board.corners_m[found.corner].astype(np.float32) for found in some]
+    """The intrinsics by the ``used_views`` views, and the root mean square error (U,) of each of these."""
+    some = [views[k].detected for k in used_views]
+    points = [found.board.corners_m[found.corner_ids].astype(np.float32) for found in some]
     pixels = [found.pixel.astype(np.float32).reshape(-1, 1, 2) for found in some]
     guess = np.array([[width_px * 0.82, 0.0, 0.5 * (width_px - 1)], [0.0, width_px * 0.82, 0.5 * (height_px - 1)],
                       [0.0, 0.0, 1.0]])  # fmt: skip
@@ -244,57 +253,63 @@ def _fitted(
     )  # fmt: skip
     board_turn, board_shift_m = (np.array([np.ravel(one) for one in each]) for each in (turns, shifts))
     focal_sd_px, middle_sd_px = float(max(sd[0], sd[1])), float(max(sd[2], sd[3]))
-    found = Intrinsics(camera, focal_sd_px, middle_sd_px, float(error), board_turn, board_shift_m, tuple(used))
+    found = Intrinsics(camera, focal_sd_px, middle_sd_px, float(error), board_turn, board_shift_m, tuple(used_views))
     return found, np.asarray(view_error, dtype=np.float64).ravel()
 
 
 @dataclass(frozen=True, slots=True)
 class CameraCalibration:
-    """``before`` is what the source said of itself; ``depth`` None where no depth came with the pictures."""
+    """``previous_camera`` is what the source said of itself; ``depth`` None where no depth came with the pictures."""
 
-    before: Camera
+    previous_camera: Camera
     intrinsics: Intrinsics
     depth: DepthCheck | None
-    judgement: Judgement
+    coverage: ViewCoverage
     board: str
 
     @property
     def is_usable(self) -> bool:
         """Whether it may be used: corners land fairly where they should, and depth, where there is any, lies on
         colour; otherwise a session would be measured worse than before and not know it."""
-        fits = self.intrinsics.error_px <= FAIR_PX
+        fits = self.intrinsics.reprojection_error_px <= FAIR_ERROR_PX
         return fits and (self.depth is None or self.depth.is_registered)
 
 
-def calibrate_camera(views: Sequence[BoardView], before: Camera, subject: str) -> CameraCalibration:
+def calibrate_camera(views: Sequence[BoardView], previous_camera: Camera, subject: str) -> CameraCalibration:
     """Calibrate from kept views; raises what :func:`solve_intrinsics` does."""
-    intrinsics = solve_intrinsics(views, before.width_px, before.height_px, subject)
-    judgement = judge(views, before.width_px, before.height_px)
-    depth = check_depth(views, intrinsics, before.sensor)
-    return CameraCalibration(before, intrinsics, depth, judgement, board_of(views).name())
+    intrinsics = solve_intrinsics(views, previous_camera.width_px, previous_camera.height_px, subject)
+    judgement = assess_views(views, previous_camera.width_px, previous_camera.height_px)
+    depth = check_depth(views, intrinsics, previous_camera.sensor)
+    return CameraCalibration(previous_camera, intrinsics, depth, judgement, common_board(views).name())
 
 
-def calibration_lines(made: CameraCalibration) -> list[str]:
+def format_calibration(calibration: CameraCalibration) -> list[str]:
     """The result for people, one line each."""
-    found, before, depth = made.intrinsics, made.before, made.depth
-    camera, focal = found.camera, f"{written(found.camera.fx_px, 1)} x {written(found.camera.fy_px, 1)}"
-    middle = f"{written(camera.cx_px, 1)}, {written(camera.cy_px, 1)}"
-    was_focal = f"{written(before.fx_px, 1)} x {written(before.fy_px, 1)}"
-    was_middle = f"{written(before.cx_px, 1)}, {written(before.cy_px, 1)}"
-    near, far = (written(distance_m * 100) for distance_m in (made.judgement.nearest_m, made.judgement.farthest_m))
+    found, before, depth = calibration.intrinsics, calibration.previous_camera, calibration.depth
+    camera, focal = found.camera, f"{format_rounded(found.camera.fx_px, 1)} x {format_rounded(found.camera.fy_px, 1)}"
+    middle = f"{format_rounded(camera.cx_px, 1)}, {format_rounded(camera.cy_px, 1)}"
+    was_focal = f"{format_rounded(before.fx_px, 1)} x {format_rounded(before.fy_px, 1)}"
+    was_middle = f"{format_rounded(before.cx_px, 1)}, {format_rounded(before.cy_px, 1)}"
+    near, far = (
+        format_rounded(distance_m * 100)
+        for distance_m in (calibration.coverage.nearest_m, calibration.coverage.farthest_m)
+    )
     out = [
-        f"Board: {made.board}, {len(found.used)} pictures, {near} to {far} cm away",
-        f"Lines land within {written(found.error_px, 2)} px ({found.error_in_words})",
-        f"Focal length: {focal} ± {written(found.focal_sd_px, 1)} px (was {was_focal})",
-        f"Middle of the picture: {middle} ± {written(found.middle_sd_px, 1)} px (was {was_middle})",
+        f"Board: {calibration.board}, {len(found.used_views)} pictures, {near} to {far} cm away",
+        f"Lines land within {format_rounded(found.reprojection_error_px, 2)} px ({found.error_text})",
+        f"Focal length: {focal} ± {format_rounded(found.focal_sd_px, 1)} px (was {was_focal})",
+        f"Middle of the picture: {middle} ± {format_rounded(found.principal_point_sd_px, 1)} px (was {was_middle})",
     ]
     if depth is None:
         return [*out, "Depth: not checked, too few pictures with depth on the board"]
-    shift = f"shift {depth.offset_m * 1e3:+.1f} ± {written(depth.offset_sd_m * 1e3, 1)} mm"
+    shift = f"shift {depth.offset_m * 1e3:+.1f} ± {format_rounded(depth.offset_sd_m * 1e3, 1)} mm"
     shift = shift if math.isfinite(depth.offset_sd_m) else "no sure shift"
     out.append(
-        f"{depth.in_words()} Scale {100.0 * (depth.scale - 1.0):+.2f} ± {written(100.0 * depth.scale_sd, 2)} %, {shift}"
+        f"{depth.sentence()} Scale {100.0 * (depth.scale - 1.0):+.2f} ± {format_rounded(100.0 * depth.scale_sd, 2)} %, {shift}"  # noqa: E501
     )
-    apart = float((depth.apart_px**2).sum() ** 0.5)
-    judged = f"good: below {MOST_APART_PX:g} px" if depth.is_registered else "depth does not lie on colour"
-    return [*out, f"Colour and depth: {written(apart, 1)} ± {written(depth.apart_sd_px, 1)} px apart ({judged})"]
+    apart = float((depth.registration_error_px**2).sum() ** 0.5)
+    judged = f"good: below {MAX_REGISTRATION_ERROR_PX:g} px" if depth.is_registered else "depth does not lie on colour"
+    return [
+        *out,
+        f"Colour and depth: {format_rounded(apart, 1)} ± {format_rounded(depth.registration_sd_px, 1)} px apart ({judged})",  # noqa: E501
+    ]

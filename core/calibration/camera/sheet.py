@@ -26,7 +26,7 @@ class SheetBox:
 
 
 @dataclass(frozen=True, slots=True)
-class Disc:
+class SheetDisc:
     """A filled circle."""
 
     x_mm: float
@@ -55,7 +55,7 @@ class SheetText:
     bold: bool = False
 
 
-Mark = SheetBox | Disc | SheetLine | SheetText
+SheetItem = SheetBox | SheetDisc | SheetLine | SheetText
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,12 +64,12 @@ class PrintedSheet:
 
     width_mm: float
     height_mm: float
-    marks: tuple[Mark, ...]
+    items: tuple[SheetItem, ...]
 
 
-def ruler(left_mm: float, top_mm: float) -> tuple[Mark, ...]:
+def ruler_items(left_mm: float, top_mm: float) -> tuple[SheetItem, ...]:
     """A ruler of 100 mm with a mark each centimetre, and what it is for."""
-    marks: list[Mark] = [SheetLine((left_mm, top_mm), (left_mm + RULER_MM, top_mm))]
+    marks: list[SheetItem] = [SheetLine((left_mm, top_mm), (left_mm + RULER_MM, top_mm))]
     for k in range(11):
         x = left_mm + 10.0 * k
         marks.append(SheetLine((x, top_mm), (x, top_mm + (4.0 if k % 5 == 0 else 2.5))))

@@ -11,90 +11,100 @@ from typing import Literal
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.board import BOARDS, MOST_EDGE_PX, Board, FoundBoard, Pattern, edge_px, find_board
+from carpus.core.calibration.camera.board import (
+    BOARDS,
+    MAX_EDGE_WIDTH_PX,
+    Board,
+    DetectedBoard,
+    Pattern,
+    edge_width_px,
+    find_board,
+)
 from carpus.core.camera import Camera
 from carpus.core.phrase import Phrase, phrase
 from carpus.core.types import ByteImage, DepthImage, FloatArray, Frame
 
-FEWEST_VIEWS = 12
+MIN_VIEWS = 12
 FIELDS = (6, 4)
 """The picture's fields across and down."""
-FEWEST_FIELDS = 18
-LEAST_TILT_DEG = 15.0
+MIN_FIELDS = 18
+MIN_TILT_DEG = 15.0
 """A board less tilted than this is as good as straight."""
-MOST_TILT_DEG = 60.0
-FEWEST_SIDES = 3
-NEAR_FAR_RATIO = 1.4
+MAX_TILT_DEG = 60.0
+MIN_TILT_SIDES = 3
+MIN_DISTANCE_RATIO = 1.4
 """Farthest over nearest board below which a shift of depth cannot be told from its scale."""
-NEW_PX = 18.0
+MIN_NEW_VIEW_PX = 18.0
 """A picture in which the corners have moved less than this since a kept one says nothing new."""
-MOST_MOTION_PX = 1.0
+MAX_MOTION_PX = 1.0
 """From one camera picture to the next, at 30 a second: more blurs the corners."""
 
-Side = Literal["left", "right", "top", "bottom"]
-SIDES: tuple[Side, ...] = ("left", "right", "top", "bottom")
+TiltSide = Literal["left", "right", "top", "bottom"]
+TILT_SIDES: tuple[TiltSide, ...] = ("left", "right", "top", "bottom")
 
 
 @dataclass(frozen=True, slots=True)
 class BoardView:
-    """One kept picture. ``tilt_deg`` of the board off the straight view and the ``nearer`` side where it is tilted;
+    """One kept picture. ``tilt_deg`` of the board off the straight view and the ``nearer_side`` side where it is
+    tilted;
     ``distance_m`` of its middle; the depth picture that belongs to it, None without one."""
 
-    found: FoundBoard
+    detected: DetectedBoard
     tilt_deg: float
-    nearer: Side | None
+    nearer_side: TiltSide | None
     distance_m: float
     depth_raw: DepthImage | None = None
     depth_unit_m: float = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Judgement:
+class ViewCoverage:
     """What is there: number of views, corners in each field (down, across), sides the board was tilted to."""
 
-    views: int
+    view_count: int
     corners_in_field: np.ndarray
-    sides: frozenset[Side]
+    sides: frozenset[TiltSide]
     nearest_m: float
     farthest_m: float
 
     @property
-    def fields(self) -> int:
+    def covered_fields(self) -> int:
         """Fields of the picture in which a corner has been."""
         return int(np.count_nonzero(self.corners_in_field))
 
     @property
     def is_near_and_far(self) -> bool:
         """Whether a shift of the depth can be told from its scale."""
-        return self.farthest_m >= NEAR_FAR_RATIO * self.nearest_m
+        return self.farthest_m >= MIN_DISTANCE_RATIO * self.nearest_m
 
     @property
-    def missing(self) -> str:
+    def missing_text(self) -> str:
         """The first thing that is missing, as a person would say it; empty when nothing is."""
-        if self.views < FEWEST_VIEWS:
-            return f"{self.views} different pictures of the board, {FEWEST_VIEWS} needed"
-        if self.fields < FEWEST_FIELDS:
-            return f"board in {self.fields} of {math.prod(FIELDS)} fields of the picture, {FEWEST_FIELDS} needed"
-        if len(self.sides) < FEWEST_SIDES:
-            tilted = " and ".join(side for side in SIDES if side in self.sides) or "none"
-            return f"tilted by {LEAST_TILT_DEG:g}° with these sides nearer: {tilted}; {FEWEST_SIDES} sides needed"
+        if self.view_count < MIN_VIEWS:
+            return f"{self.view_count} different pictures of the board, {MIN_VIEWS} needed"
+        if self.covered_fields < MIN_FIELDS:
+            return f"board in {self.covered_fields} of {math.prod(FIELDS)} fields of the picture, {MIN_FIELDS} needed"
+        if len(self.sides) < MIN_TILT_SIDES:
+            tilted = " and ".join(side for side in TILT_SIDES if side in self.sides) or "none"
+            return f"tilted by {MIN_TILT_DEG:g}° with these sides nearer: {tilted}; {MIN_TILT_SIDES} sides needed"
         return ""
 
-    def next_step(self, asked: int) -> Phrase | None:
-        """What to do next with the board in the hand, until there are ``asked`` pictures; None when all is there."""
+    def next_instruction(self, wanted_views: int) -> Phrase | None:
+        """What to do next with the board in the hand, until there are ``wanted_views`` pictures; None when all is
+        there."""
         empty = np.argwhere(self.corners_in_field == 0)
-        if len(empty) and self.fields < FEWEST_FIELDS:
+        if len(empty) and self.covered_fields < MIN_FIELDS:
             return phrase("Move the board to the {place}", place=_place_name(*empty[0].tolist()))
-        if len(self.sides) < FEWEST_SIDES:
-            side = next(side for side in SIDES if side not in self.sides)
+        if len(self.sides) < MIN_TILT_SIDES:
+            side = next(side for side in TILT_SIDES if side not in self.sides)
             return phrase("Tilt the board: {side} nearer", side=side_name(side))
         if not self.is_near_and_far:
-            near = self.nearest_m <= NEAR_M or self.nearest_m * NEAR_FAR_RATIO < FAR_M
+            near = self.nearest_m <= NEAR_BOARD_M or self.nearest_m * MIN_DISTANCE_RATIO < FAR_BOARD_M
             return phrase("Take the board farther away") if near else phrase("Bring the board nearer")
-        return phrase("Show it in other places, tilted other ways") if self.views < asked else None
+        return phrase("Show it in other places, tilted other ways") if self.view_count < wanted_views else None
 
 
-def side_name(side: Side) -> Phrase:
+def side_name(side: TiltSide) -> Phrase:
     """An edge of the board as a person holds it."""
     return {
         "left": phrase("left edge"), "right": phrase("right edge"), "top": phrase("upper edge"),
@@ -114,34 +124,36 @@ def _place_name(down: int, across: int) -> Phrase:
     )[row][column]
 
 
-def board_pose(found: FoundBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
+def board_pose(detected: DetectedBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
     """Turn, as a rotation vector, and shift from a board's own axes into the camera's; None where there is none."""
-    points = found.board.corners_m[found.corner]
-    there, turn, shift = cv2.solvePnP(points, camera.undistort(found.pixel), camera.matrix, np.zeros(5))
+    points = detected.board.corners_m[detected.corner_ids]
+    there, turn, shift = cv2.solvePnP(points, camera.undistort(detected.pixel), camera.matrix, np.zeros(5))
     return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
 
 
-def view_of(found: FoundBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float) -> BoardView | None:
+def to_board_view(
+    detected: DetectedBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float
+) -> BoardView | None:
     """What a picture shows; ``camera`` may be a rough guess. None where the board cannot stand like that."""
-    pose = board_pose(found, camera)
+    pose = board_pose(detected, camera)
     if pose is None:
         return None
     turn, shift = pose
     rotation = np.asarray(cv2.Rodrigues(turn)[0], dtype=np.float64)
     normal = rotation[:, 2] if rotation[2, 2] > 0.0 else -rotation[:, 2]
-    centre = rotation @ found.board.outline_m.mean(axis=0) + shift.ravel()
+    centre = rotation @ detected.board.outline_m.mean(axis=0) + shift.ravel()
     if centre[2] <= 0.0:
         return None
     away = centre / np.linalg.norm(centre)
     tilt_deg = math.degrees(math.acos(float(np.clip(normal @ away, -1.0, 1.0))))
-    if tilt_deg > MOST_TILT_DEG:
+    if tilt_deg > MAX_TILT_DEG:
         return None
     lean = normal - (normal @ away) * away
-    return BoardView(found, tilt_deg, _nearer(lean) if tilt_deg >= LEAST_TILT_DEG else None, float(centre[2]),
+    return BoardView(detected, tilt_deg, _nearer_side(lean) if tilt_deg >= MIN_TILT_DEG else None, float(centre[2]),
                 depth_raw, depth_unit_m)  # fmt: skip
 
 
-def _nearer(lean: FloatArray) -> Side:
+def _nearer_side(lean: FloatArray) -> TiltSide:
     """The side that is nearer, of the part of the normal, away from the camera, across the line of sight."""
     # Away from the camera the normal leans towards the far side's opposite: a plane with n_x > 0 is nearer at +x.
     if abs(lean[0]) >= abs(lean[1]):
@@ -149,69 +161,69 @@ def _nearer(lean: FloatArray) -> Side:
     return "bottom" if lean[1] > 0.0 else "top"
 
 
-def is_new(found: FoundBoard, kept: Sequence[BoardView]) -> bool:
+def is_new_view(detected: DetectedBoard, views: Sequence[BoardView]) -> bool:
     """Whether the board stands elsewhere or otherwise than in every kept picture."""
-    return all(moved_px(found, view.found) >= NEW_PX for view in kept)
+    return all(corner_motion_px(detected, view.detected) >= MIN_NEW_VIEW_PX for view in views)
 
 
-def moved_px(one: FoundBoard, other: FoundBoard) -> float:
+def corner_motion_px(one: DetectedBoard, other: DetectedBoard) -> float:
     """How far the corners seen in both lie apart (root mean square); infinite where there is none."""
-    _, a, b = np.intersect1d(one.corner, other.corner, return_indices=True)
+    _, a, b = np.intersect1d(one.corner_ids, other.corner_ids, return_indices=True)
     if not len(a):
         return math.inf
     return float(np.sqrt(np.mean(np.sum((one.pixel[a] - other.pixel[b]) ** 2, axis=1))))
 
 
-def judge(views: Sequence[BoardView], width_px: int, height_px: int) -> Judgement:
+def assess_views(views: Sequence[BoardView], width_px: int, height_px: int) -> ViewCoverage:
     """Whether these pictures are enough, and different enough."""
     count = np.zeros((FIELDS[1], FIELDS[0]), dtype=np.int64)
     for view in views:
-        across = np.clip(view.found.pixel[:, 0] * FIELDS[0] / width_px, 0, FIELDS[0] - 1).astype(int)
-        down = np.clip(view.found.pixel[:, 1] * FIELDS[1] / height_px, 0, FIELDS[1] - 1).astype(int)
+        across = np.clip(view.detected.pixel[:, 0] * FIELDS[0] / width_px, 0, FIELDS[0] - 1).astype(int)
+        down = np.clip(view.detected.pixel[:, 1] * FIELDS[1] / height_px, 0, FIELDS[1] - 1).astype(int)
         np.add.at(count, (down, across), 1)
-    sides = frozenset(view.nearer for view in views if view.nearer is not None)
+    sides = frozenset(view.nearer_side for view in views if view.nearer_side is not None)
     distances = [view.distance_m for view in views]
-    return Judgement(len(views), count, sides, min(distances, default=math.nan), max(distances, default=math.nan))
+    return ViewCoverage(len(views), count, sides, min(distances, default=math.nan), max(distances, default=math.nan))
 
 
-def board_of(views: Sequence[BoardView]) -> Board:
+def common_board(views: Sequence[BoardView]) -> Board:
     """The board of all views."""
-    return views[0].found.board
+    return views[0].detected.board
 
 
-Lack = Literal["", "dark", "no_board", "too_tilted", "moving", "blurred", "known"]
+RejectReason = Literal["", "dark", "no_board", "too_tilted", "moving", "blurred", "known"]
 """Why a picture was not kept; empty when it was, or when nothing is wrong."""
-DARK = 70.0
+MIN_BRIGHTNESS = 70.0
 """The brightest tenth of a picture below this: more light."""
-ASKED_VIEWS: dict[Pattern, int] = {"chessboard": 30, "charuco": 44}
+WANTED_VIEWS: dict[Pattern, int] = {"chessboard": 30, "charuco": 44}
 """So many are asked for before a live camera: more than must be, since each costs a person three seconds, and with them
 the focal length is known to 0.1 %. A ChArUco board has half the corners."""
-NEAR_M, FAR_M = 0.55, 0.85
+NEAR_BOARD_M, FAR_BOARD_M = 0.55, 0.85
 """A board that has been nearer than this, or would go beyond it, is to be shown farther away next."""
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class BoardFrame:
     """What one picture shows of the board; ``kept``: it counts."""
 
-    found: FoundBoard | None
-    lack: Lack
-    kept: bool = False
+    detected: DetectedBoard | None
+    reject_reason: RejectReason
+    is_kept: bool = False
 
 
 def is_dark(color_rgb: ByteImage) -> bool:
     """Whether a picture has too little light to find a board in it."""
-    return float(np.percentile(color_rgb[::8, ::8].max(axis=2), 90)) < DARK
+    return float(np.percentile(color_rgb[::8, ::8].max(axis=2), 90)) < MIN_BRIGHTNESS
 
 
-LOOK_EVERY_S = 0.12
+SEARCH_INTERVAL_S = 0.12
 """Finding the board takes a while, and two pictures in a row show the same."""
 _CAMERA_FPS = 30.0
-_JUST_BEFORE_S = 0.4
-MOST_VIEWS = 64
+_MAX_MOTION_GAP_S = 0.4
+MAX_VIEWS = 64
 
 
-class Gathering:
+class ViewCollector:
     """Keeps the still and new pictures of the board.
 
     ``camera`` is a rough guess for tilt and distance. A picture is kept when the board stands elsewhere than in every
@@ -221,48 +233,50 @@ class Gathering:
     def __init__(self, camera: Camera, boards: Sequence[Board] = tuple(BOARDS.values())) -> None:
         self._camera, self._boards = camera, tuple(boards)
         self._views: list[BoardView] = []
-        self._last: tuple[float, FoundBoard] | None = None
-        self._looked_s = float("-inf")
-        self.looked, self.seen = 0, 0
+        self._last: tuple[float, DetectedBoard] | None = None
+        self._last_search_s = float("-inf")
+        self.searched_count, self.detected_count = 0, 0
 
     @property
     def views(self) -> Sequence[BoardView]:
         return self._views
 
     @property
-    def judgement(self) -> Judgement:
-        return judge(self._views, self._camera.width_px, self._camera.height_px)
+    def coverage(self) -> ViewCoverage:
+        return assess_views(self._views, self._camera.width_px, self._camera.height_px)
 
     def add(self, frame: Frame) -> bool:
         """Look at a frame; whether it was kept."""
-        look = self.look(frame)
-        return look is not None and look.kept
+        look = self.process_frame(frame)
+        return look is not None and look.is_kept
 
-    def look(self, frame: Frame) -> Look | None:
+    def process_frame(self, frame: Frame) -> BoardFrame | None:
         """Look at a frame and say what it lacks; None where it comes too soon after the last one."""
-        if frame.timestamp_s - self._looked_s < LOOK_EVERY_S or len(self._views) >= MOST_VIEWS:
+        if frame.timestamp_s - self._last_search_s < SEARCH_INTERVAL_S or len(self._views) >= MAX_VIEWS:
             return None
-        self._looked_s = frame.timestamp_s
-        self.looked += 1
+        self._last_search_s = frame.timestamp_s
+        self.searched_count += 1
         found = find_board(frame.color_rgb, self._boards)
         before, self._last = self._last, None if found is None else (frame.timestamp_s, found)
         if found is None:
-            return Look(None, "dark" if is_dark(frame.color_rgb) else "no_board")
-        self.seen += 1
+            return BoardFrame(None, "dark" if is_dark(frame.color_rgb) else "no_board")
+        self.detected_count += 1
         self._boards = (found.board,)  # one board per calibration, and no time lost on the others
-        view = view_of(found, self._camera, frame.depth_raw, frame.depth_unit_m)
+        view = to_board_view(found, self._camera, frame.depth_raw, frame.depth_unit_m)
         if view is None:
-            return Look(found, "too_tilted")
-        edge, motion = edge_px(frame.color_rgb, found), _motion_px(found, frame.timestamp_s, before)
-        lack: Lack = "blurred" if edge > MOST_EDGE_PX else "" if is_new(found, self._views) else "known"
-        lack = "moving" if motion > MOST_MOTION_PX else lack
+            return BoardFrame(found, "too_tilted")
+        edge, motion = edge_width_px(frame.color_rgb, found), _motion_px(found, frame.timestamp_s, before)
+        lack: RejectReason = (
+            "blurred" if edge > MAX_EDGE_WIDTH_PX else "" if is_new_view(found, self._views) else "known"
+        )
+        lack = "moving" if motion > MAX_MOTION_PX else lack
         if not lack:
             self._views.append(view)
-        return Look(found, lack, kept=not lack)
+        return BoardFrame(found, lack, is_kept=not lack)
 
 
-def _motion_px(found: FoundBoard, now_s: float, before: tuple[float, FoundBoard] | None) -> float:
+def _motion_px(detected: DetectedBoard, now_s: float, before: tuple[float, DetectedBoard] | None) -> float:
     """How far the corners move from one picture of the camera to the next; NaN where nobody knows."""
-    if before is None or now_s - before[0] > _JUST_BEFORE_S:
+    if before is None or now_s - before[0] > _MAX_MOTION_GAP_S:
         return math.nan
-    return moved_px(found, before[1]) / ((now_s - before[0]) * _CAMERA_FPS)
+    return corner_motion_px(detected, before[1]) / ((now_s - before[0]) * _CAMERA_FPS)

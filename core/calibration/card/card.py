@@ -11,9 +11,18 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Mark, Paper, PrintedSheet, SheetLine, SheetText, ruler
+from carpus.core.calibration.camera.sheet import (
+    PAPER_MM,
+    Paper,
+    PrintedSheet,
+    SheetDisc,
+    SheetItem,
+    SheetLine,
+    SheetText,
+    ruler_items,
+)
 from carpus.core.phrase import Phrase, phrase
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 from carpus.core.types import FloatArray
 
 BLUE = "#2648A5"
@@ -33,54 +42,61 @@ _TAB_MM = 12.0
 
 
 @dataclass(frozen=True, slots=True)
-class CardFigure:
+class CardDimension:
     """Something on the card that is known: between which discs, and its true value in degrees or millimetres."""
 
     name: str
     kind: Literal["angle", "length"]
-    true: float
+    true_value: float
 
 
-FIGURES = (
-    CardFigure("Wedge 30°", "angle", 30.0),
-    CardFigure("Over the ridge 50°", "angle", _BEND_DEG),
-    CardFigure("Flat 90°", "angle", 90.0),
-    CardFigure("80 mm across", "length", 80.0),
-    CardFigure("120 mm along", "length", 120.0),
-    CardFigure("25 mm high", "length", 25.0),
+DIMENSIONS = (
+    CardDimension("Wedge 30°", "angle", 30.0),
+    CardDimension("Over the ridge 50°", "angle", _BEND_DEG),
+    CardDimension("Flat 90°", "angle", 90.0),
+    CardDimension("80 mm across", "length", 80.0),
+    CardDimension("120 mm along", "length", 120.0),
+    CardDimension("25 mm high", "length", 25.0),
 )
 
 
-def disc_places_m() -> FloatArray:
+def disc_positions_m() -> FloatArray:
     """The six discs (6, 3) as :data:`DISCS`, metres: x across and y down the sheet from A, z up out of it."""
     middle = FOOT_CORNER_MM[0] + 0.5 * WIDTH_MM
     slope = math.radians(SLOPE_DEG)
     d, e = ((middle, FOOT_CORNER_MM[1] + s * math.cos(slope), s * math.sin(slope)) for s in _ON_SLOPE_MM)
-    ridge, down = FOOT_CORNER_MM[1] + SLOPE_MM * math.cos(slope), _down_mm()
+    ridge, down = FOOT_CORNER_MM[1] + SLOPE_MM * math.cos(slope), _ridge_to_f_mm()
     f = (middle, ridge + down * math.cos(slope), HEIGHT_MM - down * math.sin(slope))
     return np.array([(0.0, 0.0, 0.0), (80.0, 0.0, 0.0), (0.0, 120.0, 0.0), d, e, f]) / 1e3
 
 
-def _down_mm() -> float:
+def _ridge_to_f_mm() -> float:
     """Place of F down from the ridge: from D over E to F it bends by the known angle."""
     slope, fall = math.radians(SLOPE_DEG), math.tan(math.radians(_BEND_DEG - SLOPE_DEG))
     before = SLOPE_MM - _ON_SLOPE_MM[1]
     return before * (math.sin(slope) + fall * math.cos(slope)) / (math.sin(slope) - fall * math.cos(slope))
 
 
-def figures_of(places_m: FloatArray) -> FloatArray:
+def measure_dimensions(positions_m: FloatArray) -> FloatArray:
     """The card's figures (6,) as measured, in degrees and millimetres, from places (6, 3) in any axes."""
-    a, b, c, d, e, f = places_m
+    a, b, c, d, e, f = positions_m
     up = np.cross(b - a, c - a)
     up = up / np.linalg.norm(up)
     if (e - a) @ up < 0.0:
         up = -up
     slope = math.degrees(math.asin(float(np.clip((e - d) @ up / np.linalg.norm(e - d), -1.0, 1.0))))
     lengths = (np.linalg.norm(b - a), np.linalg.norm(c - a), (e - a) @ up)
-    return np.array([slope, _between(e - d, f - e), _between(b - a, c - a), *(1e3 * float(one) for one in lengths)])
+    return np.array(
+        [
+            slope,
+            _angle_between_deg(e - d, f - e),
+            _angle_between_deg(b - a, c - a),
+            *(1e3 * float(one) for one in lengths),
+        ]
+    )
 
 
-def _between(one: FloatArray, other: FloatArray) -> float:
+def _angle_between_deg(one: FloatArray, other: FloatArray) -> float:
     share = float(one @ other / (np.linalg.norm(one) * np.linalg.norm(other)))
     return math.degrees(math.acos(float(np.clip(share, -1.0, 1.0))))
 
@@ -98,8 +114,8 @@ def card_sheet(paper: Paper) -> PrintedSheet:
     """The flat sheet."""
     width_mm, height_mm = PAPER_MM[paper]
     x0, y0 = CARD_CORNER_MM
-    flat = disc_places_m()[:3, :2] * 1e3
-    discs = [Disc(x0 + float(x), y0 + float(y), DISC_RADIUS_MM, BLUE) for x, y in flat]
+    flat = disc_positions_m()[:3, :2] * 1e3
+    discs = [SheetDisc(x0 + float(x), y0 + float(y), DISC_RADIUS_MM, BLUE) for x, y in flat]
     left, top = x0 + FOOT_CORNER_MM[0], y0 + FOOT_CORNER_MM[1]
     right, bottom = left + WIDTH_MM, top + FOOT_MM
     corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
@@ -118,7 +134,7 @@ def card_sheet(paper: Paper) -> PrintedSheet:
         SheetText(phrase("the wedge’s side with two discs here"), left + 1.0, top + 5.0, 7.0),
         SheetText(phrase("its side with one disc here"), left + 4.0, bottom - 2.5, 7.0),
     ]
-    return PrintedSheet(width_mm, height_mm, (*discs, *foot, *said, *ruler(20.0, height_mm - 14.0)))
+    return PrintedSheet(width_mm, height_mm, (*discs, *foot, *said, *ruler_items(20.0, height_mm - 14.0)))
 
 
 WEDGE_CORNER_MM = (80.0, 22.0)
@@ -132,8 +148,8 @@ def wedge_sheet(paper: Paper) -> PrintedSheet:
     right, middle = left + WIDTH_MM, left + 0.5 * WIDTH_MM
     folds = [top + SLOPE_MM, top + 2.0 * SLOPE_MM, top + 2.0 * SLOPE_MM + FOOT_MM]
     end = folds[-1] + _TAB_MM
-    marks: list[Mark] = [Disc(middle, top + s, DISC_RADIUS_MM, BLUE) for s in _ON_SLOPE_MM]
-    marks.append(Disc(middle, folds[0] + _down_mm(), DISC_RADIUS_MM, BLUE))
+    marks: list[SheetItem] = [SheetDisc(middle, top + s, DISC_RADIUS_MM, BLUE) for s in _ON_SLOPE_MM]
+    marks.append(SheetDisc(middle, folds[0] + _ridge_to_f_mm(), DISC_RADIUS_MM, BLUE))
     marks += [SheetLine((left, y), (right, y), dashed=True) for y in folds]
     marks += [SheetLine((left, top), (right, top)), SheetLine((left + 4.0, end), (right - 4.0, end))]
     for edge, outwards in ((left, -1.0), (right, 1.0)):
@@ -152,35 +168,37 @@ def wedge_sheet(paper: Paper) -> PrintedSheet:
         SheetText(phrase("foot: glue onto the card"), left + 3.0, folds[1] + 0.5 * FOOT_MM, 8.0),
         SheetText(phrase("glue under the low edge"), left + 6.0, end - 3.0, 8.0),
     ]
-    return PrintedSheet(width_mm, height_mm, (*marks, *said, *ruler(20.0, height_mm - 14.0)))
+    return PrintedSheet(width_mm, height_mm, (*marks, *said, *ruler_items(20.0, height_mm - 14.0)))
 
 
 CHECK_S = 30.0
 """Length of a check."""
-MOST_ANGLE_DEG, MOST_LENGTH_MM, MOST_SCALE = 2.0, 2.5, 0.012
+MAX_ANGLE_ERROR_DEG, MAX_LENGTH_ERROR_MM, MAX_SCALE_ERROR = 2.0, 2.5, 0.012
 """Fixed limits of the largest error of an angle and a length, and of all lengths together; the first two are wider for
 a sensor that cannot do better (:mod:`core.calibration.card.measure`)."""
 
 
 @dataclass(frozen=True, slots=True)
 class CardReading:
-    """What one check measured: ``measured`` and ``sd`` (6,) of :data:`FIGURES` in degrees and millimetres, the standard
+    """What one check measured: ``measured`` and ``sd`` (6,) of :data:`DIMENSIONS` in degrees and millimetres, the
+    standard
     deviation that of one picture; ``scale`` of all distances between the discs, measured over true; ``distance_m`` to
-    the card; ``pictures`` that count of those ``looked`` at; ``most_angle_deg`` and ``most_length_mm`` its limits."""
+    the card; ``frames_used`` that count of those ``frames_searched`` at; ``max_angle_error_deg`` and
+    ``max_length_error_mm`` its limits."""
 
     measured: FloatArray
     sd: FloatArray
     scale: float
     distance_m: float
-    pictures: int
-    looked: int
-    most_angle_deg: float = MOST_ANGLE_DEG
-    most_length_mm: float = MOST_LENGTH_MM
+    frames_used: int
+    frames_searched: int
+    max_angle_error_deg: float = MAX_ANGLE_ERROR_DEG
+    max_length_error_mm: float = MAX_LENGTH_ERROR_MM
 
     @property
     def errors(self) -> FloatArray:
         """Measured less true (6,)."""
-        return np.asarray(self.measured - np.array([figure.true for figure in FIGURES]))
+        return np.asarray(self.measured - np.array([figure.true_value for figure in DIMENSIONS]))
 
     @property
     def angle_error_deg(self) -> float:
@@ -191,25 +209,28 @@ class CardReading:
         return float(np.abs(self.errors[3:]).max())
 
     @property
-    def angles_hold(self) -> bool:
-        return self.angle_error_deg <= self.most_angle_deg
+    def has_valid_angles(self) -> bool:
+        return self.angle_error_deg <= self.max_angle_error_deg
 
     @property
-    def lengths_hold(self) -> bool:
+    def has_valid_lengths(self) -> bool:
         """Whether lengths are within their limits, each and all together."""
-        return self.length_error_mm <= self.most_length_mm and abs(self.scale - 1.0) <= MOST_SCALE
+        return self.length_error_mm <= self.max_length_error_mm and abs(self.scale - 1.0) <= MAX_SCALE_ERROR
 
     @property
-    def holds(self) -> bool:
+    def is_within_tolerance(self) -> bool:
         """Whether the camera measures right."""
-        return self.angles_hold and self.lengths_hold
+        return self.has_valid_angles and self.has_valid_lengths
 
 
 def verdict_sentence(reading: CardReading) -> Phrase:
     """What a check says, for people."""
-    angle, length = written(reading.angle_error_deg, 1), written(reading.length_error_mm, 1)
-    limits = {"most_angle": written(reading.most_angle_deg, 1), "most_length": written(reading.most_length_mm, 1)}
-    if reading.holds:
+    angle, length = format_rounded(reading.angle_error_deg, 1), format_rounded(reading.length_error_mm, 1)
+    limits = {
+        "most_angle": format_rounded(reading.max_angle_error_deg, 1),
+        "most_length": format_rounded(reading.max_length_error_mm, 1),
+    }
+    if reading.is_within_tolerance:
         return phrase(
             "The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and "
             "{most_length} mm.",
@@ -219,16 +240,16 @@ def verdict_sentence(reading: CardReading) -> Phrase:
         )
     angles = phrase("angles are {angle}° off", angle=angle)
     share = 100.0 * (reading.scale - 1.0)
-    off = {"share": written(abs(share), 1), "length": length}
+    off = {"share": format_rounded(abs(share), 1), "length": length}
     lengths = phrase("all lengths are {share} % too short, the worst by {length} mm", **off)
     if share > 0:
         lengths = phrase("all lengths are {share} % too long, the worst by {length} mm", **off)
-    what = angles if reading.lengths_hold else lengths
-    if not reading.lengths_hold and not reading.angles_hold:
+    what = angles if reading.has_valid_lengths else lengths
+    if not reading.has_valid_lengths and not reading.has_valid_angles:
         what = phrase("{one}; {other}", one=lengths, other=angles)
     return phrase(
         "The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).",
         what=what,
-        most_share=written(100.0 * MOST_SCALE, 1),
+        most_share=format_rounded(100.0 * MAX_SCALE_ERROR, 1),
         **limits,
     )

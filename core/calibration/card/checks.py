@@ -12,20 +12,26 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.calibration.card.card import FIGURES, MOST_ANGLE_DEG, MOST_LENGTH_MM, CardReading, verdict_sentence
+from carpus.core.calibration.card.card import (
+    DIMENSIONS,
+    MAX_ANGLE_ERROR_DEG,
+    MAX_LENGTH_ERROR_MM,
+    CardReading,
+    verdict_sentence,
+)
 from carpus.core.capture.calibrated import SUFFIX as CALIBRATION_SUFFIX
-from carpus.core.capture.calibrated import age_days, stored_calibration
+from carpus.core.capture.calibrated import age_days, load_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.dates import is_moment
-from carpus.core.durable import private, write_fault
+from carpus.core.durable import open_private, write_fault
 from carpus.core.errors import CarpusFault
 from carpus.core.installing import Finding, State
-from carpus.core.names import CAMERAS, file_stem
+from carpus.core.names import CAMERAS_FOLDER, file_stem
 
-SUFFIX = ".checks.jsonl"
-OLD_DAYS = 7.0
+CHECKS_SUFFIX = ".checks.jsonl"
+MAX_CHECK_AGE_DAYS = 7.0
 """A check is made once a week."""
-OLD_CALIBRATION_DAYS = 365.0
+MAX_CALIBRATION_AGE_DAYS = 365.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,37 +39,39 @@ class CardCheck:
     """A reading of the camera with number ``serial``, when it was made, and the moment of the calibration that was used
     (ISO 8601), empty without one."""
 
-    when: str
+    checked_at: str
     serial: str
     reading: CardReading
-    calibrated: str = ""
+    calibrated_at: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class CheckStatus:
     """Days since a camera was calibrated and checked, NaN for never; its newest check, None without one;
-    ``recalibrated``: it was calibrated after that check."""
+    ``is_recalibrated``: it was calibrated after that check."""
 
     serial: str
-    calibrated_days: float = math.nan
-    checked_days: float = math.nan
-    check: CardCheck | None = None
-    recalibrated: bool = False
+    calibration_age_days: float = math.nan
+    check_age_days: float = math.nan
+    last_check: CardCheck | None = None
+    is_recalibrated: bool = False
 
     @property
-    def is_out(self) -> bool:
+    def is_out_of_tolerance(self) -> bool:
         """Whether the camera measured wrong, and was not calibrated since."""
-        return self.check is not None and not self.check.reading.holds and not self.recalibrated
+        return (
+            self.last_check is not None and not self.last_check.reading.is_within_tolerance and not self.is_recalibrated
+        )
 
     @property
     def is_due(self) -> bool:
         """Whether it should be checked again."""
-        return self.recalibrated or not self.checked_days <= OLD_DAYS
+        return self.is_recalibrated or not self.check_age_days <= MAX_CHECK_AGE_DAYS
 
 
 def checks_path(data_folder: Path, serial: str) -> Path:
     """Where the checks of a camera are kept."""
-    return data_folder / CAMERAS / f"{file_stem(serial)}{SUFFIX}"
+    return data_folder / CAMERAS_FOLDER / f"{file_stem(serial)}{CHECKS_SUFFIX}"
 
 
 def read_checks(path: Path) -> list[CardCheck]:
@@ -73,22 +81,22 @@ def read_checks(path: Path) -> list[CardCheck]:
     except OSError:
         return []
     found = [check for line in lines if (check := _parse_check(line)) is not None]
-    return sorted(found, key=lambda check: datetime.fromisoformat(check.when))
+    return sorted(found, key=lambda check: datetime.fromisoformat(check.checked_at))
 
 
 def add_check(path: Path, check: CardCheck) -> None:
     """Append one check and bring it to the disk. Raises :class:`OutputNotWritable`."""
     reading = check.reading
     content = {
-        "when": check.when, "serial": check.serial, "angle_error_deg": reading.angle_error_deg,
+        "when": check.checked_at, "serial": check.serial, "angle_error_deg": reading.angle_error_deg,
         "length_error_mm": reading.length_error_mm, "scale": reading.scale, "measured": reading.measured.tolist(),
-        "sd": reading.sd.tolist(), "calibrated": check.calibrated, "most_angle_deg": reading.most_angle_deg,
-        "most_length_mm": reading.most_length_mm,
+        "sd": reading.sd.tolist(), "calibrated": check.calibrated_at, "most_angle_deg": reading.max_angle_error_deg,
+        "most_length_mm": reading.max_length_error_mm,
     }  # fmt: skip
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        with open(path, "ab", opener=private) as file:
-            torn = file.tell() > 0 and not _ends_a_line(path)
+        with open(path, "ab", opener=open_private) as file:
+            torn = file.tell() > 0 and not _has_final_newline(path)
             file.write(("\n" if torn else "").encode() + json.dumps(content).encode() + b"\n")
             file.flush()
             os.fsync(file.fileno())
@@ -100,20 +108,20 @@ def check_status(data_folder: Path, serial: str, now: datetime) -> CheckStatus:
     """What the data folder knows of a camera; nothing of one without a number."""
     if not serial:
         return CheckStatus("")
-    info = stored_calibration(data_folder, serial)
+    info = load_stored_calibration(data_folder, serial)
     calibrated = info.calibration.calibrated if info is not None and info.calibration is not None else ""
     checks = [one for one in read_checks(checks_path(data_folder, serial)) if one.serial == serial]
     if not checks:
         return CheckStatus(serial, age_days(calibrated, now))
     last = checks[-1]
-    later = is_moment(calibrated) and datetime.fromisoformat(calibrated) > datetime.fromisoformat(last.when)
-    return CheckStatus(serial, age_days(calibrated, now), age_days(last.when, now), last, later)
+    later = is_moment(calibrated) and datetime.fromisoformat(calibrated) > datetime.fromisoformat(last.checked_at)
+    return CheckStatus(serial, age_days(calibrated, now), age_days(last.checked_at, now), last, later)
 
 
-def known_serials(data_folder: Path) -> set[str]:
+def find_camera_serials(data_folder: Path) -> set[str]:
     """Serial numbers of cameras with a calibration or a check."""
-    folder = data_folder / CAMERAS
-    found = {check.serial for path in folder.glob(f"*{SUFFIX}") for check in read_checks(path)}
+    folder = data_folder / CAMERAS_FOLDER
+    found = {check.serial for path in folder.glob(f"*{CHECKS_SUFFIX}") for check in read_checks(path)}
     for path in folder.glob(f"*{CALIBRATION_SUFFIX}"):
         try:
             made = read_camera_info(path).calibration
@@ -126,7 +134,7 @@ def known_serials(data_folder: Path) -> set[str]:
 
 def examine_cameras(data_folder: Path, now: datetime) -> Iterator[Finding]:
     """One finding for each camera of which anything is kept; one that says so where nothing is."""
-    serials = sorted(known_serials(data_folder))
+    serials = sorted(find_camera_serials(data_folder))
     for serial in serials:
         yield _examine_camera(check_status(data_folder, serial, now))
     if not serials:
@@ -136,25 +144,29 @@ def examine_cameras(data_folder: Path, now: datetime) -> Iterator[Finding]:
 
 def _examine_camera(status: CheckStatus) -> Finding:
     said, remedies = "never calibrated", ["Run: carpus calibrate-camera."]
-    if math.isfinite(status.calibrated_days):
-        said = f"calibrated {_ago(status.calibrated_days)}"
+    if math.isfinite(status.calibration_age_days):
+        said = f"calibrated {_days_ago_text(status.calibration_age_days)}"
         remedies = ["Run: carpus calibrate-camera: the calibration is older than a year."]
-        remedies = remedies if status.calibrated_days > OLD_CALIBRATION_DAYS else []
-    if status.check is None:
+        remedies = remedies if status.calibration_age_days > MAX_CALIBRATION_AGE_DAYS else []
+    if status.last_check is None:
         said += ", never checked"
         remedies.append("Run: carpus check-card.")
     else:
-        said += f", checked {_ago(status.checked_days)}: {verdict_sentence(status.check.reading)}"
-        if status.is_out:
+        said += f", checked {_days_ago_text(status.check_age_days)}: {verdict_sentence(status.last_check.reading)}"
+        if status.is_out_of_tolerance:
             remedies.append("It measured wrong at the last check: check once more, then calibrate it again.")
         elif status.is_due:
-            why = "it was calibrated since" if status.recalibrated else f"the check is older than {OLD_DAYS:g} days"
+            why = (
+                "it was calibrated since"
+                if status.is_recalibrated
+                else f"the check is older than {MAX_CHECK_AGE_DAYS:g} days"
+            )
             remedies.append(f"Run: carpus check-card: {why}.")
-    state: State = "bad" if status.is_out else "warning" if remedies else "good"
+    state: State = "bad" if status.is_out_of_tolerance else "warning" if remedies else "good"
     return Finding(f"Camera {status.serial}", state, said, " ".join(remedies))
 
 
-def _ago(days: float) -> str:
+def _days_ago_text(days: float) -> str:
     """Days in words.
 
     >>> _ago(0.2), _ago(1.3), _ago(12.9)
@@ -169,18 +181,18 @@ def _parse_check(line: str) -> CardCheck | None:
         content = json.loads(line)
         measured, sd = (np.array(content[name], dtype=float) for name in ("measured", "sd"))
         when, serial, calibrated = (str(content[name]) for name in ("when", "serial", "calibrated"))
-        most = (content.get("most_angle_deg", MOST_ANGLE_DEG), content.get("most_length_mm", MOST_LENGTH_MM))
+        most = (content.get("most_angle_deg", MAX_ANGLE_ERROR_DEG), content.get("most_length_mm", MAX_LENGTH_ERROR_MM))
         scale, most_angle_deg, most_length_mm = map(float, (content["scale"], *most))
     except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
         return None
     numbers = (*measured.flat, scale, most_angle_deg, most_length_mm)
-    if not is_moment(when) or measured.shape != (len(FIGURES),) or not all(map(math.isfinite, numbers)):
+    if not is_moment(when) or measured.shape != (len(DIMENSIONS),) or not all(map(math.isfinite, numbers)):
         return None
     reading = CardReading(measured, sd, scale, math.nan, 0, 0, most_angle_deg, most_length_mm)
     return CardCheck(when, serial, reading, calibrated)
 
 
-def _ends_a_line(path: Path) -> bool:
+def _has_final_newline(path: Path) -> bool:
     with path.open("rb") as file:
         file.seek(-1, os.SEEK_END)
         return file.read(1) == b"\n"

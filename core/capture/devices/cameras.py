@@ -14,21 +14,22 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Protocol
 
 from carpus.core.camera import Camera
-from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
-from carpus.core.capture.source import Notice, ignore
+from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
+from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.errors import CameraUnknown, DriverMissing
-from carpus.core.installing import Finding, how_to_install
-from carpus.core.names import known_names
+from carpus.core.installing import Finding, install_hint
+from carpus.core.names import describe_known_names
 from carpus.core.phrase import Phrase, phrase
 
 if TYPE_CHECKING:
     from carpus.core.capture.devices.process_camera import ProcessCamera
 
 
-def library_finding(
-    name: str, package: str, load: Callable[[], None], asks: bool = True, wanted: bool = True
+def check_library(
+    name: str, package: str, load: Callable[[], None], loads_library: bool = True, is_needed: bool = True
 ) -> Finding | None:
-    """The maker's library by its package; loaded, in a process of its own, where ``asks`` and ``wanted``; None where it
+    """The maker's library by its package; loaded, in a process of its own, where ``loads_library`` and ``is_needed``;
+    None where it
     is missing and nothing wants it."""
     from importlib.metadata import PackageNotFoundError, version  # which every command would load here
 
@@ -36,8 +37,8 @@ def library_finding(
         found = f"{package} {version(package)}"
     except PackageNotFoundError:
         found = phrase("missing: {package}", package=package)
-        return Finding(name, "bad", found, how_to_install(package)) if wanted else None
-    trouble = _load_trouble(load) if asks and wanted else ""
+        return Finding(name, "bad", found, install_hint(package)) if is_needed else None
+    trouble = _find_load_error(load) if loads_library and is_needed else ""
     if not trouble:
         return Finding(name, "good", found)
     return Finding(
@@ -48,15 +49,15 @@ def library_finding(
     )
 
 
-def _load_trouble(load: Callable[[], None]) -> str:
+def _find_load_error(load: Callable[[], None]) -> str:
     """Why the library cannot be loaded; empty when it can. Only who asks loads what starts processes."""
-    from carpus.core.child_process import ChildDied, call_in_child
+    from carpus.core.child_process import ChildDiedError, call_in_child
 
     try:
         call_in_child(load)
     except DriverMissing as fault:
         return fault.detail
-    except ChildDied:
+    except ChildDiedError:
         return "it ends its process"
     return ""
 
@@ -64,11 +65,11 @@ def _load_trouble(load: Callable[[], None]) -> str:
 USB_3 = phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub.")
 
 
-def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
+def check_firmware_and_usb(settings: Mapping[str, str]) -> Sequence[Finding]:
     """Firmware and port of an opened camera."""
     findings = []
     firmware, wanted, usb = (settings.get(key, "") for key in ("firmware", "firmware_wanted", "usb"))
-    if firmware and wanted and _numbers(firmware) < _numbers(wanted):
+    if firmware and wanted and _parse_version(firmware) < _parse_version(wanted):
         found = phrase("{firmware}, the library asks for {wanted}", firmware=firmware, wanted=wanted)
         remedy = phrase("Bring the firmware up to date with the maker's RealSense Viewer.")
         findings.append(Finding(phrase("Firmware"), "warning", found, remedy))
@@ -81,16 +82,16 @@ def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
     return findings
 
 
-def _numbers(version_text: str) -> list[int]:
+def _parse_version(version_text: str) -> list[int]:
     return [int(part) if part.isdigit() else 0 for part in version_text.split(".")]
 
 
-class Opening(Protocol):
+class CameraOpener(Protocol):
     """Opens a camera. ``uri`` None: the first; ``camera``: measured intrinsics; ``patience_s``: how long it may be
     away before that is a fault. Its driver is loaded then and not before."""
 
     def __call__(
-        self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice
+        self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: NoticeHandler
     ) -> ProcessCamera: ...
 
 
@@ -103,21 +104,22 @@ def no_findings(_settings: Mapping[str, str]) -> Sequence[Finding]:
 class CameraKind:
     """``models`` are names by USB vendor and product (four hexadecimal digits each).
 
-    ``driver`` says how its library is, None where nothing need be said: whether its version is asked (in a process
-    of its own, half a second), and whether a camera of the kind is wanted; ``further`` what its settings, once
+    ``check_driver`` says how its library is, None where nothing need be said: whether its version is asked (in a
+    process
+    of its own, half a second), and whether a camera of the kind is wanted; ``check_settings`` what its settings, once
     opened, tell of firmware and port.
     """
 
     title: str
     models: Mapping[tuple[str, str], str]
-    open: Opening
-    driver: Callable[[bool, bool], Finding | None]
+    open: CameraOpener
+    check_driver: Callable[[bool, bool], Finding | None]
     needed_mbit: int
-    port: Phrase
-    further: Callable[[Mapping[str, str]], Sequence[Finding]] = no_findings
+    port_advice: Phrase
+    check_settings: Callable[[Mapping[str, str]], Sequence[Finding]] = no_findings
 
     @property
-    def rules(self) -> str:
+    def udev_rules(self) -> str:
         """For udev, a line for each vendor: whoever sits at the computer may open the camera."""
         lines = []
         for vendor in sorted({vendor for vendor, _ in self.models}):
@@ -126,9 +128,9 @@ class CameraKind:
             lines.append(f'SUBSYSTEM=="usb", {which}, MODE="0660", TAG+="uaccess"')
         return "\n".join(lines)
 
-    def seen(self) -> list[UsbCamera]:
+    def find_connected(self) -> list[UsbCamera]:
         """Those plugged in; empty where the system does not tell."""
-        return usb_cameras(self.models)
+        return find_usb_cameras(self.models)
 
 
 CAMERAS = {
@@ -139,61 +141,61 @@ CAMERAS = {
 """Module by kind; the first is the usual one."""
 
 
-def kind_of(uri: str) -> str:
+def parse_kind(uri: str) -> str:
     """Which kind a camera's address names before its first colon; the usual one where it names none."""
     named = uri.partition(":")[0]
     return named if named in CAMERAS else next(iter(CAMERAS))
 
 
-def check_address(uri: str) -> None:
+def validate_address(uri: str) -> None:
     """Raise :class:`CameraUnknown` where ``uri`` names a kind that there is not.
 
     Without a kind it is OpenNI2's own address, ``1d27/0601@1/7``, which has a stroke, or empty.
     """
     named = uri.partition(":")[0]
     if named and named not in CAMERAS and "/" not in uri:
-        raise CameraUnknown(named, known_names(named, CAMERAS))
+        raise CameraUnknown(named, describe_known_names(named, CAMERAS))
 
 
-def camera_kind(name: str) -> CameraKind:
+def load_camera_kind(name: str) -> CameraKind:
     """The kind of that name."""
     kind: CameraKind = import_module(f"{__package__}.{CAMERAS[name]}").KIND
     return kind
 
 
-def udev_rules() -> str:
+def format_udev_rules() -> str:
     """Of all kinds, as the Debian package brings them."""
-    return "".join(f"# {kind.title}\n{kind.rules}\n" for kind in map(camera_kind, CAMERAS))
+    return "".join(f"# {kind.title}\n{kind.udev_rules}\n" for kind in map(load_camera_kind, CAMERAS))
 
 
-def seen_cameras() -> list[tuple[str, UsbCamera]]:
+def find_connected_cameras() -> list[tuple[str, UsbCamera]]:
     """The cameras plugged in, of all kinds, with the names of their kinds; empty where the system does not tell."""
-    return [(name, camera) for name in CAMERAS for camera in camera_kind(name).seen()]
+    return [(name, camera) for name in CAMERAS for camera in load_camera_kind(name).find_connected()]
 
 
-def name_to_open(uri: str = "") -> str | None:
+def find_camera_name(uri: str = "") -> str | None:
     """Name of what :func:`open_camera` would open, empty where the system does not tell, None where there is none."""
-    wanted = [camera.name for name, camera in seen_cameras() if not uri or name == kind_of(uri)]
+    wanted = [camera.name for name, camera in find_connected_cameras() if not uri or name == parse_kind(uri)]
     if wanted:
         return wanted[0]
     return None if sys.platform.startswith("linux") else ""
 
 
-def kind_to_open(uri: str = "") -> str:
+def choose_kind(uri: str = "") -> str:
     """The kind that :func:`open_camera` opens: as named, else of the first that is plugged in, else the usual one."""
-    return kind_of(uri) if uri else next((name for name, _ in seen_cameras()), kind_of(uri))
+    return parse_kind(uri) if uri else next((name for name, _ in find_connected_cameras()), parse_kind(uri))
 
 
 def open_camera(
-    uri: str = "", *, camera: Camera | None = None, patience_s: float = math.inf, notice: Notice = ignore
+    uri: str = "", *, camera: Camera | None = None, patience_s: float = math.inf, notice: NoticeHandler = ignore_notice
 ) -> ProcessCamera:
     """Open a camera by its address (``KIND``, or ``KIND:`` and what the kind calls it); empty: the first plugged in.
 
     Raises :class:`CameraUnknown`, the faults of its module, and :class:`CameraLost` when it is away for more than
     ``patience_s``.
     """
-    check_address(uri)
-    name = kind_to_open(uri)
+    validate_address(uri)
+    name = choose_kind(uri)
     named, _, which = uri.partition(":")
     place = which if named in CAMERAS else uri
-    return camera_kind(name).open(uri=place or None, camera=camera, patience_s=patience_s, notice=notice)
+    return load_camera_kind(name).open(uri=place or None, camera=camera, patience_s=patience_s, notice=notice)

@@ -27,21 +27,22 @@ from carpus.core.child_process import end_with_owner
 from carpus.core.errors import (
     CameraBusy,
     CameraLost,
+    CameraMismatch,
     CameraMissing,
     CameraPermission,
     CarpusFault,
     DriverFailed,
     DriverMissing,
-    OtherCamera,
 )
 
 
 @dataclass(frozen=True, slots=True)
-class CameraPlan:
+class CameraConfig:
     """Open a live camera: the first, or the one with this serial number; ``models`` names what may be plugged in, by
     USB vendor and product; ``uri`` is OpenNI2's address of the one to open, empty for any.
 
-    ``context`` makes the library's context in the capture process; None: the one of the real bus. A stand-in puts a
+    ``make_context`` makes the library's context in the capture process; None: the one of the real bus. A stand-in
+    puts a
     software device of the library there, which is then found, opened and read like a camera.
     """
 
@@ -49,12 +50,12 @@ class CameraPlan:
     size_px: tuple[int, int] = (640, 480)
     fps: int = 30
     models: Mapping[tuple[str, str], str] = field(default_factory=dict)
-    context: Callable[[], Any] | None = None
+    make_context: Callable[[], Any] | None = None
     uri: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Ring:
+class RingBuffer:
     """The shared memory: ``slots`` pictures of at most ``slot_bytes``."""
 
     name: str
@@ -63,12 +64,12 @@ class Ring:
 
 
 @dataclass(frozen=True, slots=True)
-class Alive:
+class Heartbeat:
     """The process is up and not stuck in the driver."""
 
 
 @dataclass(frozen=True, slots=True)
-class Opened:
+class DeviceOpened:
     """The device is open and its streams run; ``modes`` are those of the pictures that come through the ring.
 
     ``settings`` goes into the session; ``lens`` where the driver knows it, else perhaps the ``field_of_view_rad``.
@@ -83,8 +84,8 @@ class Opened:
 
 
 @dataclass(frozen=True, slots=True)
-class Arrived:
-    """A picture lies in ``slot`` until :class:`Free` gives it back; a ``number`` that is missing was dropped."""
+class ImageArrived:
+    """A picture lies in ``slot`` until :class:`ReleaseSlot` gives it back; a ``number`` that is missing was dropped."""
 
     sensor: Sensor
     slot: int
@@ -93,19 +94,19 @@ class Arrived:
 
 
 @dataclass(frozen=True, slots=True)
-class ExposureSet:
-    """Exposure and white balance are held from now on; ``done`` whether the camera can."""
+class ExposureLocked:
+    """Exposure and white balance are held from now on; ``is_locked`` whether the camera can."""
 
-    done: bool
+    is_locked: bool
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
+class StreamEnded:
     """The recording is over, or the process was asked to stop."""
 
 
 @dataclass(frozen=True, slots=True)
-class Trouble:
+class FaultReport:
     """The process gives up; ``fault`` and ``detail`` say why."""
 
     fault: type[CarpusFault]
@@ -113,7 +114,7 @@ class Trouble:
 
 
 @dataclass(frozen=True, slots=True)
-class Free:
+class ReleaseSlot:
     """To the process: ``slot`` may be written again."""
 
     slot: int
@@ -125,22 +126,22 @@ class LockExposure:
 
 
 @dataclass(frozen=True, slots=True)
-class Stop:
+class StopCapture:
     """To the process: close the device and end."""
 
 
-Report = Alive | Opened | Arrived | ExposureSet | Ended | Trouble
-Command = Free | LockExposure | Stop
+CaptureReport = Heartbeat | DeviceOpened | ImageArrived | ExposureLocked | StreamEnded | FaultReport
+CaptureCommand = ReleaseSlot | LockExposure | StopCapture
 
 
-WAIT_MS = 200
-ALIVE_EVERY_S = 1.0
-CAMERA_SILENCE_S = 3.0
-CAMERA_WARM_UP_S = 6.0
+POLL_MS = 200
+HEARTBEAT_S = 1.0
+MAX_SILENCE_S = 3.0
+WARM_UP_S = 6.0
 """Time to the first picture after opening."""
 
 
-class GaveUp(Exception):
+class CaptureFailed(Exception):
     """Ends the process with a fault for the owner."""
 
     def __init__(self, fault: type[CarpusFault], detail: str) -> None:
@@ -149,30 +150,30 @@ class GaveUp(Exception):
         self.detail = detail
 
 
-class Heard:
+class StreamWatchdog:
     """When each picture sensor of a camera was last heard: it may warm up, then none may fall silent."""
 
     def __init__(self, sensors: Iterable[Sensor]) -> None:
-        self._last_s = dict.fromkeys(sensors, time.monotonic() + CAMERA_WARM_UP_S - CAMERA_SILENCE_S)
+        self._last_s = dict.fromkeys(sensors, time.monotonic() + WARM_UP_S - MAX_SILENCE_S)
 
-    def picture_of(self, sensor: Sensor) -> None:
+    def reset(self, sensor: Sensor) -> None:
         self._last_s[sensor] = time.monotonic()
 
     def check(self) -> None:
-        """Raises :class:`GaveUp` where one has been silent for too long."""
+        """Raises :class:`CaptureFailed` where one has been silent for too long."""
         for sensor, last_s in self._last_s.items():
-            if time.monotonic() - last_s > CAMERA_SILENCE_S:
-                raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
+            if time.monotonic() - last_s > MAX_SILENCE_S:
+                raise CaptureFailed(CameraLost, f"no {sensor.name.lower()} pictures for {MAX_SILENCE_S:g} s")
 
 
-class Outlet:
+class CaptureOutlet:
     """What a driver's code in the capture process hands pictures and reports to, and hears commands from.
 
     ``lock_exposure`` is called when exposure and white balance are to stay as they are; it answers whether the camera
     can, or None where that is reported later.
     """
 
-    def __init__(self, link: Connection, commands: queue.SimpleQueue[Command], ring: Ring) -> None:
+    def __init__(self, link: Connection, commands: queue.SimpleQueue[CaptureCommand], ring: RingBuffer) -> None:
         self._link = link
         self._commands = commands
         self._ring = ring
@@ -181,84 +182,89 @@ class Outlet:
         self._pixels = self._memory.buf
         self._free = list(reversed(range(ring.slots)))
         self._last_sent = time.monotonic()
-        self._held: list[object] = []
-        self.stopping = False
+        self._retained: list[object] = []
+        self.is_stopping = False
         self.lock_exposure: Callable[[], bool | None] = lambda: False
 
     @property
-    def has_room(self) -> bool:
+    def has_free_slot(self) -> bool:
         """Whether the next picture finds a slot."""
         return bool(self._free)
 
-    def hold(self, *kept: object) -> None:
+    def retain(self, *objects: object) -> None:
         """A driver's threads call back and copy until the very end: what they use lives as long as the process."""
-        self._held += kept
+        self._retained += objects
 
-    def send(self, report: Report) -> None:
+    def send(self, report: CaptureReport) -> None:
         self._link.send(report)
         self._last_sent = time.monotonic()
 
-    def stay_alive(self) -> None:
+    def send_heartbeat(self) -> None:
         """Tell the owner now and then that the driver is not stuck."""
-        if time.monotonic() - self._last_sent > ALIVE_EVERY_S:
-            self.send(Alive())
+        if time.monotonic() - self._last_sent > HEARTBEAT_S:
+            self.send(Heartbeat())
 
-    def watch(self, sensors: Iterable[Sensor], gone: threading.Event, pass_on: Callable[[Heard], None]) -> None:
-        """The loop of every camera, until it is to stop: ``pass_on`` waits a moment for pictures, hands on what came
-        and notes which sensor was heard; ``gone`` is set by the driver's own threads when the camera was unplugged."""
-        heard = Heard(sensors)
-        while not self.stopping:
-            self.obey(block=False)
-            if gone.is_set():
-                raise GaveUp(CameraLost, "unplugged")
-            pass_on(heard)
+    def run(
+        self, sensors: Iterable[Sensor], unplugged: threading.Event, forward_images: Callable[[StreamWatchdog], None]
+    ) -> None:
+        """The loop of every camera, until it is to stop: ``forward_images`` waits a moment for pictures, hands on
+        what came
+        and notes which sensor was heard; ``unplugged`` is set by the driver's own threads when the camera was
+        unplugged."""
+        heard = StreamWatchdog(sensors)
+        while not self.is_stopping:
+            self.handle_commands(block=False)
+            if unplugged.is_set():
+                raise CaptureFailed(CameraLost, "unplugged")
+            forward_images(heard)
             heard.check()
-            self.stay_alive()
+            self.send_heartbeat()
 
-    def put(self, sensor: Sensor, number: int, timestamp_us: int, picture: memoryview) -> None:
+    def publish(self, sensor: Sensor, number: int, timestamp_us: int, image: memoryview) -> None:
         """Copy one picture (contiguous bytes) and announce it; dropped when no slot is free or it is too large."""
-        if self._free and picture.nbytes <= self._ring.slot_bytes:
+        if self._free and image.nbytes <= self._ring.slot_bytes:
             slot = self._free.pop()  # the one freed last: what is never needed takes no memory
             start = slot * self._ring.slot_bytes
-            self._pixels[start : start + picture.nbytes] = picture
-            self.send(Arrived(sensor, slot, number, timestamp_us))
+            self._pixels[start : start + image.nbytes] = image
+            self.send(ImageArrived(sensor, slot, number, timestamp_us))
 
-    def obey(self, *, block: bool) -> None:
+    def handle_commands(self, *, block: bool) -> None:
         """Carry out what the owner asked for; with ``block`` wait a moment for it."""
         while True:
             try:
-                command = self._commands.get(timeout=WAIT_MS / 1000) if block else self._commands.get_nowait()
+                command = self._commands.get(timeout=POLL_MS / 1000) if block else self._commands.get_nowait()
             except queue.Empty:
                 return
             block = False
-            if isinstance(command, Free):
+            if isinstance(command, ReleaseSlot):
                 self._free.append(command.slot)
             elif isinstance(command, LockExposure):
                 done = self.lock_exposure()
                 if done is not None:
-                    self.send(ExposureSet(done))
-            elif isinstance(command, Stop):
-                self.stopping = True
+                    self.send(ExposureLocked(done))
+            elif isinstance(command, StopCapture):
+                self.is_stopping = True
 
 
-Serve = Callable[[Outlet, Any], None]
-"""A driver's code: serves a plan until its end or ``outlet.stopping``; raises :class:`GaveUp` or DriverMissing."""
+ServeFunction = Callable[[CaptureOutlet, Any], None]
+"""A driver's code: serves a plan until its end or ``outlet.is_stopping``; raises :class:`CaptureFailed` or
+DriverMissing."""
 
 
-def run(link: Connection, serve: Serve, plan: object, ring: Ring) -> None:
-    """Entry of the process: serve ``plan`` until its end, a :class:`Stop`, or the death of the owner."""
+def run(link: Connection, serve: ServeFunction, plan: object, ring: RingBuffer) -> None:
+    """Entry of the process: serve ``plan`` until its end, a :class:`StopCapture`, or the death of the owner."""
     end_with_owner()
-    commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
-    threading.Thread(target=_listen, args=(link, commands), name="commands", daemon=True).start()
-    link.send(Alive())
-    report: Report = Ended()
-    outlet = Outlet(link, commands, ring)
+    commands: queue.SimpleQueue[CaptureCommand] = queue.SimpleQueue()
+    threading.Thread(target=_receive_commands, args=(link, commands), name="commands", daemon=True).start()
+    link.send(Heartbeat())
+    report: CaptureReport = StreamEnded()
+    outlet = CaptureOutlet(link, commands, ring)
     try:
         serve(outlet, plan)
-    except GaveUp as failure:
-        report = Trouble(failure.fault, failure.detail)
+    except CaptureFailed as failure:
+        report = FaultReport(failure.fault, failure.detail)
     except DriverMissing as fault:
-        report = Trouble(DriverMissing, fault.detail)
+        report = FaultReport(DriverMissing, fault.detail)
     except (BrokenPipeError, ConnectionResetError):
         os._exit(0)
     try:
@@ -269,39 +275,40 @@ def run(link: Connection, serve: Serve, plan: object, ring: Ring) -> None:
         os._exit(0)
 
 
-def _listen(link: Connection, commands: queue.SimpleQueue[Command]) -> None:
+def _receive_commands(link: Connection, commands: queue.SimpleQueue[CaptureCommand]) -> None:
     with suppress(EOFError, OSError):
         while True:
             commands.put(link.recv())
 
 
-_BUSY = ("busy", "in use", "errno=16")
-_NO_RIGHTS = ("permission", "access denied", "usb_status_access", "errno=13")
+_BUSY_WORDS = ("busy", "in use", "errno=16")
+_PERMISSION_WORDS = ("permission", "access denied", "usb_status_access", "errno=13")
 
 
-def why_unlisted(seen: Sequence[UsbCamera], listed: Sequence[str] = ()) -> GaveUp:
-    """Of the cameras ``seen`` on the bus the driver lists only ``listed`` (in words), and the wanted is not among them.
+def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] = ()) -> CaptureFailed:
+    """Of the cameras ``connected`` on the bus the driver lists only ``listed`` (in words), and the wanted is not
+    among them.
 
     The bus does not tell the serial numbers that drivers tell: a camera that is not listed may be the wanted one.
     """
-    if len(seen) > len(listed):
-        for camera in seen:
-            if not camera.may_open:
-                return GaveUp(CameraPermission, str(camera.node))
-        for camera in seen:
+    if len(connected) > len(listed):
+        for camera in connected:
+            if not camera.can_open:
+                return CaptureFailed(CameraPermission, str(camera.node))
+        for camera in connected:
             if camera.is_claimed:
-                return GaveUp(CameraBusy, camera.name)
-        return GaveUp(DriverFailed, f"{seen[0].name} is plugged in, but the driver does not see it")
-    return GaveUp(OtherCamera, ", ".join(listed)) if listed else GaveUp(CameraMissing, "")
+                return CaptureFailed(CameraBusy, camera.name)
+        return CaptureFailed(DriverFailed, f"{connected[0].name} is plugged in, but the driver does not see it")
+    return CaptureFailed(CameraMismatch, ", ".join(listed)) if listed else CaptureFailed(CameraMissing, "")
 
 
-def why_not_opened(reason: str, seen: Sequence[UsbCamera]) -> GaveUp:
+def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CaptureFailed:
     """The driver could not open a camera it lists, for this reason in its own words. Who holds it is no help here: the
     driver that failed may have taken it itself."""
     said = reason.lower()
-    if any(word in said for word in _BUSY):
-        return GaveUp(CameraBusy, reason)
-    locked = [str(camera.node) for camera in seen if not camera.may_open]
-    if locked or any(word in said for word in _NO_RIGHTS):
-        return GaveUp(CameraPermission, locked[0] if locked else reason)
-    return GaveUp(DriverFailed, reason)
+    if any(word in said for word in _BUSY_WORDS):
+        return CaptureFailed(CameraBusy, reason)
+    locked = [str(camera.node) for camera in connected if not camera.can_open]
+    if locked or any(word in said for word in _PERMISSION_WORDS):
+        return CaptureFailed(CameraPermission, locked[0] if locked else reason)
+    return CaptureFailed(DriverFailed, reason)

@@ -12,15 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.capture.devices.capture_child import (
-    Arrived,
-    Command,
-    Free,
-    Opened,
-    Report,
-    Ring,
-    Serve,
-    Stop,
-    Trouble,
+    CaptureCommand,
+    CaptureReport,
+    DeviceOpened,
+    FaultReport,
+    ImageArrived,
+    ReleaseSlot,
+    RingBuffer,
+    ServeFunction,
+    StopCapture,
     run,
 )
 from carpus.core.capture.video_mode import Sensor, VideoMode
@@ -30,12 +30,12 @@ from carpus.core.phrase import phrase
 
 SLOTS = 8
 """Pictures of a recording, which waits."""
-START_S = 30.0
+START_TIMEOUT_S = 30.0
 """A loaded computer may take long to start a process; this is not the driver's fault."""
-ANSWER_S = 4.5
+REPORT_TIMEOUT_S = 4.5
 """The process reports each second; silent for longer, it is stuck in the driver."""
-STOP_S = 3.0
-LOOK_S = 0.1
+STOP_TIMEOUT_S = 3.0
+POLL_S = 0.1
 """How often a wait looks whether it is still wanted."""
 
 
@@ -45,17 +45,17 @@ class CaptureProcess:
     One thread at a time calls it.
     """
 
-    def __init__(self, serve: Serve, plan: object, subject: str, slot_bytes: int, slots: int = SLOTS) -> None:
+    def __init__(self, serve: ServeFunction, plan: object, subject: str, slot_bytes: int, slots: int = SLOTS) -> None:
         self._subject = subject
         self._memory = SharedMemory(create=True, size=slots * slot_bytes)
         self._slot_bytes = slot_bytes
-        self._kept: deque[Report] = deque()
+        self._deferred_reports: deque[CaptureReport] = deque()
         self._closed = False
-        ring = Ring(self._memory.name, slots, slot_bytes)
+        ring = RingBuffer(self._memory.name, slots, slot_bytes)
         try:
             self._child = ChildProcess(run, serve, plan, ring, name="capture")
         except BaseException:
-            self._release()
+            self._release_memory()
             raise
         self._link = self._child.link
 
@@ -63,46 +63,48 @@ class CaptureProcess:
     def pid(self) -> int:
         return self._child.pid
 
-    def wait_open(self, closing: threading.Event, open_s: float) -> Opened | None:
-        """What was opened, at most ``open_s`` after the process is up; None when ``closing``."""
-        if self.report(closing, START_S) is None:
+    def receive_opened(self, closing: threading.Event, timeout_s: float) -> DeviceOpened | None:
+        """What was opened, at most ``timeout_s`` after the process is up; None when ``closing``."""
+        if self.receive_report(closing, START_TIMEOUT_S) is None:
             return None
-        while (report := self.report(closing, open_s)) is not None:
-            if isinstance(report, Opened):
+        while (report := self.receive_report(closing, timeout_s)) is not None:
+            if isinstance(report, DeviceOpened):
                 return report
-            if isinstance(report, Arrived):
-                self.free(report)  # came before its mode was known
+            if isinstance(report, ImageArrived):
+                self.release_slot(report)  # came before its mode was known
         return None
 
-    def report(self, closing: threading.Event, patience_s: float = ANSWER_S) -> Report | None:
+    def receive_report(self, closing: threading.Event, timeout_s: float = REPORT_TIMEOUT_S) -> CaptureReport | None:
         """The next report; None when ``closing``. Raises the fault that ended the process."""
-        deadline = time.monotonic() + patience_s
+        deadline = time.monotonic() + timeout_s
         while not closing.is_set():
             try:
-                if self._kept or self._link.poll(LOOK_S):
-                    report: Report = self._kept.popleft() if self._kept else self._link.recv()
-                    if isinstance(report, Trouble):
+                if self._deferred_reports or self._link.poll(POLL_S):
+                    report: CaptureReport = (
+                        self._deferred_reports.popleft() if self._deferred_reports else self._link.recv()
+                    )
+                    if isinstance(report, FaultReport):
                         raise report.fault(self._subject, report.detail)
                     return report
             except (EOFError, OSError) as cause:
-                raise DriverFailed(self._subject, self._child.describe_death()) from cause
+                raise DriverFailed(self._subject, self._child.describe_exit()) from cause
             if time.monotonic() > deadline:
-                raise DriverFailed(self._subject, phrase("no answer for {patience_s} s", patience_s=f"{patience_s:g}"))
+                raise DriverFailed(self._subject, phrase("no answer for {patience_s} s", patience_s=f"{timeout_s:g}"))
         return None
 
-    def pixels(self, arrived: Arrived, mode: VideoMode) -> NDArray[Any]:
-        """The picture in the ring, a view that lives until :meth:`free`: (H, W, 3) uint8 or (H, W) uint16."""
+    def view_image(self, arrived: ImageArrived, mode: VideoMode) -> NDArray[Any]:
+        """The picture in the ring, a view that lives until :meth:`release_slot`: (H, W, 3) uint8 or (H, W) uint16."""
         offset = arrived.slot * self._slot_bytes
         height, width = mode.height_px, mode.width_px
         if arrived.sensor == Sensor.COLOR:
             return np.ndarray((height, width, 3), np.uint8, self._memory.buf, offset)
         return np.ndarray((height, width), np.uint16, self._memory.buf, offset)
 
-    def free(self, arrived: Arrived) -> None:
-        self.tell(Free(arrived.slot))
+    def release_slot(self, arrived: ImageArrived) -> None:
+        self.send_command(ReleaseSlot(arrived.slot))
 
-    def tell(self, command: Command) -> None:
-        """Pass a command on; a dead process is noticed by the next :meth:`report`."""
+    def send_command(self, command: CaptureCommand) -> None:
+        """Pass a command on; a dead process is noticed by the next :meth:`receive_report`."""
         try:
             self._link.send(command)
         except OSError:
@@ -113,27 +115,27 @@ class CaptureProcess:
         if self._closed:
             return
         if gently:
-            self.tell(Stop())
-            deadline = time.monotonic() + STOP_S
+            self.send_command(StopCapture())
+            deadline = time.monotonic() + STOP_TIMEOUT_S
             while self._child.is_alive and time.monotonic() < deadline:
-                self._drain()
+                self._drain_pipe()
                 time.sleep(0.02)
         self._child.end()
-        self._release()
+        self._release_memory()
 
-    def discard(self) -> None:
+    def discard_images(self) -> None:
         """Forget the pictures that wait: they are old. Other reports are kept."""
         try:
             while self._link.poll(0):
-                report: Report = self._link.recv()
-                if isinstance(report, Arrived):
-                    self.free(report)
+                report: CaptureReport = self._link.recv()
+                if isinstance(report, ImageArrived):
+                    self.release_slot(report)
                 else:
-                    self._kept.append(report)
+                    self._deferred_reports.append(report)
         except (EOFError, OSError):
             return  # the next look for a report tells why
 
-    def _drain(self) -> None:
+    def _drain_pipe(self) -> None:
         """Read on, so that the process is not stuck in a full pipe."""
         try:
             while self._link.poll(0):
@@ -141,7 +143,7 @@ class CaptureProcess:
         except (EOFError, OSError):
             return
 
-    def _release(self) -> None:
+    def _release_memory(self) -> None:
         self._closed = True
         self._memory.close()
         self._memory.unlink()

@@ -10,26 +10,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from carpus.core.capture.devices.capture_child import ExposureSet, Outlet
+from carpus.core.capture.devices.capture_child import CaptureOutlet, ExposureLocked
 
-LIGHT_SHARE = 0.9
+EXPOSURE_SHARE = 0.9
 """Of a picture's time the longest exposure: a longer one would slow the camera down."""
 EXPOSURE_UNIT_S = 1e-4
 """In which both makers count exposure."""
-EVERY = 97
+PIXEL_STEP = 97
 """Every so-many-th pixel is looked at."""
-TAKES_EFFECT = 7
+EFFECT_DELAY_FRAMES = 7
 """Pictures until a change is seen for certain: some are on their way."""
-NEAR, FAR = 0.02, 0.10
+DONE_TOLERANCE, HELD_TOLERANCE = 0.02, 0.10
 """Share by which brightness, and red against blue, may differ: to be done, and to count as held at all."""
-MOST_ROUNDS = 12
+MAX_ROUNDS = 12
 FIRST_STEP_K = 300.0
-LARGEST_STEP = 1.0
+MAX_LOG_STEP = 1.0
 """Of the logarithm of the exposure in one round."""
 
 
 @dataclass(frozen=True, slots=True)
-class SeenColors:
+class ColorStatistics:
     """Mean brightness (0 to 255), and the logarithm of red against blue."""
 
     brightness: float
@@ -37,78 +37,78 @@ class SeenColors:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class ColorSettings:
     """What to set next; ``kelvin`` 0 where white balance cannot be set."""
 
     exposure: float
     kelvin: float
 
 
-def seen_colors(picture: Sequence[int]) -> SeenColors:
+def measure_colors(image: Sequence[int]) -> ColorStatistics:
     """Of the bytes of an RGB picture."""
-    red, green, blue = (sum(picture[channel :: 3 * EVERY]) + 1.0 for channel in range(3))
-    count = len(range(0, len(picture), 3 * EVERY))
-    return SeenColors((red + green + blue) / (3.0 * count), math.log(red / blue))
+    red, green, blue = (sum(image[channel :: 3 * PIXEL_STEP]) + 1.0 for channel in range(3))
+    count = len(range(0, len(image), 3 * PIXEL_STEP))
+    return ColorStatistics((red + green + blue) / (3.0 * count), math.log(red / blue))
 
 
-class ColorHold:
+class ColorController:
     """Steps towards the pictures of before. Brightness follows the exposure; how red against blue follows the colour
     temperature is learnt by a first step."""
 
     def __init__(
         self,
-        before: SeenColors,
+        reference: ColorStatistics,
         exposure: float,
         exposures: tuple[float, float],
         kelvin: float,
         kelvins: tuple[float, float] | None,
     ) -> None:
-        self._before = before
-        self._exposure, self._exposures = _within(exposure, exposures), exposures
+        self._reference = reference
+        self._exposure, self._exposures = _clamp(exposure, exposures), exposures
         self._kelvin, self._kelvins = kelvin, kelvins
-        self._pictures = self._rounds = 0
-        self._tried: tuple[float, float] | None = None
-        self.is_over = False
-        self.is_like_before = False
+        self._frames = self._rounds = 0
+        self._last_measurement: tuple[float, float] | None = None
+        self.is_done = False
+        self.has_converged = False
 
-    def step(self, seen: SeenColors) -> Step | None:
+    def update(self, measured: ColorStatistics) -> ColorSettings | None:
         """One more picture: what to set, None for nothing now."""
-        if self._rounds == self._pictures == 0:
-            self._pictures = 1
-            return Step(self._exposure, self._kelvin)
-        self._pictures += 1
-        if self._pictures <= TAKES_EFFECT or self.is_over:
+        if self._rounds == self._frames == 0:
+            self._frames = 1
+            return ColorSettings(self._exposure, self._kelvin)
+        self._frames += 1
+        if self._frames <= EFFECT_DELAY_FRAMES or self.is_done:
             return None
-        self._pictures = 1
+        self._frames = 1
         self._rounds += 1
-        darker = math.log(self._before.brightness / seen.brightness)
-        redder = self._before.red_blue - seen.red_blue if self._kelvins else 0.0
+        darker = math.log(self._reference.brightness / measured.brightness)
+        redder = self._reference.red_blue - measured.red_blue if self._kelvins else 0.0
         worst = max(abs(darker), abs(redder))
-        self.is_over = worst < NEAR or self._rounds >= MOST_ROUNDS
-        self.is_like_before = worst < FAR
-        if self.is_over:
+        self.is_done = worst < DONE_TOLERANCE or self._rounds >= MAX_ROUNDS
+        self.has_converged = worst < HELD_TOLERANCE
+        if self.is_done:
             return None
-        factor = math.exp(max(-LARGEST_STEP, min(LARGEST_STEP, darker)))
-        self._exposure = _within(self._exposure * factor, self._exposures)
-        if self._kelvins is not None and abs(redder) >= NEAR:
-            self._kelvin = _within(self._kelvin + self._step_k(redder, seen.red_blue), self._kelvins)
-        return Step(self._exposure, self._kelvin)
+        factor = math.exp(max(-MAX_LOG_STEP, min(MAX_LOG_STEP, darker)))
+        self._exposure = _clamp(self._exposure * factor, self._exposures)
+        if self._kelvins is not None and abs(redder) >= DONE_TOLERANCE:
+            self._kelvin = _clamp(self._kelvin + self._temperature_step_k(redder, measured.red_blue), self._kelvins)
+        return ColorSettings(self._exposure, self._kelvin)
 
-    def _step_k(self, redder: float, red_blue: float) -> float:
-        tried, self._tried = self._tried, (self._kelvin, red_blue)
+    def _temperature_step_k(self, redder: float, red_blue: float) -> float:
+        tried, self._last_measurement = self._last_measurement, (self._kelvin, red_blue)
         if tried is None or tried[0] == self._kelvin or tried[1] == red_blue:
             return math.copysign(FIRST_STEP_K, redder)
         slope = (red_blue - tried[1]) / (self._kelvin - tried[0])
         return max(-1500.0, min(1500.0, redder / slope))
 
 
-def _within(value: float, reach: tuple[float, float]) -> float:
+def _clamp(value: float, reach: tuple[float, float]) -> float:
     return max(reach[0], min(reach[1], value))
 
 
-def longest_exposure(fps: float) -> float:
+def max_exposure(fps: float) -> float:
     """In :data:`EXPOSURE_UNIT_S`."""
-    return LIGHT_SHARE / fps / EXPOSURE_UNIT_S
+    return EXPOSURE_SHARE / fps / EXPOSURE_UNIT_S
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,26 +116,26 @@ class Control:
     """A value that can be set, and between which it can be; the unit is the camera's own."""
 
     value: float
-    least: float
-    most: float
+    min_value: float
+    max_value: float
 
 
 class ColorControls(Protocol):
     """What a driver can set of its colour camera."""
 
-    def stop_following(self) -> tuple[bool, bool]:
+    def disable_automatic(self) -> tuple[bool, bool]:
         """Switch automatic exposure and white balance off; which of both took it."""
         ...
 
-    def exposure(self) -> Control | None:
+    def read_exposure(self) -> Control | None:
         """None where it cannot be set."""
         ...
 
-    def balance(self) -> Control | None:
+    def read_white_balance(self) -> Control | None:
         """Colour temperature in kelvin; None where it cannot be set."""
         ...
 
-    def put(self, step: Step) -> None:
+    def apply(self, step: ColorSettings) -> None:
         """Set both to the nearest that the camera takes."""
         ...
 
@@ -143,38 +143,38 @@ class ColorControls(Protocol):
 class ColorLock:
     """Lets the camera follow the light until it is to hold; that it holds is reported to the owner of the process."""
 
-    def __init__(self, outlet: Outlet, controls: ColorControls) -> None:
+    def __init__(self, outlet: CaptureOutlet, controls: ColorControls) -> None:
         self._outlet, self._controls = outlet, controls
-        self._hold: ColorHold | None = None
-        self._last: bytes | None = None
+        self._controller: ColorController | None = None
+        self._last_image: bytes | None = None
 
-    def begin(self) -> bool | None:
+    def start(self) -> bool | None:
         """Begin to hold, which is reported when it is done."""
-        self._hold = None
-        took = self._controls.stop_following()
-        if self._last is None:
+        self._controller = None
+        took = self._controls.disable_automatic()
+        if self._last_image is None:
             return all(took)
-        exposure, balance = self._controls.exposure(), self._controls.balance()
+        exposure, balance = self._controls.read_exposure(), self._controls.read_white_balance()
         if not took[0] or exposure is None:
             return False
-        self._hold = ColorHold(
-            seen_colors(self._last),
+        self._controller = ColorController(
+            measure_colors(self._last_image),
             exposure.value,
-            (exposure.least, exposure.most),
+            (exposure.min_value, exposure.max_value),
             balance.value if balance else 0.0,
-            (balance.least, balance.most) if balance else None,
+            (balance.min_value, balance.max_value) if balance else None,
         )
         return None
 
-    def look(self, picture: Sequence[int]) -> None:
+    def add_frame(self, image: Sequence[int]) -> None:
         """The bytes of one more colour picture, red first."""
-        if self._hold is None:
-            self._last = bytes(picture)
+        if self._controller is None:
+            self._last_image = bytes(image)
             return
-        step = self._hold.step(seen_colors(picture))
+        step = self._controller.update(measure_colors(image))
         if step is not None:
-            self._controls.put(step)
-        if self._hold.is_over:
-            done = self._hold.is_like_before
-            self._hold = None
-            self._outlet.send(ExposureSet(done))
+            self._controls.apply(step)
+        if self._controller.is_done:
+            done = self._controller.has_converged
+            self._controller = None
+            self._outlet.send(ExposureLocked(done))

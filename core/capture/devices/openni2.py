@@ -1,7 +1,8 @@
 """The OpenNI2 C library: types, calls, statuses, nothing else.
 
 One thread makes all calls. The library can take its process down (a close in the wrong order, a bad file), so it
-is used in a process of its own: see :mod:`core.capture.devices.openni2_camera`. Seeking is left out on purpose: in the
+is used in a process of its own: see :mod:`core.capture.list_devices.openni2_camera`. Seeking is left out on purpose:
+in the
 builds that systems ship, the call never returns.
 """
 
@@ -67,7 +68,7 @@ class StreamProperty(IntEnum):
     AUTO_EXPOSURE = 101
 
 
-class CallFailed(Exception):
+class OpenNI2Error(Exception):
     """A call of the library that did not succeed; ``reason`` is the library's own text."""
 
     def __init__(self, call: str, status: int, reason: str) -> None:
@@ -165,7 +166,7 @@ class DeviceInfo:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class VideoFrame:
     """One picture of a stream. ``address`` points into the library's memory, valid until the picture is released."""
 
     sensor: int
@@ -180,7 +181,7 @@ class Picture:
     address: int
 
 
-GoneHandler = Callable[[str], None]
+DisconnectHandler = Callable[[str], None]
 
 
 def load_library() -> ctypes.CDLL:
@@ -213,10 +214,10 @@ def load_library() -> ctypes.CDLL:
 def library_version() -> str:
     """Version of the library, to be asked in a process of its own: where a thread that is no more has loaded it, being
     asked ends the process."""
-    return _version_of(load_library())
+    return _read_version(load_library())
 
 
-def _version_of(library: ctypes.CDLL) -> str:
+def _read_version(library: ctypes.CDLL) -> str:
     found = library.oniGetVersion()
     return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}"
 
@@ -237,19 +238,19 @@ class Context:
         self.shutdown()
 
     @property
-    def c(self) -> ctypes.CDLL:
+    def api(self) -> ctypes.CDLL:
         return self._c
 
     @property
     def version(self) -> str:
-        return _version_of(self._c)
+        return _read_version(self._c)
 
     def check(self, call: str, status: int) -> None:
         if status != Status.OK:
             text = self._c.oniGetExtendedError() or b""
-            raise CallFailed(call, status, text.decode("utf-8", "replace").strip())
+            raise OpenNI2Error(call, status, text.decode("utf-8", "replace").strip())
 
-    def devices(self) -> list[DeviceInfo]:
+    def list_devices(self) -> list[DeviceInfo]:
         first, count = POINTER(_DeviceInfo)(), c_int()
         self.check("oniGetDeviceList", self._c.oniGetDeviceList(byref(first), byref(count)))
         try:
@@ -257,17 +258,19 @@ class Context:
         finally:
             self._c.oniReleaseDeviceList(first)
 
-    def watch(self, on_gone: GoneHandler) -> None:
+    def register_disconnect_handler(self, on_disconnect: DisconnectHandler) -> None:
         """Hear of unplugged devices, by uri.
 
         The handler runs on a thread of the library: it may only note the fact, never call back.
         """
 
-        def gone(info: Any, _cookie: int | None) -> None:
-            on_gone(info[0].uri.decode("utf-8", "replace"))
+        def handle_disconnect(info: Any, _cookie: int | None) -> None:
+            on_disconnect(info[0].uri.decode("utf-8", "replace"))
 
         # kept as an attribute: the library calls into it as long as it lives
-        self._callbacks = _Callbacks(_DeviceCallback(_quiet), _DeviceCallback(gone), _StateCallback(_quiet))
+        self._callbacks = _Callbacks(
+            _DeviceCallback(_ignore_event), _DeviceCallback(handle_disconnect), _StateCallback(_ignore_event)
+        )
         status = self._c.oniRegisterDeviceCallbacks(byref(self._callbacks), None, byref(self._callback_handle))
         self.check("oniRegisterDeviceCallbacks", status)
 
@@ -280,7 +283,7 @@ class Context:
         self.check("oniDeviceOpen", self._c.oniDeviceOpen(name, byref(handle)))
         return Device(self, handle)
 
-    def wait(self, streams: Sequence[Stream], timeout_ms: int) -> int | None:
+    def poll_streams(self, streams: Sequence[Stream], timeout_ms: int) -> int | None:
         """Position in ``streams`` of one that has a picture; None when none came in time."""
         handles = (c_void_p * len(streams))(*[stream.handle for stream in streams])
         ready = c_int(-1)
@@ -306,37 +309,37 @@ class Device:
         self.handle = handle
         self.streams: list[Stream] = []
 
-    def info(self) -> DeviceInfo:
+    def read_info(self) -> DeviceInfo:
         found = _DeviceInfo()
-        self.context.check("oniDeviceGetInfo", self.context.c.oniDeviceGetInfo(self.handle, byref(found)))
+        self.context.check("oniDeviceGetInfo", self.context.api.oniDeviceGetInfo(self.handle, byref(found)))
         return _device_info(found)
 
-    def modes(self, sensor: Sensor) -> list[VideoMode]:
+    def list_modes(self, sensor: Sensor) -> list[VideoMode]:
         """Modes offered for ``sensor``; empty when the device has no such sensor."""
-        found = self.context.c.oniDeviceGetSensorInfo(self.handle, sensor)
+        found = self.context.api.oniDeviceGetSensorInfo(self.handle, sensor)
         return [_video_mode(found[0].modes[i]) for i in range(found[0].mode_count)] if found else []
 
     def create_stream(self, sensor: Sensor) -> Stream:
         """A stream, not yet started. Create only what will be started: in lockstep it would eat pictures."""
         handle = c_void_p()
-        status = self.context.c.oniDeviceCreateStream(self.handle, sensor, byref(handle))
+        status = self.context.api.oniDeviceCreateStream(self.handle, sensor, byref(handle))
         self.context.check("oniDeviceCreateStream", status)
         stream = Stream(self.context, handle, sensor)
         self.streams.append(stream)
         return stream
 
-    def text(self, key: DeviceProperty) -> str:
+    def read_text(self, key: DeviceProperty) -> str:
         """A property that is text; empty when the device does not have it."""
         buffer = ctypes.create_string_buffer(256)
         size = c_int(len(buffer))
-        status = self.context.c.oniDeviceGetProperty(self.handle, key, buffer, byref(size))
+        status = self.context.api.oniDeviceGetProperty(self.handle, key, buffer, byref(size))
         return buffer.value.decode("utf-8", "replace") if status == Status.OK else ""
 
-    def version(self, key: DeviceProperty) -> str:
+    def read_version(self, key: DeviceProperty) -> str:
         """A property that is a version; empty when the device does not have it."""
         found = _Version()
         size = c_int(ctypes.sizeof(found))
-        status = self.context.c.oniDeviceGetProperty(self.handle, key, byref(found), byref(size))
+        status = self.context.api.oniDeviceGetProperty(self.handle, key, byref(found), byref(size))
         return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}" if status == Status.OK else ""
 
     def set_int(self, key: DeviceProperty, value: int) -> bool:
@@ -345,13 +348,13 @@ class Device:
     def set_float(self, key: DeviceProperty, value: float) -> bool:
         return self._set(key, c_float(value))
 
-    def can_register(self) -> bool:
+    def can_register_depth(self) -> bool:
         """Whether depth can be laid on colour by the device."""
-        return bool(self.context.c.oniDeviceIsImageRegistrationModeSupported(self.handle, 1))
+        return bool(self.context.api.oniDeviceIsImageRegistrationModeSupported(self.handle, 1))
 
     def enable_sync(self) -> bool:
         """Ask for depth and colour at the same instants; whether the device can."""
-        return bool(self.context.c.oniDeviceEnableDepthColorSync(self.handle) == Status.OK)
+        return bool(self.context.api.oniDeviceEnableDepthColorSync(self.handle) == Status.OK)
 
     def close(self) -> None:
         """Stop and destroy all streams, then close; in the one order that the library survives."""
@@ -362,10 +365,10 @@ class Device:
         for stream in self.streams:
             stream.destroy()
         self.streams.clear()
-        self.context.c.oniDeviceClose(self.handle)
+        self.context.api.oniDeviceClose(self.handle)
 
     def _set(self, key: DeviceProperty, value: c_int | c_float) -> bool:
-        status = self.context.c.oniDeviceSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
+        status = self.context.api.oniDeviceSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
         return bool(status == Status.OK)
 
 
@@ -378,19 +381,21 @@ class Stream:
         self.sensor = sensor
 
     def start(self) -> None:
-        self.context.check("oniStreamStart", self.context.c.oniStreamStart(self.handle))
+        self.context.check("oniStreamStart", self.context.api.oniStreamStart(self.handle))
 
     def stop(self) -> None:
         """No more pictures. Stop all streams of a device before destroying any: see :meth:`Device.close`."""
-        self.context.c.oniStreamStop(self.handle)
+        self.context.api.oniStreamStop(self.handle)
 
     def destroy(self) -> None:
-        self.context.c.oniStreamDestroy(self.handle)
+        self.context.api.oniStreamDestroy(self.handle)
 
-    def mode(self) -> VideoMode:
+    def read_mode(self) -> VideoMode:
         found = _VideoMode()
         size = c_int(ctypes.sizeof(found))
-        status = self.context.c.oniStreamGetProperty(self.handle, StreamProperty.VIDEO_MODE, byref(found), byref(size))
+        status = self.context.api.oniStreamGetProperty(
+            self.handle, StreamProperty.VIDEO_MODE, byref(found), byref(size)
+        )
         self.context.check("oniStreamGetProperty", status)
         return _video_mode(found)
 
@@ -414,17 +419,17 @@ class Stream:
         return self._set(key, c_int(value))
 
     @contextmanager
-    def read(self) -> Iterator[Picture | None]:
-        """The next picture, released on leaving; call only after :meth:`Context.wait` named this stream."""
+    def read_frame(self) -> Iterator[VideoFrame | None]:
+        """The next picture, released on leaving; call only after :meth:`Context.poll_streams` named this stream."""
         pointer = POINTER(_Frame)()
-        status = self.context.c.oniStreamReadFrame(self.handle, byref(pointer))
+        status = self.context.api.oniStreamReadFrame(self.handle, byref(pointer))
         self.context.check("oniStreamReadFrame", status)
         if not bool(pointer):
             yield None
             return
         try:
             frame = pointer[0]
-            yield Picture(
+            yield VideoFrame(
                 frame.sensor,
                 frame.index,
                 frame.timestamp_us,
@@ -437,19 +442,19 @@ class Stream:
                 frame.data or 0,
             )
         finally:
-            self.context.c.oniFrameRelease(pointer)
+            self.context.api.oniFrameRelease(pointer)
 
     def _get(self, key: StreamProperty, value: c_int | c_float) -> bool:
         size = c_int(ctypes.sizeof(value))
-        status = self.context.c.oniStreamGetProperty(self.handle, key, byref(value), byref(size))
+        status = self.context.api.oniStreamGetProperty(self.handle, key, byref(value), byref(size))
         return bool(status == Status.OK)
 
     def _set(self, key: StreamProperty, value: c_int | _VideoMode) -> bool:
-        status = self.context.c.oniStreamSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
+        status = self.context.api.oniStreamSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
         return bool(status == Status.OK)
 
 
-def _quiet(*_: object) -> None:
+def _ignore_event(*_: object) -> None:
     """A device came, which the next enumeration sees, or told its state."""
 
 

@@ -12,30 +12,30 @@ from collections.abc import Sequence
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.cameras import CameraKind
 from carpus.core.capture.devices.capture_child import (
-    WAIT_MS,
-    CameraPlan,
-    GaveUp,
-    Heard,
-    Opened,
-    Outlet,
-    why_unlisted,
+    POLL_MS,
+    CameraConfig,
+    CaptureFailed,
+    CaptureOutlet,
+    DeviceOpened,
+    StreamWatchdog,
+    camera_unlisted_error,
 )
 from carpus.core.capture.devices.openni2 import (
-    CallFailed,
     Context,
     Device,
     DeviceProperty,
-    Picture,
+    OpenNI2Error,
     Stream,
     StreamProperty,
+    VideoFrame,
     library_version,
     load_library,
 )
 from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
-from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
-from carpus.core.capture.source import Notice, ignore
+from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
+from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.child_process import ChildDied, call_in_child
+from carpus.core.child_process import ChildDiedError, call_in_child
 from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed, DriverMissing
 from carpus.core.installing import Finding
@@ -49,17 +49,17 @@ MODELS = {
 }
 
 
-def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
+def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpened]:
     """Open a live camera, start colour and depth, lay depth on colour."""
-    device = _wanted(library, plan)
+    device = _find_device(library, plan)
     streams: dict[Sensor, Stream] = {}
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
-        mode = choose_mode(device.modes(sensor), wanted, plan.size_px, plan.fps)
+        mode = choose_mode(device.list_modes(sensor), wanted, plan.size_px, plan.fps)
         if mode is None:
-            raise GaveUp(CameraUnsuited, f"no {wanted.name} pictures")
+            raise CaptureFailed(CameraUnsuited, f"no {wanted.name} pictures")
         stream = streams[sensor] = device.create_stream(sensor)
-        if stream.mode() != mode and not stream.set_mode(mode):
-            raise GaveUp(CameraUnsuited, f"{sensor.name.lower()} {mode}")
+        if stream.read_mode() != mode and not stream.set_mode(mode):
+            raise CaptureFailed(CameraUnsuited, f"{sensor.name.lower()} {mode}")
         stream.set_int(StreamProperty.MIRRORING, 0)
     automatic = [
         streams[Sensor.COLOR].set_int(key, 1)
@@ -68,18 +68,18 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     for stream in streams.values():
         stream.start()
     # only a running depth stream takes it
-    registered = device.can_register() and device.set_int(DeviceProperty.IMAGE_REGISTRATION, 1)
+    registered = device.can_register_depth() and device.set_int(DeviceProperty.IMAGE_REGISTRATION, 1)
     synchronous = device.enable_sync()
-    modes = {sensor: stream.mode() for sensor, stream in streams.items()}
-    info = device.info()
+    modes = {sensor: stream.read_mode() for sensor, stream in streams.items()}
+    info = device.read_info()
     by_usb = plan.models.get((f"{info.vendor_id:04x}", f"{info.product_id:04x}"))
     settings = {
         "camera": by_usb or info.name or info.uri,
         "vendor": info.vendor,
         "uri": info.uri,
-        "serial": device.text(DeviceProperty.SERIAL_NUMBER),
-        "firmware": device.version(DeviceProperty.FIRMWARE_VERSION),
-        "driver": device.version(DeviceProperty.DRIVER_VERSION),
+        "serial": device.read_text(DeviceProperty.SERIAL_NUMBER),
+        "firmware": device.read_version(DeviceProperty.FIRMWARE_VERSION),
+        "driver": device.read_version(DeviceProperty.DRIVER_VERSION),
         "library": f"OpenNI2 {library.version}",
         "color_mode": str(modes[Sensor.COLOR]),
         "depth_mode": str(modes[Sensor.DEPTH]),
@@ -92,31 +92,31 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     )
     view = (across, down) if across and down else None
     mirrored = {sensor: bool(stream.get_int(StreamProperty.MIRRORING)) for sensor, stream in streams.items()}
-    return device, Opened(modes, mirrored, view, {key: value for key, value in settings.items() if value})
+    return device, DeviceOpened(modes, mirrored, view, {key: value for key, value in settings.items() if value})
 
 
-def _wanted(library: Context, plan: CameraPlan) -> Device:
+def _find_device(library: Context, plan: CameraConfig) -> Device:
     """The one at the plan's address, else the first of its models, or the one of these with its serial number: only an
     open device tells it."""
     if plan.uri:
         found = [plan.uri]
     else:
         known = {(int(vendor, 16), int(product, 16)) for vendor, product in plan.models}
-        found = [each.uri for each in library.devices() if (each.vendor_id, each.product_id) in known]
+        found = [each.uri for each in library.list_devices() if (each.vendor_id, each.product_id) in known]
         if not found:
-            raise why_unlisted(usb_cameras(plan.models))
+            raise camera_unlisted_error(find_usb_cameras(plan.models))
     others = []
     for uri in found:
         try:
             device = library.open(uri)
-        except CallFailed as failure:
-            raise _why_not_opened(failure, usb_cameras(plan.models)) from failure
-        serial = device.text(DeviceProperty.SERIAL_NUMBER)
+        except OpenNI2Error as failure:
+            raise _open_error(failure, find_usb_cameras(plan.models)) from failure
+        serial = device.read_text(DeviceProperty.SERIAL_NUMBER)
         if not plan.serial or serial == plan.serial:
             return device
-        others.append(f"{device.info().name} {serial}".strip())
+        others.append(f"{device.read_info().name} {serial}".strip())
         device.close()
-    raise why_unlisted((), others)
+    raise camera_unlisted_error((), others)
 
 
 def choose_mode(
@@ -137,40 +137,40 @@ def choose_mode(
     return max(fitting, key=lambda mode: (mode.width_px * mode.height_px, -abs(mode.fps - fps)), default=None)
 
 
-def _why_not_opened(failure: CallFailed, seen: Sequence[UsbCamera]) -> GaveUp:
-    if any(not camera.may_open for camera in seen):
-        return GaveUp(CameraPermission, str(next(camera.node for camera in seen if not camera.may_open)))
+def _open_error(failure: OpenNI2Error, seen: Sequence[UsbCamera]) -> CaptureFailed:
+    if any(not camera.can_open for camera in seen):
+        return CaptureFailed(CameraPermission, str(next(camera.node for camera in seen if not camera.can_open)))
     if any(camera.is_claimed for camera in seen) or "USB interface" in failure.reason:
-        return GaveUp(CameraBusy, failure.reason)
-    return GaveUp(CameraMissing if not seen else DriverFailed, failure.reason)
+        return CaptureFailed(CameraBusy, failure.reason)
+    return CaptureFailed(CameraMissing if not seen else DriverFailed, failure.reason)
 
 
 BYTES_PER_PIXEL: dict[int, int] = {PixelFormat.RGB888: 3, PixelFormat.DEPTH_1_MM: 2, PixelFormat.DEPTH_100_UM: 2}
 
 
-def serve(outlet: Outlet, plan: CameraPlan) -> None:
+def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
     """Serve a plan in the capture process."""
     try:
         _serve(outlet, plan)
-    except CallFailed as failure:
-        raise GaveUp(DriverFailed, f"{failure.call}: {failure.reason}") from failure
+    except OpenNI2Error as failure:
+        raise CaptureFailed(DriverFailed, f"{failure.call}: {failure.reason}") from failure
 
 
-def _serve(outlet: Outlet, plan: CameraPlan) -> None:
-    library, gone = Context(), _Gone()
-    outlet.hold(library, gone)
-    library.watch(gone.hear)
+def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
+    library, gone = Context(), _UnplugEvent()
+    outlet.retain(library, gone)
+    library.register_disconnect_handler(gone.handle_disconnect)
     device, opened = open_camera(library, plan)
-    gone.uri = device.info().uri
+    gone.uri = device.read_info().uri
     streams = list(device.streams)
 
-    def pass_on(heard: Heard) -> None:
-        if library.wait(streams, WAIT_MS) is not None:
+    def forward_images(heard: StreamWatchdog) -> None:
+        if library.poll_streams(streams, POLL_MS) is not None:
             # the wait names the older stream; reading only that one would starve the other
             for stream in streams:
-                if library.wait([stream], 0) is not None:
-                    _take(outlet, stream, opened.modes[stream.sensor])
-                    heard.picture_of(stream.sensor)
+                if library.poll_streams([stream], 0) is not None:
+                    _publish_image(outlet, stream, opened.modes[stream.sensor])
+                    heard.reset(stream.sensor)
 
     def lock() -> bool:
         color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
@@ -181,34 +181,34 @@ def _serve(outlet: Outlet, plan: CameraPlan) -> None:
     outlet.lock_exposure = lock
     outlet.send(opened)
     try:
-        outlet.watch(opened.modes, gone, pass_on)
+        outlet.run(opened.modes, gone, forward_images)
     finally:
         device.close()
 
 
-class _Gone(threading.Event):
+class _UnplugEvent(threading.Event):
     """Set by the library's own threads when the device at ``uri`` was unplugged."""
 
     uri = ""
 
-    def hear(self, uri: str) -> None:
+    def handle_disconnect(self, uri: str) -> None:
         if uri == self.uri:
             self.set()
 
 
-def _take(outlet: Outlet, stream: Stream, mode: VideoMode) -> None:
+def _publish_image(outlet: CaptureOutlet, stream: Stream, mode: VideoMode) -> None:
     """Pass one picture on, where there is one; the memory of one that is not as agreed is not read."""
-    with stream.read() as picture:
+    with stream.read_frame() as picture:
         if picture is None:
             return
-        size = agreed_size(picture, mode)
+        size = frame_size_bytes(picture, mode)
         if size is not None:
             pixels = memoryview((ctypes.c_ubyte * size).from_address(picture.address)).cast("B")
-            outlet.put(stream.sensor, picture.index, picture.timestamp_us, pixels)
+            outlet.publish(stream.sensor, picture.index, picture.timestamp_us, pixels)
 
 
-def agreed_size(picture: Picture, mode: VideoMode) -> int | None:
-    """Bytes that may be read of ``picture``: None unless size, format and stride are those of its stream.
+def frame_size_bytes(frame: VideoFrame, mode: VideoMode) -> int | None:
+    """Bytes that may be read of ``frame``: None unless size, format and stride are those of its stream.
 
     A driver may hand out any width and height with any number of bytes behind them.
     """
@@ -216,12 +216,12 @@ def agreed_size(picture: Picture, mode: VideoMode) -> int | None:
     size = row * mode.height_px
     agreed = (
         size > 0
-        and picture.address != 0
-        and not picture.is_cropped
-        and picture.pixel_format == mode.pixel_format
-        and (picture.width_px, picture.height_px) == (mode.width_px, mode.height_px)
-        and picture.stride_bytes == row
-        and picture.size_bytes == size
+        and frame.address != 0
+        and not frame.is_cropped
+        and frame.pixel_format == mode.pixel_format
+        and (frame.width_px, frame.height_px) == (mode.width_px, mode.height_px)
+        and frame.stride_bytes == row
+        and frame.size_bytes == size
     )
     return size if agreed else None
 
@@ -231,16 +231,16 @@ def open_openni2(
     uri: str | None = None,
     camera: Camera | None = None,
     patience_s: float = math.inf,
-    notice: Notice = ignore,
+    notice: NoticeHandler = ignore_notice,
 ) -> ProcessCamera:
     """The first camera of :data:`MODELS`, or the one at OpenNI2's ``uri``."""
-    plan = CameraPlan(size_px=SIZE_PX, models=MODELS, uri=uri or "")
+    plan = CameraConfig(size_px=SIZE_PX, models=MODELS, uri=uri or "")
     name = uri or "camera"
     return ProcessCamera(serve, plan, name, lambda _: PRIMESENSE, camera=camera, patience_s=patience_s, notice=notice)
 
 
-def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
-    """The OpenNI2 library; loaded, but not started. ``asks_version``, in a process of its own, takes half a second."""
+def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding:
+    """The OpenNI2 library; loaded, but not started. ``loads_library``, in a process of its own, takes half a second."""
     try:
         load_library()
     except DriverMissing as fault:
@@ -255,11 +255,11 @@ def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
             fault.detail or "not found",
             phrase("Needed for live cameras. {remedy}", remedy=remedy),
         )
-    if not asks_version:
+    if not loads_library:
         return Finding(phrase("Driver"), "good", phrase("OpenNI2"))
     try:
         version = call_in_child(library_version)
-    except ChildDied:
+    except ChildDiedError:
         return Finding(
             phrase("Driver"),
             "bad",
@@ -273,7 +273,7 @@ KIND = CameraKind(
     title="Asus Xtion",
     models=MODELS,
     open=open_openni2,
-    driver=driver_finding,
+    check_driver=check_driver,
     needed_mbit=480,
-    port=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
+    port_advice=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
 )

@@ -16,22 +16,22 @@ from typing import Any
 import cv2
 
 from carpus.core.camera import Camera
-from carpus.core.capture.devices.cameras import USB_3, CameraKind, further_findings, library_finding
+from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_library
 from carpus.core.capture.devices.capture_child import (
-    WAIT_MS,
-    CameraPlan,
-    GaveUp,
-    Heard,
-    Opened,
-    Outlet,
-    why_not_opened,
-    why_unlisted,
+    POLL_MS,
+    CameraConfig,
+    CaptureFailed,
+    CaptureOutlet,
+    DeviceOpened,
+    StreamWatchdog,
+    camera_open_error,
+    camera_unlisted_error,
 )
-from carpus.core.capture.devices.color_lock import ColorLock, Control, Step, longest_exposure
+from carpus.core.capture.devices.color_lock import ColorLock, ColorSettings, Control, max_exposure
 from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
-from carpus.core.capture.devices.usb_devices import usb_cameras
-from carpus.core.capture.frame_assembly import LensBending, camera_of_lens
-from carpus.core.capture.source import Notice, ignore
+from carpus.core.capture.devices.usb_devices import find_usb_cameras
+from carpus.core.capture.frame_assembly import DepthDistorter, camera_from_lens
+from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
 from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
 from carpus.core.errors import CameraBusy, CameraUnsuited, DriverMissing
@@ -42,10 +42,10 @@ DEPTH_SIZE_PX = (640, 480)
 """Near this the Femto cameras measure at full size and the Gemini cameras at their best."""
 
 
-def library() -> Any:
+def import_sdk() -> Any:
     """The maker's library, told to write no log; raises :class:`DriverMissing` where it cannot be loaded."""
     try:
-        with _speechless():
+        with _silence_stdout():
             import pyorbbecsdk
     except ImportError as cause:
         raise DriverMissing(PACKAGE, str(cause)) from cause
@@ -57,11 +57,11 @@ def library() -> Any:
 
 def load_library() -> None:
     """Load the library and no more, to see whether it can be; raises :class:`DriverMissing`."""
-    library()
+    import_sdk()
 
 
 @contextmanager
-def _speechless() -> Iterator[None]:
+def _silence_stdout() -> Iterator[None]:
     """The library says on the process's own output where it lies."""
     sys.stdout.flush()
     kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
@@ -76,24 +76,24 @@ def _speechless() -> Iterator[None]:
 
 @dataclass(frozen=True, slots=True)
 class OrbbecStreams:
-    """The chosen profiles. ``shrink``: how many pixels of the camera's picture, across and down, become one."""
+    """The chosen profiles. ``downscale``: how many pixels of the camera's picture, across and down, become one."""
 
     color: Any
     depth: Any
-    shrink: int = 1
+    downscale: int = 1
 
     @property
     def modes(self) -> dict[Sensor, VideoMode]:
         """Of the pictures that are handed on: depth is laid on colour, so it has its size."""
-        width, height = (int(side) // self.shrink for side in (self.color.get_width(), self.color.get_height()))
+        width, height = (int(side) // self.downscale for side in (self.color.get_width(), self.color.get_height()))
         return {
             Sensor.COLOR: VideoMode(PixelFormat.RGB888, width, height, int(self.color.get_fps())),
             Sensor.DEPTH: VideoMode(PixelFormat.DEPTH_1_MM, width, height, int(self.depth.get_fps())),
         }
 
 
-def find_camera(ob: Any, context: Any, plan: CameraPlan) -> Any:
-    """The device to open; raises :class:`GaveUp` with why there is none."""
+def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
+    """The device to open; raises :class:`CaptureFailed` with why there is none."""
     state = ob.OBDeviceAccessState
     held = (state.OB_DEVICE_ACCESS_STATE_CONTROLLED, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE)
     listed = context.query_devices()
@@ -103,49 +103,52 @@ def find_camera(ob: Any, context: Any, plan: CameraPlan) -> Any:
         name = f"{listed.get_device_name_by_index(index)} {serial}".strip()
         if plan.serial in ("", serial):
             if listed.query_device_access_state(index) in held:
-                raise GaveUp(CameraBusy, name)
+                raise CaptureFailed(CameraBusy, name)
             return listed.get_device_by_index(index)
         names.append(name)
-    raise why_unlisted(usb_cameras(plan.models), names)
+    raise camera_unlisted_error(find_usb_cameras(plan.models), names)
 
 
-def choose_streams(ob: Any, pipeline: Any, plan: CameraPlan) -> OrbbecStreams:
-    """Colour of the wanted size, or of twice that to be shrunk, and depth at the same rate; raises :class:`GaveUp`."""
+def choose_streams(ob: Any, pipeline: Any, plan: CameraConfig) -> OrbbecStreams:
+    """Colour of the wanted size, or of twice that to be shrunk, and depth at the same rate; raises
+    :class:`CaptureFailed`."""
     width, height = plan.size_px
-    colors = [each for each in _offered(ob, pipeline, ob.OBSensorType.COLOR_SENSOR) if _is_color(ob, each)]
-    depths = [each for each in _offered(ob, pipeline, ob.OBSensorType.DEPTH_SENSOR) if _is_depth(ob, each)]
+    colors = [each for each in _list_profiles(ob, pipeline, ob.OBSensorType.COLOR_SENSOR) if _is_color(ob, each)]
+    depths = [each for each in _list_profiles(ob, pipeline, ob.OBSensorType.DEPTH_SENSOR) if _is_depth(ob, each)]
     if not depths:
-        raise GaveUp(CameraUnsuited, "no depth")
+        raise CaptureFailed(CameraUnsuited, "no depth")
     for shrink in (1, 2):
         within = (width * shrink, height * shrink)
         fitting = [each for each in colors if each.get_width() <= within[0] and each.get_height() <= within[1]]
         if fitting:
             # the library turns what a camera sends into red, green and blue; where it does not, Carpus does
             red_first = [each for each in fitting if each.get_format() == ob.OBFormat.RGB]
-            color = max(red_first or fitting, key=lambda each: _nearness(each, within, plan.fps))
+            color = max(red_first or fitting, key=lambda each: _profile_score(each, within, plan.fps))
             rate = color.get_fps()
-            return OrbbecStreams(color, max(depths, key=lambda each: _nearness(each, DEPTH_SIZE_PX, rate)), shrink)
-    raise GaveUp(CameraUnsuited, f"no colour pictures of {width}x{height}")
+            return OrbbecStreams(color, max(depths, key=lambda each: _profile_score(each, DEPTH_SIZE_PX, rate)), shrink)
+    raise CaptureFailed(CameraUnsuited, f"no colour pictures of {width}x{height}")
 
 
-def prepare(ob: Any, device: Any) -> dict[str, str]:
+def configure(ob: Any, device: Any) -> dict[str, str]:
     """What a camera is set to before it streams; what of it took, for the session."""
     prop = ob.OBPropertyID
     done: dict[str, str] = {}
     for mirror in (prop.OB_PROP_COLOR_MIRROR_BOOL, prop.OB_PROP_DEPTH_MIRROR_BOOL):
-        put(ob, device, mirror, 0)
-    if put(ob, device, prop.OB_PROP_LASER_BOOL, 1) or put(ob, device, prop.OB_PROP_LASER_CONTROL_INT, 1):
+        set_property(ob, device, mirror, 0)
+    if set_property(ob, device, prop.OB_PROP_LASER_BOOL, 1) or set_property(
+        ob, device, prop.OB_PROP_LASER_CONTROL_INT, 1
+    ):
         done["emitter"] = "on"
     follows = [
-        put(ob, device, each, 1)
+        set_property(ob, device, each, 1)
         for each in (prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL, prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL)
     ]
-    put(ob, device, prop.OB_PROP_COLOR_AUTO_EXPOSURE_PRIORITY_INT, 0)  # the rate does not fall in a dark room
+    set_property(ob, device, prop.OB_PROP_COLOR_AUTO_EXPOSURE_PRIORITY_INT, 0)  # the rate does not fall in a dark room
     done["automatic_exposure"] = "on" if all(follows) else "not settable"
     return done
 
 
-def put(ob: Any, device: Any, prop: Any, value: float) -> bool:
+def set_property(ob: Any, device: Any, prop: Any, value: float) -> bool:
     """Set a property, of the kind that its name ends with; whether the device has it and took it."""
     if not device.is_property_supported(prop, ob.OBPermissionType.PERMISSION_WRITE):
         return False
@@ -158,7 +161,7 @@ def put(ob: Any, device: Any, prop: Any, value: float) -> bool:
     return False
 
 
-def whole_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
+def read_full_size_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
     """Size and intrinsics of the colour pictures as the camera sends them."""
     found, bent = color.get_intrinsic(), color.get_distortion()
     model = ob.OBCameraDistortionModel
@@ -174,16 +177,16 @@ def whole_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
     return size_px, Lens(found.fx, found.fy, found.cx, found.cy, name, tuple(float(each) for each in coefficients))
 
 
-def lens_of(ob: Any, streams: OrbbecStreams) -> Lens:
+def read_lens(ob: Any, streams: OrbbecStreams) -> Lens:
     """Intrinsics of the colour pictures that are handed on."""
-    _, lens = whole_lens(ob, streams.color)
-    scale = 1.0 / streams.shrink
+    _, lens = read_full_size_lens(ob, streams.color)
+    scale = 1.0 / streams.downscale
     # half-pixel centres: the middle of a pixel lies at a whole number
     cx_px, cy_px = ((centre + 0.5) * scale - 0.5 for centre in (lens.cx_px, lens.cy_px))
     return replace(lens, fx_px=lens.fx_px * scale, fy_px=lens.fy_px * scale, cx_px=cx_px, cy_px=cy_px)
 
 
-def device_settings(ob: Any, device: Any, streams: OrbbecStreams) -> dict[str, str]:
+def describe_device(ob: Any, device: Any, streams: OrbbecStreams) -> dict[str, str]:
     """What a session says of the camera; only what is known."""
     info = device.get_device_info()
     name = str(info.get_name())
@@ -193,18 +196,18 @@ def device_settings(ob: Any, device: Any, streams: OrbbecStreams) -> dict[str, s
         "firmware": str(info.get_firmware_version()),
         "usb": str(info.get_connection_type()).removeprefix("USB"),
         "library": f"OrbbecSDK {ob.get_version()}",
-        "color_mode": _mode_text(streams.color),
-        "depth_mode": _mode_text(streams.depth),
-        "lens_model": lens_of(ob, streams).model,
+        "color_mode": _format_mode(streams.color),
+        "depth_mode": _format_mode(streams.depth),
+        "lens_model": read_lens(ob, streams).model,
         "registered": "by the library",
         "depth_focal_px": f"{streams.depth.get_intrinsic().fx:.2f}",
         "clock": "camera",
-        "shrunk": f"{streams.shrink} pixels to one" if streams.shrink > 1 else "",
+        "shrunk": f"{streams.downscale} pixels to one" if streams.downscale > 1 else "",
     }
     return {key: value for key, value in settings.items() if value}
 
 
-def _offered(ob: Any, pipeline: Any, sensor: Any) -> list[Any]:
+def _list_profiles(ob: Any, pipeline: Any, sensor: Any) -> list[Any]:
     try:
         listed = pipeline.get_stream_profile_list(sensor)
     except (RuntimeError, ob.OBError):
@@ -220,91 +223,91 @@ def _is_depth(ob: Any, profile: Any) -> bool:
     return profile.get_format() in (ob.OBFormat.Y16, ob.OBFormat.Z16)
 
 
-def _nearness(profile: Any, size_px: tuple[int, int], fps: int) -> tuple[int, int]:
+def _profile_score(profile: Any, size_px: tuple[int, int], fps: int) -> tuple[int, int]:
     away = abs(profile.get_width() - size_px[0]) + abs(profile.get_height() - size_px[1])
     return -abs(profile.get_fps() - fps), -away
 
 
-def _mode_text(profile: Any) -> str:
+def _format_mode(profile: Any) -> str:
     return f"{profile.get_width()}x{profile.get_height()} {profile.get_format().name} {profile.get_fps()} fps"
 
 
 UNIT_DIGITS = 7
 
 
-def serve(outlet: Outlet, plan: CameraPlan) -> None:
+def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
     """Serve a plan in the capture process."""
-    ob = library()
+    ob = import_sdk()
     try:
-        _watch(ob, outlet, plan)
+        _serve_camera(ob, outlet, plan)
     except (RuntimeError, ob.OBError) as failure:  # all that the library raises
-        raise why_not_opened(" ".join(str(failure).split()), usb_cameras(plan.models)) from failure
+        raise camera_open_error(" ".join(str(failure).split()), find_usb_cameras(plan.models)) from failure
 
 
-def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
+def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     """The newest pictures, whenever there are any."""
-    context = plan.context() if plan.context is not None else ob.Context()
-    device = find_camera(ob, context, plan)
+    context = plan.make_context() if plan.make_context is not None else ob.Context()
+    device = find_device(ob, context, plan)
     serial = device.get_device_info().get_serial_number()
     gone = threading.Event()
 
-    def changed(removed: Any, _added: Any) -> None:
+    def handle_change(removed: Any, _added: Any) -> None:
         if serial in [removed.get_device_serial_number_by_index(each) for each in range(removed.get_count())]:
             gone.set()
 
-    context.set_device_changed_callback(changed)
+    context.set_device_changed_callback(handle_change)
     pipeline = ob.Pipeline(device)
     streams = choose_streams(ob, pipeline, plan)
-    settings = device_settings(ob, device, streams) | prepare(ob, device)
+    settings = describe_device(ob, device, streams) | configure(ob, device)
     config = ob.Config()
     config.enable_stream(streams.color)
     config.enable_stream(streams.depth)
     # each picture as it comes: Carpus pairs them by their times, and counts what is missing
     config.set_frame_aggregate_output_mode(ob.OBFrameAggregateOutputMode.ANY_SITUATION)
-    outlet.hold(context, device, pipeline, streams, config, changed)
+    outlet.retain(context, device, pipeline, streams, config, handle_change)
     pipeline.start(config)
-    pictures = _OrbbecPictures(ob, outlet, streams)
+    pictures = _OrbbecImages(ob, outlet, streams)
     lock = ColorLock(outlet, _OrbbecControls(ob, device, streams))
-    outlet.lock_exposure = lock.begin
+    outlet.lock_exposure = lock.start
     is_told = False
 
-    def pass_on(heard: Heard) -> None:
+    def forward_images(heard: StreamWatchdog) -> None:
         nonlocal is_told
-        both = pipeline.wait_for_frames(WAIT_MS)
+        both = pipeline.wait_for_frames(POLL_MS)
         color, depth = (None, None) if both is None else (both.get_color_frame(), both.get_depth_frame())
         if depth is not None:
-            heard.picture_of(Sensor.DEPTH)
+            heard.reset(Sensor.DEPTH)
             if not is_told:  # a depth picture tells its unit, in millimetres
                 unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
                 mirrored = dict.fromkeys(streams.modes, False)
-                outlet.send(Opened(streams.modes, mirrored, None, settings, lens_of(ob, streams), unit_m))
+                outlet.send(DeviceOpened(streams.modes, mirrored, None, settings, read_lens(ob, streams), unit_m))
                 is_told = True
-            pictures.pass_depth(depth)
+            pictures.forward_depth(depth)
         if color is not None:
-            heard.picture_of(Sensor.COLOR)
-            picture = pictures.pass_color(color)
+            heard.reset(Sensor.COLOR)
+            picture = pictures.forward_color(color)
             if picture is not None:
-                lock.look(picture)
+                lock.add_frame(picture)
 
-    outlet.watch(streams.modes, gone, pass_on)
+    outlet.run(streams.modes, gone, forward_images)
     pipeline.stop()
 
 
-class _OrbbecPictures:
+class _OrbbecImages:
     """Passes colour on, and depth, laid on colour by the library; both with the camera's own times."""
 
-    def __init__(self, ob: Any, outlet: Outlet, streams: OrbbecStreams) -> None:
-        self._outlet, self._shrink = outlet, streams.shrink
+    def __init__(self, ob: Any, outlet: CaptureOutlet, streams: OrbbecStreams) -> None:
+        self._outlet, self._shrink = outlet, streams.downscale
         self._is_jpeg = streams.color.get_format() == ob.OBFormat.MJPG
         self._align = ob.AlignFilter(align_to_stream=ob.OBStreamType.COLOR_STREAM)
         self._align.set_align_to_stream_profile(streams.color)
         # the library lays depth on what an ideal lens would see. It can bend it too, but then takes good readings away
         # beside missing ones, or all of them, by the model of the lens
         self._align.set_config_value("TargetDistortion", 0.0)
-        self._bending = LensBending(camera_of_lens(*whole_lens(ob, streams.color)), streams.shrink)
-        outlet.hold(self)
+        self._bending = DepthDistorter(camera_from_lens(*read_full_size_lens(ob, streams.color)), streams.downscale)
+        outlet.retain(self)
 
-    def pass_color(self, frame: Any) -> memoryview | None:
+    def forward_color(self, frame: Any) -> memoryview | None:
         """Hand a colour picture on; its bytes, None of one that arrived damaged: it is left out, and counted."""
         width, height = frame.get_width(), frame.get_height()
         picture = frame.get_data()
@@ -316,20 +319,20 @@ class _OrbbecPictures:
         if self._shrink > 1:
             smaller = (width // self._shrink, height // self._shrink)
             picture = cv2.resize(picture, smaller, interpolation=cv2.INTER_AREA)
-        return self._put(Sensor.COLOR, frame, picture)
+        return self._publish(Sensor.COLOR, frame, picture)
 
-    def pass_depth(self, frame: Any) -> None:
+    def forward_depth(self, frame: Any) -> None:
         """Hand a depth picture on; one that cannot be laid on colour is left out, and its frame has none."""
         laid = self._align.process(frame)
         if laid is None:
             return
         laid = laid.as_depth_frame()
         picture = laid.get_data().view("<u2").reshape(laid.get_height(), laid.get_width())
-        self._put(Sensor.DEPTH, frame, self._bending.bend(picture))
+        self._publish(Sensor.DEPTH, frame, self._bending.distort(picture))
 
-    def _put(self, sensor: Sensor, frame: Any, picture: Any) -> memoryview:
+    def _publish(self, sensor: Sensor, frame: Any, picture: Any) -> memoryview:
         pixels = memoryview(picture.tobytes())
-        self._outlet.put(sensor, int(frame.get_index()), int(frame.get_timestamp_us()), pixels)
+        self._outlet.publish(sensor, int(frame.get_index()), int(frame.get_timestamp_us()), pixels)
         return pixels
 
 
@@ -338,38 +341,42 @@ class _OrbbecControls:
 
     def __init__(self, ob: Any, device: Any, streams: OrbbecStreams) -> None:
         self._ob, self._device, self._prop = ob, device, ob.OBPropertyID
-        self._longest = longest_exposure(streams.color.get_fps())
+        self._max_exposure = max_exposure(streams.color.get_fps())
 
-    def stop_following(self) -> tuple[bool, bool]:
+    def disable_automatic(self) -> tuple[bool, bool]:
         exposure, balance = (
-            put(self._ob, self._device, each, 0)
+            set_property(self._ob, self._device, each, 0)
             for each in (self._prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL, self._prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL)
         )
         return exposure, balance
 
-    def exposure(self) -> Control | None:
-        found = self._control(self._prop.OB_PROP_COLOR_EXPOSURE_INT)
-        return None if found is None else replace(found, most=max(found.least, min(found.most, self._longest)))
+    def read_exposure(self) -> Control | None:
+        found = self._read_control(self._prop.OB_PROP_COLOR_EXPOSURE_INT)
+        return (
+            None
+            if found is None
+            else replace(found, max_value=max(found.min_value, min(found.max_value, self._max_exposure)))
+        )
 
-    def balance(self) -> Control | None:
-        return self._control(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT)
+    def read_white_balance(self) -> Control | None:
+        return self._read_control(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT)
 
-    def put(self, step: Step) -> None:
-        self._put_near(self._prop.OB_PROP_COLOR_EXPOSURE_INT, step.exposure)
+    def apply(self, step: ColorSettings) -> None:
+        self._set_nearest(self._prop.OB_PROP_COLOR_EXPOSURE_INT, step.exposure)
         if step.kelvin:
-            self._put_near(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT, step.kelvin)
+            self._set_nearest(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT, step.kelvin)
 
-    def _control(self, prop: Any) -> Control | None:
+    def _read_control(self, prop: Any) -> Control | None:
         if not self._device.is_property_supported(prop, self._ob.OBPermissionType.PERMISSION_READ_WRITE):
             return None
         reach = self._device.get_int_property_range(prop)
         return Control(float(self._device.get_int_property(prop)), float(reach.min), float(reach.max))
 
-    def _put_near(self, prop: Any, value: float) -> None:
+    def _set_nearest(self, prop: Any, value: float) -> None:
         reach = self._device.get_int_property_range(prop)
         step = reach.step or 1
         value = min(max(value, reach.min), reach.max)
-        put(self._ob, self._device, prop, reach.min + round((value - reach.min) / step) * step)
+        set_property(self._ob, self._device, prop, reach.min + round((value - reach.min) / step) * step)
 
 
 MODELS = {
@@ -391,7 +398,7 @@ MODELS = {
     ("2bc5", "0809"): "Orbbec Gemini 210",
 }
 """Product numbers as in the udev rules that come with the library."""
-_WIDE = ("330L", "335L", "336L", "GEMINI 2")
+_WIDE_BASELINE_MODELS = ("330L", "335L", "336L", "GEMINI 2")
 """Their eyes stand some 100 mm apart, those of the other Gemini cameras about 50 mm."""
 
 
@@ -400,42 +407,44 @@ def open_orbbec(
     uri: str | None = None,
     camera: Camera | None = None,
     patience_s: float = math.inf,
-    notice: Notice = ignore,
+    notice: NoticeHandler = ignore_notice,
     context: Callable[[], Any] | None = None,
 ) -> ProcessCamera:
-    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraPlan`.
+    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraConfig`.
 
     Raises :class:`DriverMissing` without the library.
     """
     if find_spec(MODULE) is None:
         raise DriverMissing(PACKAGE, PACKAGE)
-    plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
-    return ProcessCamera(serve, plan, uri or "Orbbec", _sensor, camera=camera, patience_s=patience_s, notice=notice)
+    plan = CameraConfig(uri or "", SIZE_PX, models=MODELS, make_context=context)
+    return ProcessCamera(
+        serve, plan, uri or "Orbbec", _opened_sensor, camera=camera, patience_s=patience_s, notice=notice
+    )
 
 
-def _sensor(opened: Opened) -> DepthSensor:
+def _opened_sensor(opened: DeviceOpened) -> DepthSensor:
     """By the camera's name, and how its depth pictures see."""
-    return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
+    return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
 
 
-def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
+def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
     """The depth sensor of a camera with these settings: a Femto's is the Azure Kinect's; two eyes and a projector are
     assumed to be as sure as a RealSense's with eyes as far apart, for want of figures."""
     name = settings.get("camera", "").upper()
     if "FEMTO" in name:
         return AZURE_KINECT
-    pair = D455 if any(model in name for model in _WIDE) else D435
+    pair = D455 if any(model in name for model in _WIDE_BASELINE_MODELS) else D435
     focal_px = float(settings.get("depth_focal_px", "nan"))
     return replace(pair.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
 
 
-driver_finding = partial(library_finding, phrase("Orbbec driver"), PACKAGE, load_library)
+check_driver = partial(check_library, phrase("Orbbec driver"), PACKAGE, load_library)
 KIND = CameraKind(
     title="Orbbec Femto, Gemini or Astra 2",
     models=MODELS,
     open=open_orbbec,
-    driver=driver_finding,
+    check_driver=check_driver,
     needed_mbit=5000,
-    port=USB_3,
-    further=further_findings,
+    port_advice=USB_3,
+    check_settings=check_firmware_and_usb,
 )

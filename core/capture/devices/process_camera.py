@@ -9,25 +9,26 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from carpus.core.camera import Camera
-from carpus.core.capture.camera_info import fitted_camera
+from carpus.core.capture.camera_info import rescale_camera
 from carpus.core.capture.devices.capture_child import (
-    Arrived,
-    CameraPlan,
-    Ended,
-    ExposureSet,
+    CameraConfig,
+    DeviceOpened,
+    ExposureLocked,
+    ImageArrived,
     LockExposure,
-    Opened,
-    Serve,
+    ServeFunction,
+    StreamEnded,
 )
-from carpus.core.capture.devices.capture_process import ANSWER_S, CaptureProcess
-from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens, camera_of_view
-from carpus.core.capture.source import Notice, SourceInfo, ignore
+from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, CaptureProcess
+from carpus.core.capture.frame_assembly import FrameAssembler, StreamLayout, camera_from_field_of_view, camera_from_lens
+from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
 from carpus.core.capture.video_mode import Sensor
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.errors import (
     CameraBusy,
     CameraFileUnreadable,
     CameraLost,
+    CameraMismatch,
     CameraMissing,
     CameraPermission,
     CameraReturned,
@@ -35,27 +36,26 @@ from carpus.core.errors import (
     CarpusFault,
     DepthNotRegistered,
     DriverFailed,
-    ExposureNotHeld,
-    OtherCamera,
-    PicturesEnlarged,
+    ExposureUnstable,
+    FramesEnlarged,
 )
-from carpus.core.rounding import written
+from carpus.core.rounding import format_rounded
 from carpus.core.types import Frame
 
 SIZE_PX = (640, 480)
-CAMERA_SLOTS = 60
+RING_SLOTS = 60
 """Of a camera, which does not: a second in which a busy computer does not let us look. 55 MB, used only then."""
-OPEN_CAMERA_S = 15.0
-WAITING_PICTURES = 3
+OPEN_TIMEOUT_S = 15.0
+MAX_WAITING_IMAGES = 3
 """A tenth of a second: longer than that a colour picture does not wait for its depth."""
-START_PICTURES = 30
+MAX_START_DROPS = 30
 """Colour pictures left out at the start while there is no depth yet; after a second without any, pictures go on."""
 RETRY_S = 1.0
 MAX_CRASHES = 3
 """Restarts in a row without a single frame."""
 SETTLE_FRAMES = 45
 """Frames until automatic exposure has settled, when a lock has to be set again."""
-_PASSING = (CameraBusy, CameraLost, CameraMissing, CameraPermission, DriverFailed)
+_RECOVERABLE_FAULTS = (CameraBusy, CameraLost, CameraMissing, CameraPermission, DriverFailed)
 """Faults that plugging in again, or waiting, can mend."""
 
 
@@ -66,38 +66,38 @@ class ProcessCamera:
     ``subject`` names it in faults until it has told its name; ``sensor`` says what the depth of the opened one is
     worth; ``camera`` are measured intrinsics, otherwise the driver's lens, or its field of view, is taken. When the
     camera is lost, ``notice`` hears :class:`CameraLost`, then :class:`CameraReturned`; it is raised when the camera
-    stays away for ``patience_s``. Meanwhile another one may be plugged in: that is told (:class:`OtherCamera`) and
+    stays away for ``patience_s``. Meanwhile another one may be plugged in: that is told (:class:`CameraMismatch`) and
     waited on. Frames that were missed are counted in the next one.
     """
 
     def __init__(
         self,
-        serve: Serve,
-        plan: CameraPlan,
+        serve: ServeFunction,
+        plan: CameraConfig,
         subject: str,
-        sensor: Callable[[Opened], DepthSensor],
+        sensor: Callable[[DeviceOpened], DepthSensor],
         *,
         camera: Camera | None = None,
         patience_s: float = math.inf,
-        notice: Notice = ignore,
+        notice: NoticeHandler = ignore_notice,
     ) -> None:
         self._serve, self._plan, self._subject, self._sensor = serve, plan, subject, sensor
         self._patience_s = patience_s
         self._notice = notice
         self._closing = threading.Event()
         self._lock = threading.Lock()
-        self._locked = False
-        self._relock_in = 0
+        self._is_exposure_locked = False
+        self._frames_to_relock = 0
         self._last_frame_s = time.monotonic()
-        self._process = self._start()
+        self._process = self._start_process()
         try:
-            opened = self._process.wait_open(self._closing, OPEN_CAMERA_S)
+            opened = self._process.receive_opened(self._closing, OPEN_TIMEOUT_S)
             assert opened is not None
-            self._opened: Opened = opened
-            self._assembler = Assembler(
-                _layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, WAITING_PICTURES, START_PICTURES
+            self._opened: DeviceOpened = opened
+            self._assembler = FrameAssembler(
+                _build_layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, MAX_WAITING_IMAGES, MAX_START_DROPS
             )
-            self._info = self._describe(camera)
+            self._info = self._build_info(camera)
         except BaseException:
             self._process.close(gently=True)
             raise
@@ -109,32 +109,32 @@ class ProcessCamera:
     def lock_exposure(self) -> None:
         """Hold exposure and white balance as they are now, so that the markers keep their colours; a camera that cannot
         is told as a notice."""
-        self._locked = True
-        self._process.tell(LockExposure())
+        self._is_exposure_locked = True
+        self._process.send_command(LockExposure())
 
     def frames(self) -> Iterator[Frame]:
         """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
         with self._lock:
             if not self._closing.is_set():
-                self._process.discard()
+                self._process.discard_images()
         crashes = 0
         while not self._closing.is_set():
             count = 0
             try:
-                for frame in self._run():
+                for frame in self._read_frames():
                     count += 1
                     yield frame
                 return
-            except _PASSING as fault:
+            except _RECOVERABLE_FAULTS as fault:
                 crashes = 1 if count else crashes + 1
                 if isinstance(fault, DriverFailed) and crashes >= MAX_CRASHES:
                     raise
                 lost = fault if isinstance(fault, CameraLost) else CameraLost(self._info.name, fault.detail)
             self._notice(lost)
-            away_s = self._wait_for_return(lost)
+            away_s = self._reconnect(lost)
             if away_s is None:
                 return
-            self._notice(CameraReturned(self._info.name, f"{written(away_s)} s"))
+            self._notice(CameraReturned(self._info.name, f"{format_rounded(away_s)} s"))
 
     def close(self) -> None:
         """Give the camera back; may be called twice, and while another thread waits for a frame."""
@@ -142,11 +142,11 @@ class ProcessCamera:
         with self._lock:
             self._process.close(gently=True)
 
-    def _start(self) -> CaptureProcess:
+    def _start_process(self) -> CaptureProcess:
         width, height = SIZE_PX
-        return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3, CAMERA_SLOTS)
+        return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3, RING_SLOTS)
 
-    def _run(self) -> Iterator[Frame]:
+    def _read_frames(self) -> Iterator[Frame]:
         """Frames of the process that runs now, until it ends or :meth:`close`."""
         modes = self._opened.modes
         while True:
@@ -155,119 +155,119 @@ class ProcessCamera:
             with self._lock:
                 if self._closing.is_set():
                     return
-                report = self._process.report(self._closing, ANSWER_S)
-                if isinstance(report, Arrived):
-                    take = self._assembler.color if report.sensor == Sensor.COLOR else self._assembler.depth
+                report = self._process.receive_report(self._closing, REPORT_TIMEOUT_S)
+                if isinstance(report, ImageArrived):
+                    take = self._assembler.add_color if report.sensor == Sensor.COLOR else self._assembler.add_depth
                     frames = take(
-                        report.timestamp_us, report.number, self._process.pixels(report, modes[report.sensor])
+                        report.timestamp_us, report.number, self._process.view_image(report, modes[report.sensor])
                     )
-                    self._process.free(report)
-                elif isinstance(report, ExposureSet):
-                    is_held = report.done
-                elif report is None or isinstance(report, Ended):
+                    self._process.release_slot(report)
+                elif isinstance(report, ExposureLocked):
+                    is_held = report.is_locked
+                elif report is None or isinstance(report, StreamEnded):
                     return
             if not is_held:
-                self._notice(ExposureNotHeld(self._info.name))
+                self._notice(ExposureUnstable(self._info.name))
             for frame in frames:
                 self._last_frame_s = time.monotonic()
-                self._hold_again()
+                self._relock_exposure()
                 yield frame
 
-    def _hold_again(self) -> None:
+    def _relock_exposure(self) -> None:
         """A camera that came back has forgotten its lock: set it when its automatics have settled."""
-        if self._relock_in:
-            self._relock_in -= 1
-            if self._relock_in == 0 and self._locked:
-                self._process.tell(LockExposure())
+        if self._frames_to_relock:
+            self._frames_to_relock -= 1
+            if self._frames_to_relock == 0 and self._is_exposure_locked:
+                self._process.send_command(LockExposure())
 
-    def _wait_for_return(self, lost: CarpusFault) -> float | None:
+    def _reconnect(self, lost: CarpusFault) -> float | None:
         """Seconds the camera was away; None when closed meanwhile. Raises ``lost`` when patience ends."""
         start_s = time.monotonic()
         other = ""
-        self._plan = replace(self._plan, serial=_serial(self._opened))  # the same one, and no other
+        self._plan = replace(self._plan, serial=_read_serial(self._opened))  # the same one, and no other
         while not self._closing.is_set():
             try:
                 with self._lock:
                     self._process.close(gently=False)
                     if self._closing.is_set():
                         return None
-                    self._process = self._start()
-                    opened = self._process.wait_open(self._closing, OPEN_CAMERA_S)
-                    first = self._first_picture() if opened else None
+                    self._process = self._start_process()
+                    opened = self._process.receive_opened(self._closing, OPEN_TIMEOUT_S)
+                    first = self._receive_first_image() if opened else None
                 if opened is None or first is None:
                     return None
-                self._check_same(opened)
+                self._check_same_camera(opened)
                 self._opened = opened
                 away_s = time.monotonic() - self._last_frame_s
-                self._assembler.restart(_layout(opened), first.timestamp_us, round(away_s * 1e6))
-                self._relock_in = SETTLE_FRAMES if self._locked else 0
+                self._assembler.restart(_build_layout(opened), first.timestamp_us, round(away_s * 1e6))
+                self._frames_to_relock = SETTLE_FRAMES if self._is_exposure_locked else 0
                 return time.monotonic() - start_s
-            except _PASSING as fault:
-                if isinstance(fault, OtherCamera) and fault.detail != other:
+            except _RECOVERABLE_FAULTS as fault:
+                if isinstance(fault, CameraMismatch) and fault.detail != other:
                     other = fault.detail
-                    self._notice(OtherCamera(_named(self._opened), other))
+                    self._notice(CameraMismatch(_format_camera(self._opened), other))
                 if time.monotonic() - start_s > self._patience_s:
                     raise lost from None
                 self._closing.wait(RETRY_S)
         return None
 
-    def _check_same(self, opened: Opened) -> None:
+    def _check_same_camera(self, opened: DeviceOpened) -> None:
         """Raises what is to be mended where this is not the camera that went away, or not as it was."""
-        if _named(opened) != _named(self._opened):
-            raise OtherCamera(_named(self._opened), _named(opened))
+        if _format_camera(opened) != _format_camera(self._opened):
+            raise CameraMismatch(_format_camera(self._opened), _format_camera(opened))
         if opened.modes != self._opened.modes:
             shown = ", ".join(f"{sensor.name.lower()} {mode}" for sensor, mode in opened.modes.items())
-            raise OtherCamera(_named(self._opened), f"{_named(opened)}: {shown}")
+            raise CameraMismatch(_format_camera(self._opened), f"{_format_camera(opened)}: {shown}")
 
-    def _first_picture(self) -> Arrived | None:
+    def _receive_first_image(self) -> ImageArrived | None:
         """The first picture after a restart, for its time only."""
-        while (report := self._process.report(self._closing, ANSWER_S)) is not None:
-            if isinstance(report, Arrived):
-                self._process.free(report)
+        while (report := self._process.receive_report(self._closing, REPORT_TIMEOUT_S)) is not None:
+            if isinstance(report, ImageArrived):
+                self._process.release_slot(report)
                 return report
         return None
 
-    def _describe(self, camera: Camera | None) -> SourceInfo:
+    def _build_info(self, camera: Camera | None) -> SourceInfo:
         opened, layout = self._opened, self._assembler.layout
         name = opened.settings.get("camera", "camera")
         if camera is not None:
-            found = fitted_camera(camera, layout.size_px)
+            found = rescale_camera(camera, layout.size_px)
         elif opened.lens is not None:
-            found = fitted_camera(camera_of_lens(layout.color_size_px, opened.lens), layout.size_px)
+            found = rescale_camera(camera_from_lens(layout.color_size_px, opened.lens), layout.size_px)
         else:
-            found = camera_of_view(layout.size_px, opened.field_of_view_rad)
+            found = camera_from_field_of_view(layout.size_px, opened.field_of_view_rad)
         if found is None:
             raise CameraFileUnreadable(name, "for pictures of another shape: {}x{}".format(*layout.size_px))
         if opened.settings.get("registered") == "no":
             self._notice(DepthNotRegistered(name))
-        if layout.enlarged:
-            self._notice(PicturesEnlarged(name, layout.enlarged))
+        if layout.format_enlargement:
+            self._notice(FramesEnlarged(name, layout.format_enlargement))
         turned = any(opened.mirrored.values())
         settings = {**opened.settings, "mirrored": "turned back" if turned else "no"}
         seen = replace(found, sensor=self._sensor(opened))
         return SourceInfo(name, seen, True, None, float(opened.modes[Sensor.COLOR].fps), settings)
 
 
-def _named(opened: Opened) -> str:
+def _format_camera(opened: DeviceOpened) -> str:
     """A camera by its name and serial number."""
-    return f"{opened.settings.get('camera', 'camera')} {_serial(opened)}".strip()
+    return f"{opened.settings.get('camera', 'camera')} {_read_serial(opened)}".strip()
 
 
-def _serial(opened: Opened) -> str:
+def _read_serial(opened: DeviceOpened) -> str:
     """Empty where the camera does not tell it."""
     return opened.settings.get("serial", "")
 
 
-def _layout(opened: Opened) -> Layout:
+def _build_layout(opened: DeviceOpened) -> StreamLayout:
     sizes = {sensor: (mode.width_px, mode.height_px) for sensor, mode in opened.modes.items()}
     mirrored = opened.mirrored
-    layout = Layout(
+    layout = StreamLayout(
         sizes[Sensor.COLOR],
         sizes[Sensor.DEPTH],
         mirrored[Sensor.COLOR],
         mirrored[Sensor.DEPTH],
         opened.depth_unit_m,
     )
-    if layout.misfit():
-        raise CameraUnsuited(opened.settings.get("camera", "camera"), layout.misfit())
+    if layout.describe_size_mismatch():
+        raise CameraUnsuited(opened.settings.get("camera", "camera"), layout.describe_size_mismatch())
     return layout

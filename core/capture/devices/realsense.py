@@ -15,21 +15,21 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.camera import Camera
-from carpus.core.capture.devices.cameras import USB_3, CameraKind, further_findings, library_finding
+from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_library
 from carpus.core.capture.devices.capture_child import (
-    WAIT_MS,
-    CameraPlan,
-    GaveUp,
-    Heard,
-    Opened,
-    Outlet,
-    why_not_opened,
-    why_unlisted,
+    POLL_MS,
+    CameraConfig,
+    CaptureFailed,
+    CaptureOutlet,
+    DeviceOpened,
+    StreamWatchdog,
+    camera_open_error,
+    camera_unlisted_error,
 )
-from carpus.core.capture.devices.color_lock import ColorLock, Control, Step, longest_exposure
+from carpus.core.capture.devices.color_lock import ColorLock, ColorSettings, Control, max_exposure
 from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
-from carpus.core.capture.devices.usb_devices import usb_cameras
-from carpus.core.capture.source import Notice, ignore
+from carpus.core.capture.devices.usb_devices import find_usb_cameras
+from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
 from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
 from carpus.core.errors import (
@@ -45,13 +45,13 @@ from carpus.core.phrase import phrase
 PACKAGE = "pyrealsense2"
 DEPTH_SIZE_PX = (848, 480)
 """The depth picture that the D435 and D455 measure best with."""
-_NO_TURN = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
-_SEES_LIKE = ("width", "height", "fx", "fy", "ppx", "ppy", "model", "coeffs")
+_IDENTITY_ROTATION = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+_INTRINSIC_NAMES = ("width", "height", "fx", "fy", "ppx", "ppy", "model", "coeffs")
 UNIT_DIGITS = 7
 """The library keeps the unit of depth as a 32-bit number: 0.001 comes back as 0.00100000005."""
 
 
-def library() -> Any:
+def import_sdk() -> Any:
     """The maker's library; raises :class:`DriverMissing` where it cannot be loaded."""
     try:
         import pyrealsense2
@@ -62,7 +62,7 @@ def library() -> Any:
 
 def load_library() -> None:
     """Load the library and no more, to see whether it can be; raises :class:`DriverMissing`."""
-    library()
+    import_sdk()
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,25 +83,28 @@ class RealsenseStreams:
         return modes
 
 
-def find_camera(rs: Any, context: Any, plan: CameraPlan) -> Any:
-    """The device to open; raises :class:`GaveUp` with why there is none."""
+def find_device(rs: Any, context: Any, plan: CameraConfig) -> Any:
+    """The device to open; raises :class:`CaptureFailed` with why there is none."""
     listed = list(context.query_devices())
     for device in listed:
-        if not plan.serial or said(rs, device, "serial_number") == plan.serial:
+        if not plan.serial or read_device_info(rs, device, "serial_number") == plan.serial:
             return device
-    names = [f"{said(rs, device, 'name')} {said(rs, device, 'serial_number')}".strip() for device in listed]
-    raise why_unlisted(usb_cameras(plan.models), names)
+    names = [
+        f"{read_device_info(rs, device, 'name')} {read_device_info(rs, device, 'serial_number')}".strip()
+        for device in listed
+    ]
+    raise camera_unlisted_error(find_usb_cameras(plan.models), names)
 
 
-def said(rs: Any, device: Any, fact: str) -> str:
+def read_device_info(rs: Any, device: Any, fact: str) -> str:
     """What a device says of itself, by the library's name of the fact; empty where it says nothing."""
     info = getattr(rs.camera_info, fact)
     return str(device.get_info(info)) if device.supports(info) else ""
 
 
-def camera_streams(rs: Any, device: Any, plan: CameraPlan) -> RealsenseStreams:
-    """Colour of the wanted size and rate, depth as the camera measures it best; raises :class:`GaveUp`."""
-    offered = _offered(rs, device)
+def choose_streams(rs: Any, device: Any, plan: CameraConfig) -> RealsenseStreams:
+    """Colour of the wanted size and rate, depth as the camera measures it best; raises :class:`CaptureFailed`."""
+    offered = _list_profiles(rs, device)
     width, height = plan.size_px
 
     def nearness(profile: Any, size_px: tuple[int, int]) -> tuple[int, int]:
@@ -110,48 +113,48 @@ def camera_streams(rs: Any, device: Any, plan: CameraPlan) -> RealsenseStreams:
     colors = [(sensor, each) for sensor, each in offered if each.format() == rs.format.rgb8 and _is_color(rs, each)]
     fitting = [pair for pair in colors if pair[1].width() <= width and pair[1].height() <= height]
     if not fitting:
-        raise GaveUp(CameraUnsuited, f"no colour pictures of {width}x{height}")
+        raise CaptureFailed(CameraUnsuited, f"no colour pictures of {width}x{height}")
     depths = [(sensor, each) for sensor, each in offered if _is_depth(rs, each)]
     if not depths:
-        raise GaveUp(CameraUnsuited, "no depth")
+        raise CaptureFailed(CameraUnsuited, "no depth")
     color = max(fitting, key=lambda pair: nearness(pair[1], plan.size_px))
     depth = max(depths, key=lambda pair: nearness(pair[1], DEPTH_SIZE_PX))
-    return _streams([color, depth])
+    return _group_by_sensor([color, depth])
 
 
-def stored_streams(rs: Any, playback: Any) -> RealsenseStreams:
-    """Colour and, where there is any, depth of a recording; raises :class:`GaveUp`."""
-    offered = _offered(rs, playback)
+def choose_recording_streams(rs: Any, playback: Any) -> RealsenseStreams:
+    """Colour and, where there is any, depth of a recording; raises :class:`CaptureFailed`."""
+    offered = _list_profiles(rs, playback)
     colors = [pair for pair in offered if _is_color(rs, pair[1])]
     readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
     if not readable:
         form = f"colour as {colors[0][1].format().name}" if colors else "no colour pictures"
-        raise GaveUp(CameraUnsuited, form)
+        raise CaptureFailed(CameraUnsuited, form)
     depths = [pair for pair in offered if _is_depth(rs, pair[1])]
-    return _streams([readable[0], *depths[:1]])
+    return _group_by_sensor([readable[0], *depths[:1]])
 
 
-def prepare(rs: Any, streams: RealsenseStreams) -> dict[str, str]:
+def configure(rs: Any, streams: RealsenseStreams) -> dict[str, str]:
     """What a camera is set to before it streams; what of it took, for the session."""
     option = rs.option
     done: dict[str, str] = {}
     for sensor, profiles in streams.opening:
         # Times of the device itself: the library's fit to the computer's clock steps now and then.
-        put(sensor, option.global_time_enabled, 0)
+        set_option(sensor, option.global_time_enabled, 0)
         if streams.depth in profiles:
-            if put(sensor, option.visual_preset, int(rs.rs400_visual_preset.high_accuracy)):
+            if set_option(sensor, option.visual_preset, int(rs.rs400_visual_preset.high_accuracy)):
                 done["preset"] = "high accuracy"
-            if put(sensor, option.emitter_enabled, 1):
+            if set_option(sensor, option.emitter_enabled, 1):
                 done["emitter"] = "on"
-        automatic = put(sensor, option.enable_auto_exposure, 1)
+        automatic = set_option(sensor, option.enable_auto_exposure, 1)
         if streams.color in profiles:
-            automatic = put(sensor, option.enable_auto_white_balance, 1) and automatic
-            put(sensor, option.auto_exposure_priority, 0)  # the rate does not fall in a dark room
+            automatic = set_option(sensor, option.enable_auto_white_balance, 1) and automatic
+            set_option(sensor, option.auto_exposure_priority, 0)  # the rate does not fall in a dark room
             done["automatic_exposure"] = "on" if automatic else "not settable"
     return done
 
 
-def put(sensor: Any, option: Any, value: float) -> bool:
+def set_option(sensor: Any, option: Any, value: float) -> bool:
     """Set an option; whether the sensor has it and took it."""
     if not sensor.supports(option) or sensor.is_option_read_only(option):
         return False
@@ -161,17 +164,17 @@ def put(sensor: Any, option: Any, value: float) -> bool:
     return False
 
 
-def put_near(sensor: Any, option: Any, value: float) -> bool:
+def set_nearest_option(sensor: Any, option: Any, value: float) -> bool:
     """Set an option to the value nearest to this that the sensor takes: it refuses all between its steps."""
     if not sensor.supports(option):
         return False
     reach = sensor.get_option_range(option)
     step = reach.step or 1.0
     value = min(max(value, reach.min), reach.max)
-    return put(sensor, option, reach.min + round((value - reach.min) / step) * step)
+    return set_option(sensor, option, reach.min + round((value - reach.min) / step) * step)
 
 
-def depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
+def read_depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
     """Metres per count of depth."""
     for sensor, profiles in streams.opening:
         if streams.depth in profiles and sensor.supports(rs.option.depth_units):
@@ -179,7 +182,7 @@ def depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
     return 1e-3
 
 
-def lens_of(rs: Any, profile: Any) -> Lens:
+def read_lens(rs: Any, profile: Any) -> Lens:
     """Intrinsics of a profile."""
     found = profile.get_intrinsics()
     coefficients = tuple(float(each) for each in found.coeffs)
@@ -193,28 +196,28 @@ def lens_of(rs: Any, profile: Any) -> Lens:
     return Lens(found.fx, found.fy, found.ppx, found.ppy, model, coefficients)
 
 
-def lies_on_color(streams: RealsenseStreams) -> bool:
+def is_depth_registered(streams: RealsenseStreams) -> bool:
     """Whether depth lies on colour as it comes; laying it there once more would only tear holes into it."""
     if streams.depth is None:
         return True
     towards = streams.depth.get_extrinsics_to(streams.color)
     here, there = streams.depth.get_intrinsics(), streams.color.get_intrinsics()
-    unmoved = [*towards.rotation, *towards.translation] == [*_NO_TURN, 0.0, 0.0, 0.0]
-    return unmoved and all(getattr(here, key) == getattr(there, key) for key in _SEES_LIKE)
+    unmoved = [*towards.rotation, *towards.translation] == [*_IDENTITY_ROTATION, 0.0, 0.0, 0.0]
+    return unmoved and all(getattr(here, key) == getattr(there, key) for key in _INTRINSIC_NAMES)
 
 
-def device_settings(rs: Any, device: Any, streams: RealsenseStreams) -> dict[str, str]:
+def describe_device(rs: Any, device: Any, streams: RealsenseStreams) -> dict[str, str]:
     """What a session says of the camera; only what is known."""
     settings = {
-        "camera": said(rs, device, "name") or "RealSense",
-        "serial": said(rs, device, "serial_number"),
-        "firmware": said(rs, device, "firmware_version"),
-        "firmware_wanted": said(rs, device, "recommended_firmware_version"),
-        "usb": said(rs, device, "usb_type_descriptor"),
+        "camera": read_device_info(rs, device, "name") or "RealSense",
+        "serial": read_device_info(rs, device, "serial_number"),
+        "firmware": read_device_info(rs, device, "firmware_version"),
+        "firmware_wanted": read_device_info(rs, device, "recommended_firmware_version"),
+        "usb": read_device_info(rs, device, "usb_type_descriptor"),
         "library": f"librealsense {rs.__version__}",
-        "color_mode": _mode_text(streams.color),
-        "depth_mode": _mode_text(streams.depth) if streams.depth is not None else "",
-        "lens_model": lens_of(rs, streams.color).model,
+        "color_mode": _format_mode(streams.color),
+        "depth_mode": _format_mode(streams.depth) if streams.depth is not None else "",
+        "lens_model": read_lens(rs, streams.color).model,
         "registered": "by the library" if streams.depth is not None else "",
     }
     if streams.depth is not None:
@@ -222,7 +225,7 @@ def device_settings(rs: Any, device: Any, streams: RealsenseStreams) -> dict[str
     return {key: value for key, value in settings.items() if value}
 
 
-def _offered(rs: Any, device: Any) -> list[tuple[Any, Any]]:
+def _list_profiles(rs: Any, device: Any) -> list[tuple[Any, Any]]:
     return [
         (sensor, profile.as_video_stream_profile())
         for sensor in device.query_sensors()
@@ -239,7 +242,7 @@ def _is_depth(rs: Any, profile: Any) -> bool:
     return bool(profile.stream_type() == rs.stream.depth and profile.format() == rs.format.z16)
 
 
-def _streams(chosen: Sequence[tuple[Any, Any]]) -> RealsenseStreams:
+def _group_by_sensor(chosen: Sequence[tuple[Any, Any]]) -> RealsenseStreams:
     """A sensor that sends both (the D405's) is opened once, for both."""
     by_name: dict[str, tuple[Any, list[Any]]] = {}
     for number, (sensor, profile) in enumerate(chosen):
@@ -248,7 +251,7 @@ def _streams(chosen: Sequence[tuple[Any, Any]]) -> RealsenseStreams:
     return RealsenseStreams(chosen[0][1], chosen[1][1] if len(chosen) > 1 else None, opening)
 
 
-def _mode_text(profile: Any) -> str:
+def _format_mode(profile: Any) -> str:
     return f"{profile.width()}x{profile.height()} {profile.format().name} {profile.fps()} fps"
 
 
@@ -257,191 +260,193 @@ JOIN_MS = 1000
 FILE_SILENCE_S = 5.0
 
 
-def serve(outlet: Outlet, plan: CameraPlan | Path) -> None:
+def serve(outlet: CaptureOutlet, plan: CameraConfig | Path) -> None:
     """Serve a plan in the capture process."""
-    rs = library()
+    rs = import_sdk()
     try:
         if isinstance(plan, Path):
-            _play(rs, outlet, plan)
+            _serve_recording(rs, outlet, plan)
         else:
-            _watch(rs, outlet, plan)
+            _serve_camera(rs, outlet, plan)
     except RuntimeError as failure:  # all that the library raises
         reason = " ".join(str(failure).split())
         if isinstance(plan, Path):
-            raise GaveUp(DriverFailed, reason) from failure
-        raise why_not_opened(reason, usb_cameras(plan.models)) from failure
+            raise CaptureFailed(DriverFailed, reason) from failure
+        raise camera_open_error(reason, find_usb_cameras(plan.models)) from failure
 
 
-def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
+def _serve_camera(rs: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     """A camera: the newest pictures, whenever there are any."""
-    context = plan.context() if plan.context is not None else rs.context()
-    device = find_camera(rs, context, plan)
+    context = plan.make_context() if plan.make_context is not None else rs.context()
+    device = find_device(rs, context, plan)
     gone = threading.Event()
     context.set_devices_changed_callback(lambda change: gone.set() if change.was_removed(device) else None)
-    streams = camera_streams(rs, device, plan)
-    settings = device_settings(rs, device, streams) | prepare(rs, streams)
+    streams = choose_streams(rs, device, plan)
+    settings = describe_device(rs, device, streams) | configure(rs, streams)
     waiting: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
-    outlet.hold(context, device, streams, waiting)
+    outlet.retain(context, device, streams, waiting)
 
-    def take(frame: Any) -> None:
+    def enqueue(frame: Any) -> None:
         frame.keep()
         while True:
             try:
                 waiting.put_nowait(frame)
                 return
             except queue.Full:
-                _next(waiting, 0.0)  # the oldest; its number is missing then, and counted
+                _get_frame(waiting, 0.0)  # the oldest; its number is missing then, and counted
 
-    _start(streams, take)
-    pictures = _RealSensePictures(rs, outlet, streams)
+    _start_streams(streams, enqueue)
+    pictures = _RealSenseImages(rs, outlet, streams)
     hold = ColorLock(outlet, _RealSenseControls(rs, streams))
-    outlet.lock_exposure = hold.begin
+    outlet.lock_exposure = hold.start
     is_told = False
 
-    def pass_on(heard: Heard) -> None:
+    def forward_images(heard: StreamWatchdog) -> None:
         nonlocal is_told
-        frame = _next(waiting, WAIT_MS / 1000.0)
+        frame = _get_frame(waiting, POLL_MS / 1000.0)
         if frame is None:
             return
-        sensor = _sensor_of(rs, frame)
-        heard.picture_of(sensor)
+        sensor = _frame_sensor(rs, frame)
+        heard.reset(sensor)
         if sensor == Sensor.COLOR and not is_told:
-            outlet.send(_opened(rs, streams, settings | {"clock": _clock(rs, frame)}))
+            outlet.send(_build_report(rs, streams, settings | {"clock": _clock_name(rs, frame)}))
             is_told = True
-        pictures.pass_on(frame)
+        pictures.forward(frame)
         if sensor == Sensor.COLOR:
-            hold.look(memoryview(frame.get_data()).cast("B"))
+            hold.add_frame(memoryview(frame.get_data()).cast("B"))
 
-    outlet.watch(streams.modes, gone, pass_on)
-    _stop(streams)
+    outlet.run(streams.modes, gone, forward_images)
+    _stop_streams(streams)
 
 
-def _play(rs: Any, outlet: Outlet, path: Path) -> None:
+def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
     """A recording: each picture, the next only when there is room for it."""
     try:
         playback = rs.context().load_device(str(path))
         playback.set_real_time(False)
-        streams = stored_streams(rs, playback)
+        streams = choose_recording_streams(rs, playback)
     except RuntimeError as failure:
-        raise GaveUp(RecordingDamaged, " ".join(str(failure).split())) from failure
-    except GaveUp as failure:
-        raise GaveUp(RecordingUnsupported, failure.detail) from failure
+        raise CaptureFailed(RecordingDamaged, " ".join(str(failure).split())) from failure
+    except CaptureFailed as failure:
+        raise CaptureFailed(RecordingUnsupported, failure.detail) from failure
     waiting: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
-    outlet.hold(playback, streams, waiting)
+    outlet.retain(playback, streams, waiting)
 
-    def take(frame: Any) -> None:
+    def enqueue(frame: Any) -> None:
         frame.keep()
         waiting.put(frame)  # the library reads on only when this is over
 
-    settings = device_settings(rs, playback, streams)
+    settings = describe_device(rs, playback, streams)
     playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
-    _start(streams, take)
+    _start_streams(streams, enqueue)
     playback.resume()
-    pictures = _RealSensePictures(rs, outlet, streams)
+    pictures = _RealSenseImages(rs, outlet, streams)
     heard = time.monotonic()
     is_told = False
-    while not outlet.stopping:
-        outlet.obey(block=not outlet.has_room)
-        if not outlet.has_room:
+    while not outlet.is_stopping:
+        outlet.handle_commands(block=not outlet.has_free_slot)
+        if not outlet.has_free_slot:
             heard = time.monotonic()
             continue
-        frame = _next(waiting, WAIT_MS / 1000.0)
+        frame = _get_frame(waiting, POLL_MS / 1000.0)
         if frame is not None:
             heard = time.monotonic()
             if not is_told:
-                outlet.send(_opened(rs, streams, settings | {"clock": _clock(rs, frame)}))
+                outlet.send(_build_report(rs, streams, settings | {"clock": _clock_name(rs, frame)}))
                 is_told = True
-            pictures.pass_on(frame)
+            pictures.forward(frame)
         elif playback.current_status() == rs.playback_status.stopped and waiting.empty():
             if not is_told:
-                raise GaveUp(RecordingDamaged, "no picture in it")
+                raise CaptureFailed(RecordingDamaged, "no picture in it")
             return
         elif time.monotonic() - heard > FILE_SILENCE_S:
-            raise GaveUp(RecordingDamaged, f"no picture for {FILE_SILENCE_S:g} s")
-        outlet.stay_alive()
+            raise CaptureFailed(RecordingDamaged, f"no picture for {FILE_SILENCE_S:g} s")
+        outlet.send_heartbeat()
 
 
-def _start(streams: RealsenseStreams, take: Callable[[Any], None]) -> None:
+def _start_streams(streams: RealsenseStreams, take: Callable[[Any], None]) -> None:
     for sensor, profiles in streams.opening:
         sensor.open(list(profiles))
     for sensor, _ in streams.opening:
         sensor.start(take)
 
 
-def _stop(streams: RealsenseStreams) -> None:
+def _stop_streams(streams: RealsenseStreams) -> None:
     for sensor, _ in streams.opening:
         sensor.stop()
         sensor.close()
 
 
-def _next(waiting: queue.Queue[Any], wait_s: float) -> Any | None:
+def _get_frame(waiting: queue.Queue[Any], wait_s: float) -> Any | None:
     try:
         return waiting.get(timeout=wait_s) if wait_s > 0.0 else waiting.get_nowait()
     except queue.Empty:
         return None
 
 
-def _sensor_of(rs: Any, frame: Any) -> Sensor:
+def _frame_sensor(rs: Any, frame: Any) -> Sensor:
     return Sensor.COLOR if frame.profile.stream_type() == rs.stream.color else Sensor.DEPTH
 
 
-def _clock(rs: Any, frame: Any) -> str:
+def _clock_name(rs: Any, frame: Any) -> str:
     """Whose time stamps are: the camera's, or those of arrival."""
     return "computer" if frame.get_frame_timestamp_domain() == rs.timestamp_domain.system_time else "camera"
 
 
-def _opened(rs: Any, streams: RealsenseStreams, settings: dict[str, str]) -> Opened:
+def _build_report(rs: Any, streams: RealsenseStreams, settings: dict[str, str]) -> DeviceOpened:
     mirrored = dict.fromkeys(streams.modes, False)
-    return Opened(streams.modes, mirrored, None, settings, lens_of(rs, streams.color), depth_unit_m(rs, streams))
+    return DeviceOpened(
+        streams.modes, mirrored, None, settings, read_lens(rs, streams.color), read_depth_unit_m(rs, streams)
+    )
 
 
-class _RealSensePictures:
+class _RealSenseImages:
     """Passes colour on, and depth, laid on colour by the library; both with their own times."""
 
-    def __init__(self, rs: Any, outlet: Outlet, streams: RealsenseStreams) -> None:
+    def __init__(self, rs: Any, outlet: CaptureOutlet, streams: RealsenseStreams) -> None:
         self._rs, self._outlet = rs, outlet
-        self._lies = lies_on_color(streams)
+        self._is_registered = is_depth_registered(streams)
         self._align = rs.align(rs.stream.color)
         self._color: Any | None = None
         self._early: list[Any] = []
         self._joined = rs.frame_queue(1)
-        self._join = rs.processing_block(self._both)
+        self._join = rs.processing_block(self._join_frames)
         self._join.start(self._joined)
-        outlet.hold(self)
+        outlet.retain(self)
 
-    def pass_on(self, frame: Any) -> None:
+    def forward(self, frame: Any) -> None:
         """One picture; depth from before the first colour waits for it."""
-        if _sensor_of(self._rs, frame) == Sensor.DEPTH:
-            if self._lies:
-                self._put(Sensor.DEPTH, frame, memoryview(frame.get_data()).cast("B"))
+        if _frame_sensor(self._rs, frame) == Sensor.DEPTH:
+            if self._is_registered:
+                self._publish(Sensor.DEPTH, frame, memoryview(frame.get_data()).cast("B"))
             elif self._color is None:
                 self._early = [*self._early[-WAITING_FRAMES:], frame]
             else:
-                self._depth(frame)
+                self._forward_depth(frame)
             return
         if self._color is None:
             self._color = frame  # laying depth on colour asks only how it sees, so any colour picture will do
         data = memoryview(frame.get_data()).cast("B")
         is_turned = frame.profile.format() == self._rs.format.bgr8
-        self._put(Sensor.COLOR, frame, _turned(data) if is_turned else data)
+        self._publish(Sensor.COLOR, frame, _bgr_to_rgb(data) if is_turned else data)
         for early in self._early:
-            self._depth(early)
+            self._forward_depth(early)
         self._early = []
 
-    def _depth(self, frame: Any) -> None:
+    def _forward_depth(self, frame: Any) -> None:
         self._join.invoke(frame)
         both = self._joined.wait_for_frame(JOIN_MS).as_frameset()
         laid = self._align.process(both).get_depth_frame()
-        self._put(Sensor.DEPTH, laid, memoryview(laid.get_data()).cast("B"))
+        self._publish(Sensor.DEPTH, laid, memoryview(laid.get_data()).cast("B"))
 
-    def _both(self, frame: Any, source: Any) -> None:
+    def _join_frames(self, frame: Any, source: Any) -> None:
         source.frame_ready(source.allocate_composite_frame([frame, self._color]))
 
-    def _put(self, sensor: Sensor, frame: Any, picture: memoryview) -> None:
-        self._outlet.put(sensor, frame.get_frame_number(), round(frame.get_timestamp() * 1000.0), picture)
+    def _publish(self, sensor: Sensor, frame: Any, picture: memoryview) -> None:
+        self._outlet.publish(sensor, frame.get_frame_number(), round(frame.get_timestamp() * 1000.0), picture)
 
 
-def _turned(blue_first: memoryview) -> memoryview:
+def _bgr_to_rgb(blue_first: memoryview) -> memoryview:
     """Red first."""
     out = bytearray(blue_first.nbytes)
     out[0::3], out[1::3], out[2::3] = blue_first[2::3], blue_first[1::3], blue_first[0::3]
@@ -454,25 +459,27 @@ class _RealSenseControls:
     def __init__(self, rs: Any, streams: RealsenseStreams) -> None:
         self._option = rs.option
         self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
-        self._longest = longest_exposure(streams.color.fps())
+        self._max_exposure = max_exposure(streams.color.fps())
 
-    def stop_following(self) -> tuple[bool, bool]:
+    def disable_automatic(self) -> tuple[bool, bool]:
         option, sensor = self._option, self._sensor
-        return put(sensor, option.enable_auto_exposure, 0), put(sensor, option.enable_auto_white_balance, 0)
+        return set_option(sensor, option.enable_auto_exposure, 0), set_option(
+            sensor, option.enable_auto_white_balance, 0
+        )
 
-    def exposure(self) -> Control | None:
-        found = self._control(self._option.exposure)
-        return None if found is None else replace(found, most=min(found.most, self._longest))
+    def read_exposure(self) -> Control | None:
+        found = self._read_control(self._option.exposure)
+        return None if found is None else replace(found, max_value=min(found.max_value, self._max_exposure))
 
-    def balance(self) -> Control | None:
-        return self._control(self._option.white_balance)
+    def read_white_balance(self) -> Control | None:
+        return self._read_control(self._option.white_balance)
 
-    def put(self, step: Step) -> None:
-        put_near(self._sensor, self._option.exposure, step.exposure)
+    def apply(self, step: ColorSettings) -> None:
+        set_nearest_option(self._sensor, self._option.exposure, step.exposure)
         if step.kelvin:
-            put_near(self._sensor, self._option.white_balance, step.kelvin)
+            set_nearest_option(self._sensor, self._option.white_balance, step.kelvin)
 
-    def _control(self, option: Any) -> Control | None:
+    def _read_control(self, option: Any) -> Control | None:
         if not self._sensor.supports(option):
             return None
         reach = self._sensor.get_option_range(option)
@@ -496,21 +503,23 @@ def open_realsense(
     uri: str | None = None,
     camera: Camera | None = None,
     patience_s: float = math.inf,
-    notice: Notice = ignore,
+    notice: NoticeHandler = ignore_notice,
     context: Callable[[], Any] | None = None,
 ) -> ProcessCamera:
-    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraPlan`.
+    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraConfig`.
 
     Raises :class:`ExtraMissing` without the library.
     """
     require_library()
-    plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
-    return ProcessCamera(serve, plan, uri or "RealSense", _sensor, camera=camera, patience_s=patience_s, notice=notice)
+    plan = CameraConfig(uri or "", SIZE_PX, models=MODELS, make_context=context)
+    return ProcessCamera(
+        serve, plan, uri or "RealSense", _opened_sensor, camera=camera, patience_s=patience_s, notice=notice
+    )
 
 
-def _sensor(opened: Opened) -> DepthSensor:
+def _opened_sensor(opened: DeviceOpened) -> DepthSensor:
     """By the camera's name, and how its depth pictures see."""
-    return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
+    return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
 
 
 def require_library() -> None:
@@ -519,7 +528,7 @@ def require_library() -> None:
         raise ExtraMissing(PACKAGE)
 
 
-def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
+def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
     """The depth sensor of a camera with these settings; assumed like a D435's where the name is not known. Its noise is
     in the geometry of its own depth pictures; only its window is counted in pixels of colour."""
     name = settings.get("camera", "").upper()
@@ -529,13 +538,13 @@ def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) 
     return sensor.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else sensor
 
 
-driver_finding = partial(library_finding, phrase("RealSense driver"), PACKAGE, load_library)
+check_driver = partial(check_library, phrase("RealSense driver"), PACKAGE, load_library)
 KIND = CameraKind(
     title="Intel RealSense",
     models=MODELS,
     open=open_realsense,
-    driver=driver_finding,
+    check_driver=check_driver,
     needed_mbit=5000,
-    port=USB_3,
-    further=further_findings,
+    port_advice=USB_3,
+    check_settings=check_firmware_and_usb,
 )

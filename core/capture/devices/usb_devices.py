@@ -20,11 +20,11 @@ class UsbCamera:
     product: str
     node: Path
     speed_mbit: int
-    may_open: bool
+    can_open: bool
     is_claimed: bool
 
 
-def usb_cameras(
+def find_usb_cameras(
     models: Mapping[tuple[str, str], str], sysfs: Path = SYSFS, nodes: Path = DEVICE_NODES
 ) -> list[UsbCamera]:
     """The cameras plugged in among ``models`` (names by USB vendor and product, four hexadecimal digits each).
@@ -33,14 +33,14 @@ def usb_cameras(
     """
     found = []
     for device in sorted(sysfs.glob("*")) if sysfs.is_dir() else []:
-        vendor, product = _text(device / "idVendor"), _text(device / "idProduct")
+        vendor, product = _read_text(device / "idVendor"), _read_text(device / "idProduct")
         name = models.get((vendor, product))
         if name is None:
             continue
-        bus, number = (int(_text(device / part) or 0) for part in ("busnum", "devnum"))
+        bus, number = (int(_read_text(device / part) or 0) for part in ("busnum", "devnum"))
         node = nodes / f"{bus:03d}" / f"{number:03d}"
         drivers = [each.resolve().name for each in device.glob(f"{device.name}:*/driver")]
-        speed = _text(device / "speed")
+        speed = _read_text(device / "speed")
         found.append(
             UsbCamera(
                 name,
@@ -55,7 +55,7 @@ def usb_cameras(
     return found
 
 
-def _text(path: Path) -> str:
+def _read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="ascii", errors="replace").strip()
     except OSError:

@@ -76,9 +76,9 @@ MIRROR = "xnMirror"
 FIELD_OF_VIEW = "xnFOV"
 
 
-SMALL = 6
+SMALL_STEP = 6
 """Differences up to this take half a byte."""
-MEDIUM = 63
+MEDIUM_STEP = 63
 """Differences up to this take a byte after the escape."""
 
 
@@ -93,23 +93,23 @@ def decode_depth(data: bytes, codec: bytes, shape: tuple[int, int]) -> DepthImag
     if codec == Codec.RAW:
         return np.frombuffer(data, "<u2").reshape(shape) if len(data) == 2 * count else None
     try:
-        values, at = _table(data) if codec == Codec.DEPTH_TABLE else (None, 0)
-        index = _indices(data[at + 2 :], *struct.unpack_from("<H", data, at))
+        values, at = _read_value_table(data) if codec == Codec.DEPTH_TABLE else (None, 0)
+        index = _decode_indices(data[at + 2 :], *struct.unpack_from("<H", data, at))
         depth = index if values is None else values[index]
         return depth.astype(np.uint16).reshape(shape)
     except (IndexError, ValueError, struct.error):
         return None
 
 
-def _table(data: bytes) -> tuple[NDArray[np.uint16], int]:
+def _read_value_table(data: bytes) -> tuple[NDArray[np.uint16], int]:
     (count,) = struct.unpack_from("<H", data)
     return np.frombuffer(data, "<u2", count, 2), 2 + 2 * count
 
 
-def _meaning() -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
+def _build_byte_tables() -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
     """Of each byte (256, 2): the two steps of the index that it holds, and how many pixels each is good for."""
     byte = np.arange(256, dtype=np.int32)
-    step = np.stack((SMALL - (byte >> 4), SMALL - (byte & 0x0F)), 1)
+    step = np.stack((SMALL_STEP - (byte >> 4), SMALL_STEP - (byte & 0x0F)), 1)
     times = np.ones((256, 2), np.uint8)
     times[(byte & 0x0F) == 0x0D, 1] = 0
     step[0xE0:0xFF], times[0xE0:0xFF] = 0, np.stack((2 * (byte[0xE0:0xFF] - 0xE0), 0 * byte[0xE0:0xFF]), 1)
@@ -117,10 +117,10 @@ def _meaning() -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
     return step, times
 
 
-_STEP, _TIMES = _meaning()
+_BYTE_STEPS, _BYTE_COUNTS = _build_byte_tables()
 
 
-def _indices(data: bytes, first: int) -> NDArray[np.int32]:
+def _decode_indices(data: bytes, first: int) -> NDArray[np.int32]:
     """The index of each pixel (P,): steps summed up since the last index that was written in full."""
     coded = np.frombuffer(data, np.uint8)
     escapes, end = [], 0
@@ -135,7 +135,7 @@ def _indices(data: bytes, first: int) -> NDArray[np.int32]:
     far = escape[behind < 0x80]
 
     # the second step of an escape is in the byte behind it, or begins anew there; what is behind it is none of its own
-    step, times = _STEP[coded], _TIMES[coded]
+    step, times = _BYTE_STEPS[coded], _BYTE_COUNTS[coded]
     step[escape, 1] = np.where(behind < 0x80, 0, 192 - behind)
     times[escape + 1] = 0
     times[far + 2] = 0

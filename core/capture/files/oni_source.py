@@ -15,25 +15,25 @@ from typing import Any, BinaryIO, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.capture.camera_info import CameraInfo, fitted_camera, read_camera_info, sidecar_path
+from carpus.core.capture.camera_info import CameraInfo, read_camera_info, rescale_camera, sidecar_path
 from carpus.core.capture.files import oni_format as oni
 from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType, decode_depth
 from carpus.core.capture.files.pictures import decode_color
 from carpus.core.capture.frame_assembly import (
     DEPTH_UNIT_M,
-    WAITING_IN_FILE,
-    Assembler,
-    Layout,
-    camera_of_view,
+    FILE_PAIRING_LIMIT,
+    FrameAssembler,
+    StreamLayout,
+    camera_from_field_of_view,
 )
-from carpus.core.capture.source import Notice, SourceInfo, ignore
+from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
 from carpus.core.capture.video_mode import PixelFormat, Sensor
 from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
+    DamagedFramesExcluded,
     DepthNotRegistered,
-    PicturesEnlarged,
-    PicturesLost,
+    FramesEnlarged,
     RecordingDamaged,
     RecordingEmpty,
     RecordingMissing,
@@ -47,11 +47,11 @@ from carpus.core.types import SIMULATED, Frame
 
 MAX_WIDTH_PX, MAX_HEIGHT_PX, MAX_FPS = 1600, 1200, 120
 MAX_TIME_US = 1 << 60
-FIRST_READ = 160
+HEADER_READ_BYTES = 160
 """Holds the header and fields of nearly every record."""
 
-_ADDED = (RecordType.NODE_ADDED, RecordType.NODE_ADDED_1_0_0_5, RecordType.NODE_ADDED_1_0_0_4)
-_PROPERTIES = (RecordType.INT_PROPERTY, RecordType.GENERAL_PROPERTY)
+_NODE_ADDED_RECORDS = (RecordType.NODE_ADDED, RecordType.NODE_ADDED_1_0_0_5, RecordType.NODE_ADDED_1_0_0_4)
+_PROPERTY_RECORDS = (RecordType.INT_PROPERTY, RecordType.GENERAL_PROPERTY)
 _CODECS = {
     NodeType.DEPTH: (Codec.RAW, Codec.DEPTH_TABLE, Codec.DEPTH_PLAIN),
     NodeType.IMAGE: (Codec.RAW, Codec.JPEG),
@@ -61,7 +61,7 @@ _FORMATS = {
     NodeType.IMAGE: (PixelFormat.RGB888,),
 }
 _OLD_FORMATS = {1: PixelFormat.RGB888, 2: PixelFormat.YUV422, 3: PixelFormat.GRAY8, 4: PixelFormat.GRAY16}
-_FIXED = (oni.MAP_OUTPUT_MODE, oni.CROPPING, oni.PIXEL_FORMAT_1, oni.PIXEL_FORMAT_2, oni.MIRROR)
+_CONSTANT_PROPERTIES = (oni.MAP_OUTPUT_MODE, oni.CROPPING, oni.PIXEL_FORMAT_1, oni.PIXEL_FORMAT_2, oni.MIRROR)
 """Properties that must not change once pictures come."""
 
 
@@ -105,15 +105,15 @@ class _Node:
     kind: NodeType
     codec: bytes
     properties: dict[str, bytes] = field(default_factory=dict)
-    pictures: list[tuple[int, int, int, int]] = field(default_factory=list)
+    images: list[tuple[int, int, int, int]] = field(default_factory=list)
     """Number, time, position and size of each."""
 
-    def told(self, name: str) -> int:
+    def read_int(self, name: str) -> int:
         return int.from_bytes(self.properties.get(name, b""), "little")
 
     @property
     def pixel_format(self) -> int:
-        told, old = self.told(oni.PIXEL_FORMAT_2), self.told(oni.PIXEL_FORMAT_1)
+        told, old = self.read_int(oni.PIXEL_FORMAT_2), self.read_int(oni.PIXEL_FORMAT_1)
         if told or self.kind == NodeType.DEPTH:
             return told or PixelFormat.DEPTH_1_MM  # whatever the old number says
         return _OLD_FORMATS.get(old, PixelFormat.JPEG) if old else PixelFormat.RGB888
@@ -128,7 +128,7 @@ class _Record:
     payload_size: int
 
 
-def identity_of(path: Path) -> tuple[int, int]:
+def read_file_identity(path: Path) -> tuple[int, int]:
     """Size and time of the last change."""
     found = path.stat()
     return found.st_size, found.st_mtime_ns
@@ -144,22 +144,22 @@ def read_contents(path: Path) -> OniContents:
         raise RecordingMissing(path)
     try:
         with FileIO(path) as file:
-            return _Walk(path, file).contents()
+            return _ContentsReader(path, file).read()
     except OSError as cause:
         raise RecordingUnreadable(path, cause.strerror or "") from cause
 
 
-class _Walk:
+class _ContentsReader:
     """One pass over the records of a file."""
 
     def __init__(self, path: Path, file: FileIO) -> None:
         self._path = path
         self._file = file
-        self._identity = identity_of(path)
+        self._identity = read_file_identity(path)
         self._header = oni.RECORD_HEADER
         self._nodes: dict[int, _Node | None] = {}
 
-    def contents(self) -> OniContents:
+    def read(self) -> OniContents:
         head = self._file.read(oni.FILE_HEADER.size)
         if len(head) < oni.FILE_HEADER.size or head[:4] != oni.FILE_MAGIC:
             raise RecordingUnreadable(self._path, phrase("not an .oni file"))
@@ -168,102 +168,102 @@ class _Walk:
             raise RecordingUnsupported(self._path, "format version " + ".".join(map(str, version)))
         if tuple(version) < oni.FILE_VERSION:
             self._header = oni.OLD_RECORD_HEADER
-        for record in self._records():
+        for record in self._read_records():
             try:
-                self._take(record)
+                self._handle_record(record)
             except (struct.error, UnicodeDecodeError) as cause:
-                raise self._damaged("fields of the wrong size", record.position) from cause
-        return self._result(".".join(map(str, version)))
+                raise self._damage_error("fields of the wrong size", record.position) from cause
+        return self._build_contents(".".join(map(str, version)))
 
-    def _damaged(self, what: str, position: int) -> CarpusFault:
+    def _damage_error(self, what: str, position: int) -> CarpusFault:
         return RecordingDamaged(self._path, phrase("{what}, at byte {position}", what=what, position=position))
 
     def _unsupported(self, what: str) -> CarpusFault:
         return RecordingUnsupported(self._path, what)
 
-    def _records(self) -> Iterator[_Record]:
+    def _read_records(self) -> Iterator[_Record]:
         """All records up to END; raises when the chain breaks."""
         position, header = oni.FILE_HEADER.size, self._header
         while True:
             self._file.seek(position)
-            read = self._file.read(FIRST_READ)
+            read = self._file.read(HEADER_READ_BYTES)
             if len(read) < header.size:
-                raise self._damaged("the recording was not finished", position)
+                raise self._damage_error("the recording was not finished", position)
             magic, kind, node, fields_size, payload_size, _ = header.unpack_from(read)
             if magic != oni.RECORD_MAGIC:
-                raise self._damaged("the chain of records is broken", position)
+                raise self._damage_error("the chain of records is broken", position)
             if kind == RecordType.END:
                 return
             if kind not in RecordType._value2member_map_:
-                raise self._damaged(f"unknown record {kind}", position)
+                raise self._damage_error(f"unknown record {kind}", position)
             if fields_size < header.size:
-                raise self._damaged(f"record fields of {fields_size} bytes", position)
+                raise self._damage_error(f"record fields of {fields_size} bytes", position)
             if position + fields_size + payload_size > self._identity[0]:
-                raise self._damaged("the recording was not finished", position)
+                raise self._damage_error("the recording was not finished", position)
             if payload_size and kind not in (RecordType.NEW_DATA, RecordType.SEEK_TABLE):
-                raise self._damaged("payload where none belongs", position)
+                raise self._damage_error("payload where none belongs", position)
             if fields_size > len(read):
                 read += self._file.read(fields_size - len(read))
             yield _Record(position, kind, node, read[header.size : fields_size], payload_size)
             position += fields_size + payload_size
 
-    def _take(self, record: _Record) -> None:
-        if record.kind in _ADDED:
-            self._add(record)
+    def _handle_record(self, record: _Record) -> None:
+        if record.kind in _NODE_ADDED_RECORDS:
+            self._add_node(record)
             return
         if record.node not in self._nodes:
-            raise self._damaged("record of an unknown stream", record.position)
+            raise self._damage_error("record of an unknown stream", record.position)
         node = self._nodes[record.node]
         if node is None:
             return
-        if record.kind in _PROPERTIES:
-            self._property(node, record)
+        if record.kind in _PROPERTY_RECORDS:
+            self._set_property(node, record)
         elif record.kind == RecordType.NEW_DATA:
-            self._picture(node, record)
+            self._index_image(node, record)
 
-    def _text(self, record: _Record) -> tuple[str, int]:
+    def _read_text(self, record: _Record) -> tuple[str, int]:
         """The string that fields begin with, and the offset behind it."""
         (size,) = struct.unpack_from("<I", record.fields)
         raw = record.fields[4 : 4 + size]
         if len(raw) != size or raw[-1:] != b"\0":
-            raise self._damaged("bad name", record.position)
+            raise self._damage_error("bad name", record.position)
         return raw[:-1].decode("ascii"), 4 + size
 
-    def _add(self, record: _Record) -> None:
-        _, offset = self._text(record)
+    def _add_node(self, record: _Record) -> None:
+        _, offset = self._read_text(record)
         kind, codec = struct.unpack_from("<I4s", record.fields, offset)
         if record.node in self._nodes:
-            raise self._damaged("two streams of one name", record.position)
+            raise self._damage_error("two streams of one name", record.position)
         if kind in _CODECS and codec not in _CODECS[kind]:
             shown = codec.decode("ascii", "replace")
             raise self._unsupported(phrase("codec {codec} for {name}", codec=shown, name=NodeType(kind).name))
         self._nodes[record.node] = _Node(NodeType(kind), codec) if kind in _CODECS else None
 
-    def _property(self, node: _Node, record: _Record) -> None:
-        name, offset = self._text(record)
+    def _set_property(self, node: _Node, record: _Record) -> None:
+        name, offset = self._read_text(record)
         (size,) = struct.unpack_from("<I", record.fields, offset)
         data = record.fields[offset + 4 : offset + 4 + size]
         if len(data) != size:
-            raise self._damaged(f"property {name} of the wrong size", record.position)
-        if node.pictures and name in _FIXED and node.properties.get(name) != data:
+            raise self._damage_error(f"property {name} of the wrong size", record.position)
+        if node.images and name in _CONSTANT_PROPERTIES and node.properties.get(name) != data:
             raise self._unsupported(phrase("{name} changes on the way", name=name))
         node.properties[name] = data
 
-    def _picture(self, node: _Node, record: _Record) -> None:
+    def _index_image(self, node: _Node, record: _Record) -> None:
         time_us, number = oni.NEW_DATA_FIELDS.unpack(record.fields)
-        last_number, last_us = node.pictures[-1][:2] if node.pictures else (0, -1)
+        last_number, last_us = node.images[-1][:2] if node.images else (0, -1)
         if number <= last_number:
-            raise self._damaged(f"picture number {number}", record.position)
+            raise self._damage_error(f"picture number {number}", record.position)
         if time_us > MAX_TIME_US:
-            raise self._damaged("a picture later than the recording's end", record.position)
+            raise self._damage_error("a picture later than the recording's end", record.position)
         if time_us <= last_us:
             raise TimesUnordered(
                 self._path, phrase("{value} picture {number}", value=node.kind.name.lower(), number=number)
             )
         position = record.position + self._header.size + len(record.fields)
-        node.pictures.append((number, time_us, position, record.payload_size))
+        node.images.append((number, time_us, position, record.payload_size))
 
-    def _result(self, version: str) -> OniContents:
+    def _build_contents(self, version: str) -> OniContents:
         images, depths = (
             [node for node in self._nodes.values() if node is not None and node.kind == kind]
             for kind in (NodeType.IMAGE, NodeType.DEPTH)
@@ -272,20 +272,20 @@ class _Walk:
             raise self._unsupported(phrase("no colour pictures"))
         if len(images) > 1 or len(depths) > 1:
             raise self._unsupported(phrase("more than one camera"))
-        if not images[0].pictures:
+        if not images[0].images:
             raise RecordingEmpty(self._path)
         try:
-            color = self._stream(images[0])
-            depth = self._stream(depths[0]) if depths and depths[0].pictures else None
+            color = self._build_stream(images[0])
+            depth = self._build_stream(depths[0]) if depths and depths[0].images else None
         except struct.error as cause:
-            raise self._damaged("fields of the wrong size", oni.FILE_HEADER.size) from cause
+            raise self._damage_error("fields of the wrong size", oni.FILE_HEADER.size) from cause
         return OniContents(self._path, self._identity, version, color, depth)
 
-    def _stream(self, node: _Node) -> OniStream:
+    def _build_stream(self, node: _Node) -> OniStream:
         told, pixel_format = node.properties, node.pixel_format
         width, height, fps = struct.unpack("<III", told.get(oni.MAP_OUTPUT_MODE, bytes(12)))
         if not (1 <= width <= MAX_WIDTH_PX and 1 <= height <= MAX_HEIGHT_PX and 1 <= fps <= MAX_FPS):
-            raise self._damaged(f"pictures of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
+            raise self._damage_error(f"pictures of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
         if any(told.get(oni.CROPPING, b"")[:4]):
             raise self._unsupported(phrase("cropped pictures"))
         if pixel_format not in _FORMATS[node.kind]:
@@ -299,7 +299,7 @@ class _Walk:
             across, down = struct.unpack("<dd", told[oni.FIELD_OF_VIEW])
             view = (across, down) if 0.0 < across < math.pi and 0.0 < down < math.pi else None
         mirrored = any(told.get(oni.MIRROR, b""))
-        columns = np.array(node.pictures, np.int64).T
+        columns = np.array(node.images, np.int64).T
         return OniStream(width, height, fps, node.codec.decode("ascii"), pixel_format, mirrored, view, *columns)
 
 
@@ -308,24 +308,25 @@ class OniSource:
 
     The file's structure is read at once; :meth:`frames` may be repeated, one walk at a time. ``registered`` answers
     for a file without a sidecar; without an answer depth is taken to lie on colour and ``notice`` hears
-    :class:`RegistrationAssumed`. Damaged pictures are left out: ``notice`` hears :class:`PicturesLost` at the end.
+    :class:`RegistrationAssumed`. Damaged pictures are left out: ``notice`` hears :class:`DamagedFramesExcluded` at
+    the end.
     """
 
-    def __init__(self, path: Path, *, registered: bool | None = None, notice: Notice = ignore) -> None:
+    def __init__(self, path: Path, *, registered: bool | None = None, notice: NoticeHandler = ignore_notice) -> None:
         self._contents = read_contents(path)
         self._path = path
         self._notice = notice
-        self._walk: object = None
+        self._current_pass: object = None
         self._is_closed = False
         self._streams = {Sensor.COLOR: self._contents.color}
         if self._contents.depth is not None:
             self._streams[Sensor.DEPTH] = self._contents.depth
         sidecar = sidecar_path(path)
         told = read_camera_info(sidecar) if sidecar.exists() else None
-        self._layout = _layout(self._contents, told)
+        self._layout = _build_layout(self._contents, told)
         times_us = self._contents.color.timestamp_us
         self._period_us = float(np.median(np.diff(times_us))) if len(times_us) > 1 else 1e6 / self._contents.color.fps
-        self._info = self._describe(told, registered)
+        self._info = self._build_info(told, registered)
 
     @property
     def info(self) -> SourceInfo:
@@ -333,32 +334,32 @@ class OniSource:
 
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; a walk under way ends when another begins."""
-        walk = self._walk = object()
-        assembler = Assembler(self._layout, self._period_us, WAITING_IN_FILE)
-        takes = {Sensor.COLOR: assembler.color, Sensor.DEPTH: assembler.depth}
+        walk = self._current_pass = object()
+        assembler = FrameAssembler(self._layout, self._period_us, FILE_PAIRING_LIMIT)
+        takes = {Sensor.COLOR: assembler.add_color, Sensor.DEPTH: assembler.add_depth}
         arrived: Counter[Sensor] = Counter()
         try:
             with self._path.open("rb") as file:
-                if identity_of(self._path) != self._contents.identity:
+                if read_file_identity(self._path) != self._contents.identity:
                     raise RecordingDamaged(self._path, phrase("the file changes while it is read"))
-                for sensor, place in self._in_order():
-                    if self._is_closed or self._walk is not walk:
+                for sensor, place in self._images_by_position():
+                    if self._is_closed or self._current_pass is not walk:
                         return
                     stream = self._streams[sensor]
-                    picture = self._picture(file, stream, place)
+                    picture = self._read_image(file, stream, place)
                     if picture is not None:
                         arrived[sensor] += 1
                         yield from takes[sensor](int(stream.timestamp_us[place]), int(stream.number[place]), picture)
         except OSError as cause:
             raise RecordingDamaged(self._path, cause.strerror or phrase("cannot be opened")) from cause
         yield from assembler.finish()
-        self._tell_lost(arrived)
+        self._report_damaged_images(arrived)
 
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
         self._is_closed = True
 
-    def _in_order(self) -> list[tuple[Sensor, int]]:
+    def _images_by_position(self) -> list[tuple[Sensor, int]]:
         """Each picture by its stream and place there, as they follow each other in the file."""
         places = [
             (position, sensor, place)
@@ -367,7 +368,7 @@ class OniSource:
         ]
         return [(sensor, place) for _, sensor, place in sorted(places)]
 
-    def _picture(self, file: BinaryIO, stream: OniStream, place: int) -> NDArray[Any] | None:
+    def _read_image(self, file: BinaryIO, stream: OniStream, place: int) -> NDArray[Any] | None:
         """One picture, (H, W, 3) uint8 or (H, W) uint16; None where it is damaged."""
         size = int(stream.size_bytes[place])
         file.seek(int(stream.position[place]))
@@ -382,7 +383,7 @@ class OniSource:
             return picture if picture is not None and picture.shape == (*shape, 3) else None
         return np.frombuffer(data, np.uint8).reshape((*shape, 3)) if size == 3 * shape[0] * shape[1] else None
 
-    def _tell_lost(self, arrived: Counter[Sensor]) -> None:
+    def _report_damaged_images(self, arrived: Counter[Sensor]) -> None:
         names = {Sensor.COLOR: "colour", Sensor.DEPTH: "depth"}
         counts = [
             f"{len(stream) - arrived[sensor]} of {len(stream)} {names[sensor]}"
@@ -390,32 +391,34 @@ class OniSource:
             if arrived[sensor] < len(stream)
         ]
         if counts:
-            self._notice(PicturesLost(self._path, ", ".join(counts)))
+            self._notice(DamagedFramesExcluded(self._path, ", ".join(counts)))
 
-    def _describe(self, told: CameraInfo | None, answer: bool | None) -> SourceInfo:
+    def _build_info(self, told: CameraInfo | None, answer: bool | None) -> SourceInfo:
         contents, layout = self._contents, self._layout
         view = contents.color.field_of_view_rad or (contents.depth.field_of_view_rad if contents.depth else None)
-        camera = fitted_camera(told.camera, layout.size_px) if told else camera_of_view(layout.size_px, view)
+        camera = (
+            rescale_camera(told.camera, layout.size_px) if told else camera_from_field_of_view(layout.size_px, view)
+        )
         if camera is None:
             size = "{}x{}".format(*layout.size_px)
             if told:
                 detail = f"for pictures of {told.camera.width_px}x{told.camera.height_px}, these are {size}"
                 raise CameraFileUnreadable(sidecar_path(self._path), detail)
             raise RecordingUnsupported(self._path, phrase("no intrinsics for pictures of {size}", size=size))
-        settings = {"format": f".oni {contents.version}", "color": _stream_text(contents, "color")}
+        settings = {"format": f".oni {contents.version}", "color": _format_stream(contents, "color")}
         if contents.depth is not None:
-            settings["depth"] = _stream_text(contents, "depth")
-            settings["registered"] = self._registration(told.registered if told else None, answer)
+            settings["depth"] = _format_stream(contents, "depth")
+            settings["registered"] = self._resolve_registration(told.registered if told else None, answer)
         settings["mirrored"] = "turned back" if layout.color_mirrored else "no"
-        if layout.enlarged:
-            settings["enlarged"] = layout.enlarged
-            self._notice(PicturesEnlarged(self._path, layout.enlarged))
+        if layout.format_enlargement:
+            settings["enlarged"] = layout.format_enlargement
+            self._notice(FramesEnlarged(self._path, layout.format_enlargement))
         if told is not None and told.simulated:
             settings[SIMULATED] = "yes"
         has_depth, count = contents.depth is not None, len(contents.color)
         return SourceInfo(self._path.name, camera, has_depth, count, float(contents.color.fps), settings)
 
-    def _registration(self, told: bool | None, answer: bool | None) -> str:
+    def _resolve_registration(self, told: bool | None, answer: bool | None) -> str:
         registered = told if told is not None else answer
         if registered is None:
             self._notice(RegistrationAssumed(self._path))
@@ -425,22 +428,22 @@ class OniSource:
         return "yes" if registered else "no"
 
 
-def _layout(contents: OniContents, told: CameraInfo | None) -> Layout:
+def _build_layout(contents: OniContents, told: CameraInfo | None) -> StreamLayout:
     color, depth = contents.color, contents.depth
     mirrored = told.mirrored if told else None
-    layout = Layout(
+    layout = StreamLayout(
         (color.width_px, color.height_px),
         (depth.width_px, depth.height_px) if depth else None,
         color.mirrored if mirrored is None else mirrored,
         (depth.mirrored if depth else False) if mirrored is None else mirrored,
         DEPTH_UNIT_M[depth.pixel_format] if depth else 1e-3,
     )
-    if layout.misfit():
-        raise RecordingUnsupported(contents.path, layout.misfit())
+    if layout.describe_size_mismatch():
+        raise RecordingUnsupported(contents.path, layout.describe_size_mismatch())
     return layout
 
 
-def _stream_text(contents: OniContents, name: Literal["color", "depth"]) -> str:
+def _format_stream(contents: OniContents, name: Literal["color", "depth"]) -> str:
     stream = contents.color if name == "color" else contents.depth
     assert stream is not None
     return f"{stream.width_px}x{stream.height_px} {stream.codec} {stream.fps} fps"

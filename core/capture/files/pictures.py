@@ -20,7 +20,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.errors import PictureDamaged, RecordingUnreadable
+from carpus.core.errors import FrameDamaged, RecordingUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.types import ByteImage, DepthImage, Region
 
@@ -72,29 +72,29 @@ def _decode(data: bytes | memoryview, flags: int) -> NDArray[Any] | None:
     return picture
 
 
-SIDE_PX = 80
+TILE_PX = 80
 """Smaller ones cost more bytes and calls, larger ones more pixels that nobody looks at."""
-MOST_BYTES = 1 << 27
+MAX_IMAGE_BYTES = 1 << 27
 _SIZE = struct.Struct("<HH")
 
 AnyImage = TypeVar("AnyImage", bound=NDArray[Any])
 
 
 @lru_cache(maxsize=4)
-def _tiles(width: int, height: int) -> tuple[tuple[slice, slice], ...]:
-    rows, columns = ([slice(begin, begin + SIDE_PX) for begin in range(0, size, SIDE_PX)] for size in (height, width))
+def _tile_slices(width: int, height: int) -> tuple[tuple[slice, slice], ...]:
+    rows, columns = ([slice(begin, begin + TILE_PX) for begin in range(0, size, TILE_PX)] for size in (height, width))
     return tuple(product(rows, columns))
 
 
-def packed(picture: NDArray[Any], encode: Callable[[Any], bytes]) -> bytes:
+def pack_tiles(image: NDArray[Any], encode: Callable[[Any], bytes]) -> bytes:
     """The picture's tiles, each as ``encode`` packs it."""
-    height, width = picture.shape[:2]
-    each = (picture[row, column] for row, column in _tiles(width, height))
+    height, width = image.shape[:2]
+    each = (image[row, column] for row, column in _tile_slices(width, height))
     tiles = [encode(tile) if tile.any() else b"" for tile in each]
     return b"".join((_SIZE.pack(width, height), struct.pack(f"<{len(tiles)}I", *map(len, tiles)), *tiles))
 
 
-class Tiled(Generic[AnyImage]):
+class TiledImage(Generic[AnyImage]):
     """A packed picture. ``blank`` is an empty one of its kind, ``decode`` the inverse of what packed its tiles.
 
     Raises :class:`RecordingUnreadable`, which names ``path``, here or where a tile is unpacked.
@@ -105,50 +105,50 @@ class Tiled(Generic[AnyImage]):
     ) -> None:
         self._path, self._decode, self._data = path, decode, memoryview(data)
         if len(data) < _SIZE.size:
-            raise self._damaged()
+            raise self._decode_error()
         width, height = _SIZE.unpack_from(data)
         shape = (height, width, *blank.shape[2:])
-        if not 0 < math.prod(shape) * blank.itemsize <= MOST_BYTES:
-            raise self._damaged()
-        self._tiles = _tiles(width, height)
-        self._columns = -(-width // SIDE_PX)
+        if not 0 < math.prod(shape) * blank.itemsize <= MAX_IMAGE_BYTES:
+            raise self._decode_error()
+        self._tiles = _tile_slices(width, height)
+        self._columns = -(-width // TILE_PX)
         first = _SIZE.size + 4 * len(self._tiles)
         if first > len(data):
-            raise self._damaged()
+            raise self._decode_error()
         ends = [*accumulate(struct.unpack_from(f"<{len(self._tiles)}I", data, _SIZE.size), initial=first)]
         if ends[-1] != len(data):
-            raise self._damaged()
+            raise self._decode_error()
         self._bounds = [*pairwise(ends)]
-        self._picture: Any = np.zeros(shape, blank.dtype)
-        given: Any = self._picture.view()
+        self._image: Any = np.zeros(shape, blank.dtype)
+        given: Any = self._image.view()
         given.flags.writeable = False
-        self._given: AnyImage = given
+        self._read_only_view: AnyImage = given
 
     @property
     def size_px(self) -> tuple[int, int]:
-        height, width = self._picture.shape[:2]
+        height, width = self._image.shape[:2]
         return width, height
 
-    def seen(self, part: Region | None) -> AnyImage:
-        """The picture, read-only, unpacked at least within ``part``, or all of it."""
+    def decode(self, region: Region | None) -> AnyImage:
+        """The picture, read-only, unpacked at least within ``region``, or all of it."""
         width, height = self.size_px
-        part = Region(0, 0, width, height) if part is None else part.clipped(width, height)
-        for row in range(part.top // SIDE_PX, -(-part.bottom // SIDE_PX)):
-            for column in range(part.left // SIDE_PX, -(-part.right // SIDE_PX)):
+        region = Region(0, 0, width, height) if region is None else region.clip(width, height)
+        for row in range(region.top // TILE_PX, -(-region.bottom // TILE_PX)):
+            for column in range(region.left // TILE_PX, -(-region.right // TILE_PX)):
                 number = row * self._columns + column
                 begin, end = self._bounds[number]
                 if begin < end:
-                    self._unpack(number, self._data[begin:end])
+                    self._decode_tile(number, self._data[begin:end])
                     self._bounds[number] = (end, end)
-        return self._given
+        return self._read_only_view
 
-    def _unpack(self, number: int, data: memoryview) -> None:
-        tile, place = self._decode(data), self._picture[self._tiles[number]]
+    def _decode_tile(self, number: int, data: memoryview) -> None:
+        tile, place = self._decode(data), self._image[self._tiles[number]]
         if tile is None or tile.shape != place.shape:
-            raise self._damaged()
+            raise self._decode_error()
         place[:] = tile
 
-    def _damaged(self) -> RecordingUnreadable:
+    def _decode_error(self) -> RecordingUnreadable:
         return RecordingUnreadable(self._path, phrase("not a picture"))
 
 
@@ -158,44 +158,44 @@ _GREY_TYPES = (0, 4)
 
 def read_color(path: Path) -> ByteImage:
     """Colour picture (H, W, 3) uint8 RGB, read-only."""
-    data = _checked_bytes(path)
+    data = _read_checked_bytes(path)
     if data.startswith(_PNG_START):
         bits, color_type = data[24], data[25]
         if color_type in _GREY_TYPES:
-            raise PictureDamaged(path, phrase("grey, a colour picture is expected"))
+            raise FrameDamaged(path, phrase("grey, a colour picture is expected"))
         if bits > 8:
-            raise PictureDamaged(path, phrase("{bits} bits per colour, 8 are expected", bits=bits))
-    return _decoded(path, data, cv2.IMREAD_COLOR_RGB)
+            raise FrameDamaged(path, phrase("{bits} bits per colour, 8 are expected", bits=bits))
+    return _decode_or_raise(path, data, cv2.IMREAD_COLOR_RGB)
 
 
 def read_depth(path: Path) -> DepthImage:
     """Depth picture (H, W) uint16, read-only."""
-    depth = _decoded(path, _checked_bytes(path), cv2.IMREAD_UNCHANGED)
+    depth = _decode_or_raise(path, _read_checked_bytes(path), cv2.IMREAD_UNCHANGED)
     if depth.ndim != 2:
-        raise PictureDamaged(path, phrase("in colour, a depth picture of 16 bits is expected"))
+        raise FrameDamaged(path, phrase("in colour, a depth picture of 16 bits is expected"))
     if depth.dtype != np.uint16:
-        raise PictureDamaged(
+        raise FrameDamaged(
             path, phrase("{value} bits, a depth picture of 16 bits is expected", value=8 * depth.dtype.itemsize)
         )
     return depth
 
 
-def _checked_bytes(path: Path) -> bytes:
+def _read_checked_bytes(path: Path) -> bytes:
     """The file's bytes; of a PNG every checksum is compared, for a decoder may fill a damaged rest with grey."""
     try:
         data = path.read_bytes()
     except FileNotFoundError as cause:
-        raise PictureDamaged(path, phrase("missing")) from cause
+        raise FrameDamaged(path, phrase("missing")) from cause
     except OSError as cause:
-        raise PictureDamaged(path, cause.strerror or phrase("cannot be opened")) from cause
+        raise FrameDamaged(path, cause.strerror or phrase("cannot be opened")) from cause
     if not data:
-        raise PictureDamaged(path, phrase("empty file"))
-    if data.startswith(_PNG_START) and not _png_is_whole(data):
-        raise PictureDamaged(path, phrase("cut off or altered"))
+        raise FrameDamaged(path, phrase("empty file"))
+    if data.startswith(_PNG_START) and not _is_png_complete(data):
+        raise FrameDamaged(path, phrase("cut off or altered"))
     return data
 
 
-def _png_is_whole(data: bytes) -> bool:
+def _is_png_complete(data: bytes) -> bool:
     view = memoryview(data)
     at = len(_PNG_START)
     while at + 12 <= len(data):
@@ -209,8 +209,8 @@ def _png_is_whole(data: bytes) -> bool:
     return False
 
 
-def _decoded(path: Path, data: bytes, flags: int) -> NDArray[Any]:
+def _decode_or_raise(path: Path, data: bytes, flags: int) -> NDArray[Any]:
     picture = _decode(data, flags)
     if picture is None:
-        raise PictureDamaged(path, phrase("not a picture"))
+        raise FrameDamaged(path, phrase("not a picture"))
     return picture

@@ -26,15 +26,22 @@ from typing import BinaryIO
 
 import numpy as np
 
-from carpus.core.camera import COEFFICIENTS, Camera
-from carpus.core.capture.files.pictures import Tiled, decode_color, decode_depth, encode_color, encode_depth, packed
-from carpus.core.capture.source import Notice, SourceInfo, ignore
-from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
-from carpus.core.durable import Writing, private, write_fault
+from carpus.core.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
+from carpus.core.capture.files.pictures import (
+    TiledImage,
+    decode_color,
+    decode_depth,
+    encode_color,
+    encode_depth,
+    pack_tiles,
+)
+from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
+from carpus.core.depth_sensor import ASSUMED_SENSOR, parse_sensor
+from carpus.core.durable import FileWriter, open_private, write_fault
 from carpus.core.errors import (
+    DamagedFramesExcluded,
+    FrameSizeChanged,
     OutputExists,
-    PictureSizeChanged,
-    PicturesLost,
     RecordingDamaged,
     RecordingEmpty,
     RecordingMissing,
@@ -44,24 +51,24 @@ from carpus.core.phrase import phrase
 from carpus.core.types import ByteImage, DepthImage, Frame, Region
 
 SUFFIX = ".carpusraw"
-BYTES_PER_PICTURE = 62_000
+BYTES_PER_FRAME = 62_000
 """Colour and depth of a hand and its surroundings, the most of what the simulated camera gave: 58 000 to 62 000 of a
 whole hand, 34 000 to 50 000 of a wrist; a whole picture takes 203 000 to 326 000."""
-MB_PER_MINUTE = round(60 * 30 * BYTES_PER_PICTURE / 1e6, -1)
+MB_PER_MINUTE = round(60 * 30 * BYTES_PER_FRAME / 1e6, -1)
 MAGIC = b"CARPUSRW"
 VERSION = 2
 _START = struct.Struct("<8sI")
 _RECORD = struct.Struct("<4sIdIIII")
-_CHECKED_FROM = 8
+_CHECKSUM_START = 8
 SYNC_EVERY_S = 0.5
-MAX_PICTURE_BYTES = 1 << 27
+MAX_IMAGE_BYTES = 1 << 27
 MAX_FRAMES = 1 << 24
 """Six days at 30 a second: a record that says more, of frames or of missing ones, is damaged."""
-_LETTERS = re.compile(b"HEAD|FRAM|DONE")
+_RECORD_TAG = re.compile(b"HEAD|FRAM|DONE")
 _NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)
 
 
-class RawWriter(Writing):
+class RawWriter(FileWriter):
     """Writes one raw recording. Use as a context manager, or end it by :meth:`close`. Twice a second what was taken is
     synchronised."""
 
@@ -79,8 +86,8 @@ class RawWriter(Writing):
         self._depth_unit_m: float | None = None
         self._count = 0
         self._end = 0
-        self._file: BinaryIO | None = _create(path)
-        self._put(_START.pack(MAGIC, VERSION))
+        self._file: BinaryIO | None = _create_file(path)
+        self._write(_START.pack(MAGIC, VERSION))
 
     @property
     def path(self) -> Path:
@@ -93,12 +100,12 @@ class RawWriter(Writing):
         """Store one frame: depth without loss, colour as JPEG 95 or without loss. Times rise strictly."""
         if self._count == 0:
             self._depth_unit_m = frame.depth_unit_m
-            self._put(_record(b"HEAD", 0.0, 0, 0, self._head(), b""))
-        depth = b"" if frame.depth_raw is None else packed(frame.depth_raw, encode_depth)
+            self._write(_pack_record(b"HEAD", 0.0, 0, 0, self._build_header(), b""))
+        depth = b"" if frame.depth_raw is None else pack_tiles(frame.depth_raw, encode_depth)
         if depth and frame.depth_unit_m != self._depth_unit_m:
             raise ValueError(f"depth in steps of {frame.depth_unit_m} m after {self._depth_unit_m} m")
-        color = packed(frame.color_rgb, partial(encode_color, lossless=self._lossless))
-        self._put(_record(b"FRAM", frame.timestamp_s, frame.dropped_before, self._count, color, depth))
+        color = pack_tiles(frame.color_rgb, partial(encode_color, lossless=self._lossless))
+        self._write(_pack_record(b"FRAM", frame.timestamp_s, frame.dropped_before, self._count, color, depth))
         self._count += 1
 
     def close(self) -> None:
@@ -106,7 +113,7 @@ class RawWriter(Writing):
         if self._file is None:
             return
         if self._count:
-            self._put(_record(b"DONE", 0.0, 0, self._count, b"", b""))
+            self._write(_pack_record(b"DONE", 0.0, 0, self._count, b"", b""))
         try:
             os.fsync(self._file.fileno())
             self._file.close()
@@ -125,7 +132,7 @@ class RawWriter(Writing):
         self.abandon()
         self._path.unlink(missing_ok=True)
 
-    def _head(self) -> bytes:
+    def _build_header(self) -> bytes:
         info, camera = self._info, self._info.camera
         content = {
             "name": info.name,
@@ -136,7 +143,7 @@ class RawWriter(Writing):
             "settings": dict(info.settings),
             "recording_id": info.recording_id,
             "recorded": info.recorded,
-            "depth_sensor": camera.sensor.as_mapping(),
+            "depth_sensor": camera.sensor.to_dict(),
             "camera": {
                 "fx_px": camera.fx_px,
                 "fy_px": camera.fy_px,
@@ -152,7 +159,7 @@ class RawWriter(Writing):
         }
         return json.dumps(content, ensure_ascii=False).encode()
 
-    def _put(self, data: bytes) -> None:
+    def _write(self, data: bytes) -> None:
         if self._file is None:
             raise ValueError("the recording is closed")
         try:
@@ -170,12 +177,12 @@ class RawWriter(Writing):
 
 
 @dataclass(frozen=True, slots=True)
-class _Entry:
+class _RecordEntry:
     """Where one record lies in the file."""
 
     position: int
     kind: bytes
-    check: int
+    checksum: int
     timestamp_s: float
     dropped_before: int
     number: int
@@ -188,21 +195,21 @@ class _Entry:
 
 
 @dataclass(frozen=True, slots=True)
-class PackedFrame:
+class LazyFrame:
     """A frame whose pictures are unpacked where they are looked at."""
 
     index: int
     timestamp_s: float
-    color: Tiled[ByteImage]
-    depth: Tiled[DepthImage] | None
+    color: TiledImage[ByteImage]
+    depth: TiledImage[DepthImage] | None
     depth_unit_m: float
     dropped_before: int
 
-    def seen(self, part: Region | None) -> Frame:
+    def decode(self, region: Region | None) -> Frame:
         """The frame for who looks at a part of the pictures, None for all of them; the rest may still be empty."""
-        depth_raw = None if self.depth is None else self.depth.seen(part)
+        depth_raw = None if self.depth is None else self.depth.decode(region)
         return Frame(
-            self.index, self.timestamp_s, self.color.seen(part), depth_raw, self.depth_unit_m, self.dropped_before
+            self.index, self.timestamp_s, self.color.decode(region), depth_raw, self.depth_unit_m, self.dropped_before
         )
 
 
@@ -210,35 +217,36 @@ class RawRecording:
     """A raw recording as a source of frames. One that was cut short is read up to its last whole frame.
 
     Frames that do not pass their check sum are left out: the next one counts them, and those that are gone, as missing,
-    and ``notice`` hears :class:`PicturesLost` at the end; :class:`RecordingDamaged` where something follows the end.
+    and ``notice`` hears :class:`DamagedFramesExcluded` at the end; :class:`RecordingDamaged` where something follows
+    the end.
     """
 
-    def __init__(self, path: Path, *, notice: Notice = ignore) -> None:
+    def __init__(self, path: Path, *, notice: NoticeHandler = ignore_notice) -> None:
         if not path.is_file():
             raise RecordingMissing(path)
         self._path = path
         self._notice = notice
         try:
             with path.open("rb") as file:
-                head, self._entries, done, self._surplus_bytes = _index(path, file)
-                said = b"" if head is None else _read(file, head)
+                head, self._entries, done, self._surplus_bytes = _build_index(path, file)
+                said = b"" if head is None else _read_payload(file, head)
         except OSError as cause:
             raise RecordingUnreadable(path, cause.strerror or "") from cause
         if not self._entries:
             raise RecordingEmpty(path)
-        self.complete = done is not None
+        self.is_complete = done is not None
         self._count = max(entry.number for entry in self._entries) + 1 if done is None else done.number
         self._times_s = np.array([entry.timestamp_s for entry in self._entries])
         try:
             content = json.loads(said or b"")
             camera = dict(content["camera"])
             camera["distortion"] = tuple(camera["distortion"])
-            if len(camera["distortion"]) != COEFFICIENTS[camera.get("distortion_model", "plumb_bob")]:
+            if len(camera["distortion"]) != DISTORTION_COEFFICIENT_COUNTS[camera.get("distortion_model", "plumb_bob")]:
                 raise ValueError("a lens of no kind")
-            camera["sensor"] = sensor_of(content["depth_sensor"]) if "depth_sensor" in content else ASSUMED_SENSOR
+            camera["sensor"] = parse_sensor(content["depth_sensor"]) if "depth_sensor" in content else ASSUMED_SENSOR
             self._depth_unit_m = float(content["depth_unit_m"])
             lens = Camera(**camera)
-            _check(lens, self._depth_unit_m)
+            _validate_camera(lens, self._depth_unit_m)
             self._info = SourceInfo(
                 str(content["name"]),
                 lens,
@@ -246,7 +254,7 @@ class RawRecording:
                 len(self._entries),
                 float(content["nominal_fps"]),
                 {str(key): str(value) for key, value in content["settings"].items()}
-                | ({} if self.complete else {"complete": "no: cut short, read up to its last whole frame"}),
+                | ({} if self.is_complete else {"complete": "no: cut short, read up to its last whole frame"}),
                 str(content.get("recording_id", "")),
                 str(content.get("recorded", "")),
             )
@@ -260,10 +268,10 @@ class RawRecording:
 
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; may be walked through again."""
-        for frame in self.packed_frames():
-            yield frame.seen(None)
+        for frame in self.lazy_frames():
+            yield frame.decode(None)
 
-    def packed_frames(self) -> Iterator[PackedFrame]:
+    def lazy_frames(self) -> Iterator[LazyFrame]:
         """As :meth:`frames`, each unpacked only where somebody looks."""
         left_out = index = number = 0
         last_s = -math.inf
@@ -271,17 +279,17 @@ class RawRecording:
         size_px = (camera.width_px, camera.height_px)
         with self._path.open("rb") as file:
             for entry in self._entries:
-                pictures = _read(file, entry)
+                pictures = _read_payload(file, entry)
                 in_order = last_s < entry.timestamp_s < math.inf and number <= entry.number < self._count
                 if not pictures or not in_order:
                     left_out += 1
                     continue
-                color, depth = self._color(pictures, entry), None
+                color, depth = self._open_color(pictures, entry), None
                 if entry.depth_size:
-                    depth = Tiled(self._path, pictures[entry.color_size :], _NO_DEPTH, decode_depth)
+                    depth = TiledImage(self._path, pictures[entry.color_size :], _NO_DEPTH, decode_depth)
                 if color.size_px != size_px or (depth is not None and depth.size_px != size_px):
-                    raise PictureSizeChanged(self._path)
-                yield PackedFrame(
+                    raise FrameSizeChanged(self._path)
+                yield LazyFrame(
                     index,
                     entry.timestamp_s,
                     color,
@@ -292,23 +300,25 @@ class RawRecording:
                 index, number, last_s = index + 1, entry.number + 1, entry.timestamp_s
         lost = max(left_out, self._count - index)
         if lost:
-            self._notice(PicturesLost(self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count)))
+            self._notice(
+                DamagedFramesExcluded(self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count))
+            )
         if self._surplus_bytes:
             detail = phrase("bytes that follow its end: {count}", count=self._surplus_bytes)
             self._notice(RecordingDamaged(self._path, detail))
 
-    def color_at(self, timestamp_s: float) -> ByteImage | None:
+    def load_color(self, timestamp_s: float) -> ByteImage | None:
         """The colour picture of that time, None when it was not stored or is damaged."""
         place = int(np.searchsorted(self._times_s, timestamp_s - 1e-6))
         if place == len(self._times_s) or self._times_s[place] > timestamp_s + 1e-6:
             return None
         entry = self._entries[place]
         with self._path.open("rb") as file:
-            pictures = _read(file, entry)
-        return self._color(pictures, entry).seen(None) if pictures else None
+            pictures = _read_payload(file, entry)
+        return self._open_color(pictures, entry).decode(None) if pictures else None
 
-    def _color(self, pictures: bytes, entry: _Entry) -> Tiled[ByteImage]:
-        return Tiled(self._path, pictures[: entry.color_size], _NO_COLOR, decode_color)
+    def _open_color(self, pictures: bytes, entry: _RecordEntry) -> TiledImage[ByteImage]:
+        return TiledImage(self._path, pictures[: entry.color_size], _NO_COLOR, decode_color)
 
     def close(self) -> None:
         """Nothing is held open between two walks."""
@@ -323,13 +333,15 @@ def is_raw_recording(path: Path) -> bool:
         return False
 
 
-def _record(kind: bytes, time_s: float, dropped: int, number: int, color: bytes, depth: bytes) -> bytes:
+def _pack_record(kind: bytes, time_s: float, dropped: int, number: int, color: bytes, depth: bytes) -> bytes:
     head = _RECORD.pack(kind, 0, time_s, dropped, number, len(color), len(depth))
-    rest = b"".join((head[_CHECKED_FROM:], color, depth))
+    rest = b"".join((head[_CHECKSUM_START:], color, depth))
     return kind + struct.pack("<I", zlib.crc32(rest)) + rest
 
 
-def _index(path: Path, file: BinaryIO) -> tuple[_Entry | None, list[_Entry], _Entry | None, int]:
+def _build_index(
+    path: Path, file: BinaryIO
+) -> tuple[_RecordEntry | None, list[_RecordEntry], _RecordEntry | None, int]:
     """Head, frames, end where the recording was closed, and how many bytes follow it; a torn end is passed over."""
     size = file.seek(0, os.SEEK_END)
     file.seek(0)
@@ -341,9 +353,9 @@ def _index(path: Path, file: BinaryIO) -> tuple[_Entry | None, list[_Entry], _En
         raise RecordingUnreadable(
             path, phrase("format version {version}, this Carpus reads {newest}", version=version, newest=VERSION)
         )
-    head: _Entry | None = None
-    entries: list[_Entry] = []
-    for record in _records(file, size):
+    head: _RecordEntry | None = None
+    entries: list[_RecordEntry] = []
+    for record in _scan_records(file, size):
         if record.kind == b"DONE":
             return head, entries, record, size - record.end
         if record.kind == b"FRAM":
@@ -353,7 +365,7 @@ def _index(path: Path, file: BinaryIO) -> tuple[_Entry | None, list[_Entry], _En
     return head, entries, None, 0
 
 
-def _records(file: BinaryIO, size: int) -> Iterator[_Entry]:
+def _scan_records(file: BinaryIO, size: int) -> Iterator[_RecordEntry]:
     """Each record where the one before ends; where none with the next number begins, the next with a right check sum.
 
     Its search begins in the one before when that is damaged: it may be its size. What is summed in vain stays within
@@ -361,46 +373,46 @@ def _records(file: BinaryIO, size: int) -> Iterator[_Entry]:
     """
     left = 4 * size
 
-    def is_right(record: _Entry) -> bool:
+    def is_valid(record: _RecordEntry) -> bool:
         nonlocal left
-        if _read(file, record) is not None:
+        if _read_payload(file, record) is not None:
             return True
         left -= record.end - record.position
         return False
 
     position, number = _START.size, 0
-    last: _Entry | None = None
+    last: _RecordEntry | None = None
     while position < size:
-        record = _record_at(file, position, size)
-        if record is None or record.number != number or (record.kind == b"DONE" and not is_right(record)):
-            begin = position if last is None or is_right(last) else last.position + 1
-            candidates = (_record_at(file, place, size) for place in _lettered(file, begin))
-            record = next((one for one in candidates if left < 0 or (one is not None and is_right(one))), None)
+        record = _read_record_header(file, position, size)
+        if record is None or record.number != number or (record.kind == b"DONE" and not is_valid(record)):
+            begin = position if last is None or is_valid(last) else last.position + 1
+            candidates = (_read_record_header(file, place, size) for place in _find_record_tags(file, begin))
+            record = next((one for one in candidates if left < 0 or (one is not None and is_valid(one))), None)
             if record is None or left < 0:
                 return
         yield record
         position, number, last = record.end, record.number + (record.kind == b"FRAM"), record
 
 
-def _record_at(file: BinaryIO, position: int, size: int) -> _Entry | None:
+def _read_record_header(file: BinaryIO, position: int, size: int) -> _RecordEntry | None:
     """The record there, whatever its check sum; None for what can be none."""
     file.seek(position)
     data = file.read(_RECORD.size)
-    if len(data) < _RECORD.size or not _LETTERS.match(data):
+    if len(data) < _RECORD.size or not _RECORD_TAG.match(data):
         return None
-    entry = _Entry(position, *_RECORD.unpack(data))
-    if entry.end > size or max(entry.color_size, entry.depth_size) > MAX_PICTURE_BYTES:
+    entry = _RecordEntry(position, *_RECORD.unpack(data))
+    if entry.end > size or max(entry.color_size, entry.depth_size) > MAX_IMAGE_BYTES:
         return None
     return entry if max(entry.number, entry.dropped_before) <= MAX_FRAMES else None
 
 
-def _lettered(file: BinaryIO, position: int) -> Iterator[int]:
+def _find_record_tags(file: BinaryIO, position: int) -> Iterator[int]:
     """Where the letters of a record are, from a place on; little is read where they are near."""
     length = 256
     while True:
         file.seek(position)
         data = file.read(length)
-        for found in _LETTERS.finditer(data):
+        for found in _RECORD_TAG.finditer(data):
             yield position + found.start()
         if len(data) < length:
             return
@@ -408,7 +420,7 @@ def _lettered(file: BinaryIO, position: int) -> Iterator[int]:
         length = min(2 * length, 1 << 20)
 
 
-def _check(camera: Camera, depth_unit_m: float) -> None:
+def _validate_camera(camera: Camera, depth_unit_m: float) -> None:
     """Raises ``TypeError`` or ``ValueError`` for what no camera is."""
     if not all(map(math.isfinite, (camera.cx_px, camera.cy_px, *camera.distortion))):
         raise ValueError("no camera's middle or lens")
@@ -417,16 +429,16 @@ def _check(camera: Camera, depth_unit_m: float) -> None:
         raise ValueError("no camera's size")
 
 
-def _read(file: BinaryIO, entry: _Entry) -> bytes | None:
+def _read_payload(file: BinaryIO, entry: _RecordEntry) -> bytes | None:
     """Both pictures of a frame, one after the other; None when the check sum differs."""
-    file.seek(entry.position + _CHECKED_FROM)
-    rest = file.read(entry.end - entry.position - _CHECKED_FROM)
-    return rest[_RECORD.size - _CHECKED_FROM :] if zlib.crc32(rest) == entry.check else None
+    file.seek(entry.position + _CHECKSUM_START)
+    rest = file.read(entry.end - entry.position - _CHECKSUM_START)
+    return rest[_RECORD.size - _CHECKSUM_START :] if zlib.crc32(rest) == entry.checksum else None
 
 
-def _create(path: Path) -> BinaryIO:
+def _create_file(path: Path) -> BinaryIO:
     try:
-        return open(path, "x+b", opener=private)
+        return open(path, "x+b", opener=open_private)
     except FileExistsError as cause:
         raise OutputExists(path) from cause
     except OSError as cause:

@@ -9,18 +9,18 @@ from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.core.capture.devices.capture_child import Arrived, Ended, Opened, Serve
-from carpus.core.capture.devices.capture_process import ANSWER_S, CaptureProcess
-from carpus.core.capture.devices.realsense import require_library, sensor_named, serve
-from carpus.core.capture.frame_assembly import WAITING_IN_FILE, Assembler, Layout, camera_of_lens
+from carpus.core.capture.devices.capture_child import DeviceOpened, ImageArrived, ServeFunction, StreamEnded
+from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, CaptureProcess
+from carpus.core.capture.devices.realsense import find_sensor, require_library, serve
+from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, StreamLayout, camera_from_lens
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.errors import RecordingDamaged
 from carpus.core.types import Frame
 
-LARGEST_BYTES = 1920 * 1080 * 3
+MAX_IMAGE_BYTES = 1920 * 1080 * 3
 SLOTS = 4
-OPEN_S = 20.0
+OPEN_TIMEOUT_S = 20.0
 """A long recording is indexed before its first picture comes."""
 
 
@@ -30,14 +30,15 @@ class FilePlayer:
     :meth:`open` starts a process and ends the one before; :meth:`frames` then walks through its pictures once.
     """
 
-    def __init__(self, serve: Serve, path: Path, slot_bytes: int) -> None:
+    def __init__(self, serve: ServeFunction, path: Path, slot_bytes: int) -> None:
         self._serve, self._path, self._slot_bytes = serve, path, slot_bytes
         self._closing = threading.Event()
         self._lock = threading.Lock()
         self._process: CaptureProcess | None = None
 
-    def open(self, plan: object, open_s: float) -> Opened | None:
-        """What the library found in the file, at most ``open_s`` after the process is up; None when closed meanwhile.
+    def open(self, plan: object, timeout_s: float) -> DeviceOpened | None:
+        """What the library found in the file, at most ``timeout_s`` after the process is up; None when closed
+        meanwhile.
         Raises the fault that ended the process."""
         self._stop()
         if self._closing.is_set():
@@ -46,7 +47,7 @@ class FilePlayer:
         self._process = process
         try:
             with self._lock:
-                opened = process.wait_open(self._closing, open_s)
+                opened = process.receive_opened(self._closing, timeout_s)
         except BaseException:
             self._stop()
             raise
@@ -54,7 +55,7 @@ class FilePlayer:
             self._stop()  # closed while the process was being made: that close did not see it
         return opened
 
-    def frames(self, assembler: Assembler, modes: Mapping[Sensor, VideoMode]) -> Iterator[Frame]:
+    def frames(self, assembler: FrameAssembler, modes: Mapping[Sensor, VideoMode]) -> Iterator[Frame]:
         """Frames of what was opened last. A walk ends early when another file, or the same once more, is opened, or at
         :meth:`close`."""
         process = self._process
@@ -65,16 +66,16 @@ class FilePlayer:
                 with self._lock:
                     if process is not self._process:
                         return
-                    report = process.report(self._closing, ANSWER_S)
+                    report = process.receive_report(self._closing, REPORT_TIMEOUT_S)
                     if report is None:
                         return
                     frames: list[Frame] = []
-                    if isinstance(report, Arrived):
-                        take = assembler.color if report.sensor == Sensor.COLOR else assembler.depth
-                        pixels = process.pixels(report, modes[report.sensor])
+                    if isinstance(report, ImageArrived):
+                        take = assembler.add_color if report.sensor == Sensor.COLOR else assembler.add_depth
+                        pixels = process.view_image(report, modes[report.sensor])
                         frames = take(report.timestamp_us, report.number, pixels)
-                        process.free(report)
-                if isinstance(report, Ended):
+                        process.release_slot(report)
+                if isinstance(report, StreamEnded):
                     yield from assembler.finish()
                     return
                 yield from frames
@@ -105,11 +106,11 @@ class RealSenseRecording:
     def __init__(self, path: Path) -> None:
         require_library()
         self._path = path
-        self._count = color_count(path)
-        self._player = FilePlayer(serve, path, LARGEST_BYTES)
-        opened = self._ready = self._open()
+        self._count = count_color_frames(path)
+        self._player = FilePlayer(serve, path, MAX_IMAGE_BYTES)
+        opened = self._opened = self._open()
         assert opened is not None
-        self._info = self._describe(opened)
+        self._info = self._build_info(opened)
 
     @property
     def info(self) -> SourceInfo:
@@ -117,28 +118,30 @@ class RealSenseRecording:
 
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; a walk under way ends when another begins."""
-        opened, self._ready = self._ready or self._open(), None
+        opened, self._opened = self._opened or self._open(), None
         if opened is None:
             return
         color = opened.modes[Sensor.COLOR]
         size_px = color.width_px, color.height_px
-        layout = Layout(size_px, size_px if Sensor.DEPTH in opened.modes else None, depth_unit_m=opened.depth_unit_m)
-        yield from self._player.frames(Assembler(layout, 1e6 / color.fps, WAITING_IN_FILE), opened.modes)
+        layout = StreamLayout(
+            size_px, size_px if Sensor.DEPTH in opened.modes else None, depth_unit_m=opened.depth_unit_m
+        )
+        yield from self._player.frames(FrameAssembler(layout, 1e6 / color.fps, FILE_PAIRING_LIMIT), opened.modes)
 
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
-        self._ready = None
+        self._opened = None
         self._player.close()
 
-    def _open(self) -> Opened | None:
+    def _open(self) -> DeviceOpened | None:
         """Start the process anew; None when closed meanwhile."""
-        return self._player.open(self._path.resolve(), OPEN_S)
+        return self._player.open(self._path.resolve(), OPEN_TIMEOUT_S)
 
-    def _describe(self, opened: Opened) -> SourceInfo:
+    def _build_info(self, opened: DeviceOpened) -> SourceInfo:
         color = opened.modes[Sensor.COLOR]
         assert opened.lens is not None
-        camera = camera_of_lens((color.width_px, color.height_px), opened.lens)
-        sensor = sensor_named(opened.settings, camera.fx_px)
+        camera = camera_from_lens((color.width_px, color.height_px), opened.lens)
+        sensor = find_sensor(opened.settings, camera.fx_px)
         settings = {"format": "RealSense .db3", **opened.settings}
         has_depth = Sensor.DEPTH in opened.modes
         return SourceInfo(
@@ -146,7 +149,7 @@ class RealSenseRecording:
         )
 
 
-def color_count(path: Path) -> int | None:
+def count_color_frames(path: Path) -> int | None:
     """How many colour pictures a ``.db3`` holds, None where it does not say. Raises :class:`RecordingDamaged`.
 
     The library takes any file for empty or waits on it for ever; what is no database is told here.

@@ -17,23 +17,23 @@ from pathlib import Path, PurePath, PureWindowsPath
 import numpy as np
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.camera_info import CAMERA_FILE, CameraInfo, fitted_camera, read_camera_info, write_camera_info
+from carpus.core.capture.camera_info import CAMERA_FILE, CameraInfo, read_camera_info, rescale_camera, write_camera_info
 from carpus.core.capture.files.pictures import encode_color, encode_depth, read_color, read_depth
-from carpus.core.capture.source import Notice, SourceInfo, ignore, is_simulated
-from carpus.core.durable import Writing, private, write_fault
+from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice, is_simulated
+from carpus.core.durable import FileWriter, open_private, write_fault
 from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
+    DamagedFramesExcluded,
     DepthMissing,
-    FirstPictureDamaged,
+    FrameDamaged,
+    FrameSizeChanged,
+    InitialFrameDamaged,
     OutputExists,
-    PictureDamaged,
-    PictureSizeChanged,
-    PicturesLost,
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
-    TimesTwice,
+    RepeatedTimesExcluded,
     TimesUnordered,
     UnitAssumed,
 )
@@ -46,9 +46,9 @@ DEPTH_UNIT_M = 1.0 / 5000.0
 _MILLIMETRE_M = 1e-3
 _TIME_UNITS = ((2e6, 1e-9, "ns"), (2e3, 1e-6, "µs"), (2.0, 1e-3, "ms"))
 """From such a step between two pictures on, which no camera takes in seconds, times are in these parts of one."""
-_NO_CAMERA_SEES = 0.5
+_MIN_DISTANCE_SHARE = 0.5
 """Of the sensor's nearest distance: where half of the readings are nearer, their unit is another."""
-_LOOKS_AT = 5
+_UNIT_SAMPLE_FRAMES = 5
 """Depth pictures looked at for their unit."""
 PAIRING_LIMIT_S = 0.020
 _TIME_ROUNDING_S = 1e-6
@@ -59,7 +59,7 @@ RECORDED_REMARK, RECORDING_ID_REMARK = "# carpus recorded ", "# carpus recording
 """Such lines say when the hand moved and which recording it is."""
 _Entry = tuple[float, Path, str]
 """Time, picture and where the list names it."""
-_Decoded = tuple[Frame | None, bool]
+_DecodedFrame = tuple[Frame | None, bool]
 _READING_THREADS = 2
 _FPS_OF_ONE_PICTURE = 30.0
 
@@ -77,76 +77,82 @@ class StoredFrame:
 class TumFolder:
     """A TUM RGB-D folder as a :class:`core.capture.source.FrameSource`.
 
-    Every colour picture is yielded once. With ``need_depth`` a folder without usable depth is a fault. With
+    Every colour picture is yielded once. With ``requires_depth`` a folder without usable depth is a fault. With
     ``read_ahead`` > 0 that many frames are decoded in advance by two threads. Opening reads the lists, checks
     that every picture is there, and decodes the first; the others are decoded, and checked, as they come. A picture
-    that is missing or damaged is a fault; with ``leave_out_damaged`` only the first colour picture is, the frames of
-    others count as missing, a depth picture as none, and ``notice`` hears :class:`PicturesLost`.
+    that is missing or damaged is a fault; with ``skip_damaged`` only the first colour picture is, the frames of
+    others count as missing, a depth picture as none, and ``notice`` hears :class:`DamagedFramesExcluded`.
     """
 
     def __init__(
         self,
         folder: Path,
         *,
-        need_depth: bool = True,
+        requires_depth: bool = True,
         read_ahead: int = 0,
-        leave_out_damaged: bool = False,
-        notice: Notice = ignore,
+        skip_damaged: bool = False,
+        notice: NoticeHandler = ignore_notice,
     ) -> None:
         if not folder.exists():
             raise RecordingMissing(folder)
         if not folder.is_dir():
             raise RecordingUnreadable(folder, phrase("not a folder"))
         self._read_ahead = read_ahead
-        self._folder, self._leave_out, self._notice = folder, leave_out_damaged, notice
-        color, color_gone = _there(_read_list(folder / COLOR_LIST, notice), leave_out_damaged, first=True)
+        self._folder, self._skip_damaged, self._notice = folder, skip_damaged, notice
+        color, color_gone = _check_files(_read_list(folder / COLOR_LIST, notice), skip_damaged, first=True)
         if not color:
             raise RecordingEmpty(folder, phrase("no picture in {color_list}", color_list=COLOR_LIST))
-        depth, depth_gone = _there(_depth_list(folder, need_depth, notice), leave_out_damaged, first=False)
+        depth, depth_gone = _check_files(_read_depth_list(folder, requires_depth, notice), skip_damaged, first=False)
         if color_gone or depth_gone:
-            notice(PicturesLost(folder, _counted(color_gone, depth_gone, "missing")))
+            notice(DamagedFramesExcluded(folder, _format_counts(color_gone, depth_gone, "missing")))
         color_s = np.array([time_s for time_s, _ in color])
-        partner = nearest_pairs(color_s, np.array([time_s for time_s, _ in depth]))
-        if need_depth and not any(index is not None for index in partner):
+        partner = pair_by_time(color_s, np.array([time_s for time_s, _ in depth]))
+        if requires_depth and not any(index is not None for index in partner):
             limit = f"{PAIRING_LIMIT_S * 1000.0:.0f}"
             raise DepthMissing(
                 folder,
                 phrase("no depth picture within {pairing_limit_s} ms of a colour picture", pairing_limit_s=limit),
             )
-        self.stored = tuple(
+        self.stored_frames = tuple(
             StoredFrame(time_s, path, None if index is None else depth[index][1], dropped)
-            for (time_s, path), index, dropped in zip(color, partner, missing_before(color_s), strict=True)
+            for (time_s, path), index, dropped in zip(color, partner, count_dropped_frames(color_s), strict=True)
         )
         try:
-            first = read_color(self.stored[0].color)
-        except PictureDamaged as fault:
-            raise FirstPictureDamaged(fault.subject, fault.detail) from fault
+            first = read_color(self.stored_frames[0].color)
+        except FrameDamaged as fault:
+            raise InitialFrameDamaged(fault.subject, fault.detail) from fault
         self._size = (first.shape[1], first.shape[0])
-        camera_info = _camera(folder, *self._size)
-        self._depth_unit_m = camera_info.depth_unit_m or _likely_unit_m(folder, self.stored, camera_info.camera, notice)
+        camera_info = _load_camera(folder, *self._size)
+        self._depth_unit_m = camera_info.depth_unit_m or _estimate_depth_unit_m(
+            folder, self.stored_frames, camera_info.camera, notice
+        )
         self.info = SourceInfo(
             name=folder.resolve().name,
             camera=camera_info.camera,
-            has_depth=any(frame.depth is not None for frame in self.stored),
-            frame_count=len(self.stored),
+            has_depth=any(frame.depth is not None for frame in self.stored_frames),
+            frame_count=len(self.stored_frames),
             nominal_fps=1.0 / float(np.median(np.diff(color_s))) if len(color) > 1 else _FPS_OF_ONE_PICTURE,
-            settings={"format": "tum", "depth_unit_m": repr(self._depth_unit_m), **_simulated(folder / COLOR_LIST)},
-            recording_id=_remark(folder / COLOR_LIST, RECORDING_ID_REMARK),
-            recorded=_remark(folder / COLOR_LIST, RECORDED_REMARK),
+            settings={
+                "format": "tum",
+                "depth_unit_m": repr(self._depth_unit_m),
+                **_read_simulated_setting(folder / COLOR_LIST),
+            },
+            recording_id=_read_remark(folder / COLOR_LIST, RECORDING_ID_REMARK),
+            recorded=_read_remark(folder / COLOR_LIST, RECORDED_REMARK),
         )
 
     def frames(self) -> Iterator[Frame]:
         """The frames in order; may be asked for again."""
-        decoded = self._frames_ahead(self._read_ahead) if self._read_ahead > 0 else self._frames_now()
-        return self._whole(decoded)
+        decoded = self._prefetch_frames(self._read_ahead) if self._read_ahead > 0 else self._load_frames()
+        return self._number_frames(decoded)
 
     def close(self) -> None:
         """Nothing is held open between two frames."""
 
-    def _frames_now(self) -> Iterator[_Decoded]:
-        return (self._decoded(index) for index in range(len(self.stored)))
+    def _load_frames(self) -> Iterator[_DecodedFrame]:
+        return (self._load_frame(index) for index in range(len(self.stored_frames)))
 
-    def _whole(self, decoded: Iterator[_Decoded]) -> Iterator[Frame]:
+    def _number_frames(self, decoded: Iterator[_DecodedFrame]) -> Iterator[Frame]:
         """The frames that could be decoded, one after another; those left out are missing before the next."""
         number, color_lost, depth_lost, missing = 0, 0, 0, 0
         with closing(decoded) as all_of_them:  # type: ignore[type-var]
@@ -154,32 +160,32 @@ class TumFolder:
                 depth_lost += depth_is_lost
                 if frame is None:
                     color_lost += 1
-                    missing += 1 + self.stored[number + color_lost - 1].dropped_before
+                    missing += 1 + self.stored_frames[number + color_lost - 1].dropped_before
                     continue
                 yield replace(frame, index=number, dropped_before=frame.dropped_before + missing)
                 number, missing = number + 1, 0
         if color_lost or depth_lost:
-            self._notice(PicturesLost(self._folder, _counted(color_lost, depth_lost, "damaged")))
+            self._notice(DamagedFramesExcluded(self._folder, _format_counts(color_lost, depth_lost, "damaged")))
 
-    def _decoded(self, index: int) -> _Decoded:
+    def _load_frame(self, index: int) -> _DecodedFrame:
         """A frame, None where its colour picture is left out, and whether a depth picture was."""
-        if not self._leave_out:
-            return self._frame(index, with_depth=True), False
+        if not self._skip_damaged:
+            return self._read_frame(index, with_depth=True), False
         try:
-            return self._frame(index, with_depth=True), False
-        except PictureDamaged:
+            return self._read_frame(index, with_depth=True), False
+        except FrameDamaged:
             pass
         try:
-            return self._frame(index, with_depth=False), True
-        except PictureDamaged:
+            return self._read_frame(index, with_depth=False), True
+        except FrameDamaged:
             return None, False
 
-    def _frames_ahead(self, bound: int) -> Iterator[_Decoded]:
-        pending: deque[Future[_Decoded]] = deque()
+    def _prefetch_frames(self, bound: int) -> Iterator[_DecodedFrame]:
+        pending: deque[Future[_DecodedFrame]] = deque()
         with ThreadPoolExecutor(_READING_THREADS, thread_name_prefix="read-ahead") as pool:
             try:
-                for index in range(len(self.stored)):
-                    pending.append(pool.submit(self._decoded, index))
+                for index in range(len(self.stored_frames)):
+                    pending.append(pool.submit(self._load_frame, index))
                     if len(pending) > bound:
                         yield pending.popleft().result()
                 while pending:
@@ -188,8 +194,8 @@ class TumFolder:
                 for future in pending:
                     future.cancel()
 
-    def _frame(self, index: int, *, with_depth: bool) -> Frame:
-        stored = self.stored[index]
+    def _read_frame(self, index: int, *, with_depth: bool) -> Frame:
+        stored = self.stored_frames[index]
         color = read_color(stored.color)
         self._check_size(stored.color, color.shape)
         depth = None if stored.depth is None or not with_depth else read_depth(stored.depth)
@@ -200,7 +206,7 @@ class TumFolder:
     def _check_size(self, path: Path, shape: tuple[int, ...]) -> None:
         width, height = self._size
         if shape[:2] != (height, width):
-            raise PictureSizeChanged(
+            raise FrameSizeChanged(
                 path,
                 phrase(
                     "{shape} x {shape2} pixels, {width} x {height} before",
@@ -212,7 +218,7 @@ class TumFolder:
             )
 
 
-def nearest_pairs(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
+def pair_by_time(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
     """For each colour time the depth picture that belongs to it: nearest pairs first, each depth used once.
 
     Both lists rise strictly; pairs further apart than 20 ms are none.
@@ -235,7 +241,7 @@ def nearest_pairs(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
     return partner
 
 
-def missing_before(timestamp_s: FloatArray) -> list[int]:
+def count_dropped_frames(timestamp_s: FloatArray) -> list[int]:
     """Frames missing before each one: a gap of about n median periods lacks n - 1.
 
     >>> missing_before(np.array([0.0, 0.033, 0.066, 0.165, 0.198]))
@@ -247,7 +253,7 @@ def missing_before(timestamp_s: FloatArray) -> list[int]:
     return [0, *(max(0, round(float(gap)) - 1) for gap in gap_s / np.median(gap_s))]
 
 
-def _depth_list(folder: Path, need_depth: bool, notice: Notice) -> list[_Entry]:
+def _read_depth_list(folder: Path, need_depth: bool, notice: NoticeHandler) -> list[_Entry]:
     path = folder / DEPTH_LIST
     depth = _read_list(path, notice) if path.exists() else []
     if need_depth and not depth:
@@ -257,25 +263,25 @@ def _depth_list(folder: Path, need_depth: bool, notice: Notice) -> list[_Entry]:
     return depth
 
 
-def _likely_unit_m(folder: Path, stored: Sequence[StoredFrame], camera: Camera, notice: Notice) -> float:
+def _estimate_depth_unit_m(folder: Path, stored: Sequence[StoredFrame], camera: Camera, notice: NoticeHandler) -> float:
     """Metres per count of the depth pictures: as the format has it, or a millimetre, of which ``notice`` hears, where
     half of what is seen would else be far nearer than the sensor sees."""
-    for frame in [frame for frame in stored if frame.depth is not None][:_LOOKS_AT]:
+    for frame in [frame for frame in stored if frame.depth is not None][:_UNIT_SAMPLE_FRAMES]:
         assert frame.depth is not None
         try:
             counts = read_depth(frame.depth)
-        except PictureDamaged:  # told when it is read
+        except FrameDamaged:  # told when it is read
             continue
         if (counts > 0).any():
             middle, nearest_m = float(np.median(counts[counts > 0])), camera.sensor.nearest_m
-            if middle * DEPTH_UNIT_M >= _NO_CAMERA_SEES * nearest_m or middle * _MILLIMETRE_M < nearest_m:
+            if middle * DEPTH_UNIT_M >= _MIN_DISTANCE_SHARE * nearest_m or middle * _MILLIMETRE_M < nearest_m:
                 return DEPTH_UNIT_M
             notice(UnitAssumed(folder, phrase("depth in millimetres, not 5000 per metre")))
             return _MILLIMETRE_M
     return DEPTH_UNIT_M
 
 
-def _read_list(path: Path, notice: Notice) -> list[_Entry]:
+def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
     """Times in seconds, picture files and lines of ``rgb.txt`` or ``depth.txt``; the times rise strictly. ``notice``
     hears of times in another unit, and of lines with the time of the one before, which are left out."""
     try:
@@ -292,7 +298,7 @@ def _read_list(path: Path, notice: Notice) -> list[_Entry]:
         content = line.strip()
         if not content or content.startswith("#"):
             continue
-        time_s, picture = _entry(path, number, content)
+        time_s, picture = _parse_entry(path, number, content)
         if entries and time_s == entries[-1][0]:
             twice += 1
             continue
@@ -308,7 +314,7 @@ def _read_list(path: Path, notice: Notice) -> list[_Entry]:
             )
         entries.append((time_s, picture, f"{path.name} line {number}"))
     if twice:
-        notice(TimesTwice(path, str(twice)))
+        notice(RepeatedTimesExcluded(path, str(twice)))
     step = float(np.median(np.diff([time_s for time_s, _, _ in entries]))) if len(entries) > 1 else 0.0
     for least, scale, unit in _TIME_UNITS:
         if step >= least:
@@ -317,16 +323,16 @@ def _read_list(path: Path, notice: Notice) -> list[_Entry]:
     return entries
 
 
-def _there(entries: list[_Entry], leave_out: bool, *, first: bool) -> tuple[list[tuple[float, Path]], int]:
+def _check_files(entries: list[_Entry], leave_out: bool, *, first: bool) -> tuple[list[tuple[float, Path]], int]:
     """Times and pictures that are there, and how many are not; the ``first``, where it is clicked on, must be."""
     out: list[tuple[float, Path]] = []
     for time_s, picture, place in entries:
         if _is_file(picture):
             out.append((time_s, picture))
         elif first and not out:
-            raise FirstPictureDamaged(picture, phrase("missing, {place}", place=place))
+            raise InitialFrameDamaged(picture, phrase("missing, {place}", place=place))
         elif not leave_out:
-            raise PictureDamaged(picture, phrase("missing, {place}", place=place))
+            raise FrameDamaged(picture, phrase("missing, {place}", place=place))
     return out, len(entries) - len(out)
 
 
@@ -337,25 +343,25 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _counted(color: int, depth: int, how: str) -> str:
+def _format_counts(color: int, depth: int, how: str) -> str:
     counts = [f"{count} {kind}" for count, kind in ((color, "colour"), (depth, "depth")) if count]
     return f"{' and '.join(counts)} {how}"
 
 
-def _simulated(color_list: Path) -> dict[str, str]:
+def _read_simulated_setting(color_list: Path) -> dict[str, str]:
     """The setting that says so, for a list that has been read already."""
     with color_list.open(encoding="utf-8-sig") as lines:
         remarks = (line.strip() for line in lines if line.startswith("#"))
         return {SIMULATED: "yes"} if SIMULATED_REMARK in remarks else {}
 
 
-def _remark(color_list: Path, remark: str) -> str:
+def _read_remark(color_list: Path, remark: str) -> str:
     """What follows a remark of a list that has been read already, else nothing."""
     with color_list.open(encoding="utf-8-sig") as lines:
         return next((line.removeprefix(remark).strip() for line in lines if line.startswith(remark)), "")
 
 
-def _entry(path: Path, number: int, content: str) -> tuple[float, Path]:
+def _parse_entry(path: Path, number: int, content: str) -> tuple[float, Path]:
     time_text, *names = content.split(maxsplit=1)
     try:
         time_s = float(time_text)
@@ -377,11 +383,11 @@ def _entry(path: Path, number: int, content: str) -> tuple[float, Path]:
     return time_s, path.parent / inside
 
 
-def _camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
+def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
     path = folder / CAMERA_FILE
     size = f"{width_px} x {height_px} pixels"
     if not path.exists():
-        camera = fitted_camera(DEFAULT_CAMERA, (width_px, height_px))
+        camera = rescale_camera(DEFAULT_CAMERA, (width_px, height_px))
         if camera is None:
             raise CameraFileUnreadable(
                 path, phrase("missing, and pictures of {size} have no default camera", size=size)
@@ -405,7 +411,7 @@ def _camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
     return info
 
 
-class TumWriter(Writing):
+class TumWriter(FileWriter):
     """Writes one folder. A picture enters its list only when its file is whole, so a crash costs one frame."""
 
     def __init__(self, path: Path, info: SourceInfo) -> None:
@@ -421,9 +427,9 @@ class TumWriter(Writing):
         try:
             for name, kind in ((COLOR_LIST, "rgb"), (DEPTH_LIST, "depth")):
                 (path / kind).mkdir()
-                self._lists[kind] = open(path / name, "xb", 0, opener=private)  # noqa: SIM115  # closed by close
+                self._lists[kind] = open(path / name, "xb", 0, opener=open_private)  # noqa: SIM115  # closed by close
                 remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
-                remark += "".join(f"{name}{value}\n" for name, value in _said(info) if value)
+                remark += "".join(f"{name}{value}\n" for name, value in _recording_remarks(info) if value)
                 _append(self._lists[kind], f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
             write_camera_info(path / CAMERA_FILE, info.camera)
         except OSError as cause:
@@ -442,7 +448,7 @@ class TumWriter(Writing):
 
     def append_frame(self, frame: Frame) -> None:
         if frame.depth_raw is not None:
-            self._store("depth", frame.timestamp_s, encode_depth(tum_depth(frame.depth_raw, frame.depth_unit_m)))
+            self._store("depth", frame.timestamp_s, encode_depth(to_tum_depth(frame.depth_raw, frame.depth_unit_m)))
         self._store("rgb", frame.timestamp_s, encode_color(frame.color_rgb, lossless=True))
         self._count += 1
 
@@ -468,7 +474,7 @@ class TumWriter(Writing):
     def _store(self, kind: str, timestamp_s: float, data: bytes) -> None:
         name = f"{kind}/{timestamp_s:.6f}.png"
         try:
-            with open(self._path / name, "wb", opener=private) as file:
+            with open(self._path / name, "wb", opener=open_private) as file:
                 file.write(data)
             _append(self._lists[kind], f"{timestamp_s:.6f} {name}\n")
         except OSError as cause:
@@ -486,11 +492,11 @@ def _append(file: FileIO, text: str) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
-def _said(info: SourceInfo) -> tuple[tuple[str, str], ...]:
+def _recording_remarks(info: SourceInfo) -> tuple[tuple[str, str], ...]:
     return (RECORDED_REMARK, info.recorded), (RECORDING_ID_REMARK, info.recording_id)
 
 
-def tum_depth(depth_raw: DepthImage, depth_unit_m: float) -> DepthImage:
+def to_tum_depth(depth_raw: DepthImage, depth_unit_m: float) -> DepthImage:
     """Depth in the format's 5000 counts per metre; what lies beyond its 13.1 m becomes 0, no reading."""
     scale = depth_unit_m / DEPTH_UNIT_M
     if abs(scale - 1.0) < 1e-9:

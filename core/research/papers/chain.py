@@ -14,7 +14,12 @@ from typing import Literal, Self
 
 import numpy as np
 
-from carpus.core.calibration.neutral_pose import TOWARDS_CAMERA, discs_cam_m, pose_by_least_squares, seen_from
+from carpus.core.calibration.neutral_pose import (
+    TOWARDS_CAMERA,
+    estimate_neutral_pose,
+    marker_positions_cam_m,
+    with_w0_pose,
+)
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.errors import SettingsInvalid
@@ -22,7 +27,7 @@ from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.clinical_angles import side_sign, wrist_axes
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.protocols import SITE_CHAINS, joint_angle_names
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.types import FloatArray
 
 _MOTION = {"slow": (0.7, 0.75, 0.4), "standard": (2.0, 1.5, 1.0), "brisk": (6.0, 4.0, 2.0)}
@@ -59,13 +64,13 @@ class PaperSettings:
     palm: Literal["flat", "measured"] = "flat"
 
     @classmethod
-    def for_profile(cls, name: str) -> Self:
+    def from_profile(cls, name: str) -> Self:
         """The settings for a ``slow``, ``standard`` or ``brisk`` hand."""
         return cls(*_MOTION[name])
 
     @property
-    def spread(self) -> Spread:
-        return Spread(self.alpha, self.beta, self.kappa)
+    def spread(self) -> UnscentedParameters:
+        return UnscentedParameters(self.alpha, self.beta, self.kappa)
 
 
 PalmModel = Literal["flat", "measured"]
@@ -92,7 +97,7 @@ class PaperHand:
         return joint_centres(self.anatomy, joints_rad)
 
 
-def hand_measured(calibration: Calibration, camera: Camera, palm: PalmModel) -> PaperHand:
+def measure_hand(calibration: Calibration, camera: Camera, palm: PalmModel) -> PaperHand:
     """The hand whose discs were measured at the neutral pose.
 
     The fingers keep the lengths between their discs, and point in the palm's plane where they point from root to tip.
@@ -100,11 +105,11 @@ def hand_measured(calibration: Calibration, camera: Camera, palm: PalmModel) -> 
     is perpendicular to the plane where the hand lies".
     """
     protocol = calibration.clicks.protocol
-    disc_cam_m, clicked_px = discs_cam_m(calibration), camera.undistort(calibration.clicks.pixel)
+    disc_cam_m, clicked_px = marker_positions_cam_m(calibration), camera.undistort(calibration.clicks.pixel)
     for marker in np.flatnonzero(~np.isfinite(disc_cam_m[:, 2])):
-        disc_cam_m[marker] = camera.back_project(clicked_px[marker], disc_cam_m[marker - 1, 2])
+        disc_cam_m[marker] = camera.backproject(clicked_px[marker], disc_cam_m[marker - 1, 2])
     disc_m = (disc_cam_m - disc_cam_m[0]) @ calibration.rotation_w0_cam
-    palm_m = palm_modelled(disc_m[list(protocol.palm)], palm)
+    palm_m = model_palm(disc_m[list(protocol.palm)], palm)
     if not protocol.has_fingers:
         return PaperHand(palm_m, None)
     if not protocol.is_whole_hand:
@@ -132,7 +137,7 @@ def hand_measured(calibration: Calibration, camera: Camera, palm: PalmModel) -> 
     return PaperHand(palm_m, anatomy)
 
 
-def palm_modelled(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
+def model_palm(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
     """Palm discs (6, 3), WRIST at the origin, as they are, or laid into the plane Z = 0 with the lengths L_i and the
     angles theta_i of figure 1b of the wrist paper."""
     if palm == "measured":
@@ -144,12 +149,12 @@ def palm_modelled(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
     return np.stack((length_m * np.cos(theta), length_m * np.sin(theta), np.zeros(len(palm_m))), axis=1)
 
 
-def as_written(calibration: Calibration, camera: Camera, palm: PalmModel) -> Calibration:
+def calibrate_as_written(calibration: Calibration, camera: Camera, palm: PalmModel) -> Calibration:
     """The calibration with g_w0c of the palm as modelled; the measured discs stay where they are in space."""
-    disc_cam_m = discs_cam_m(calibration)
+    disc_cam_m = marker_positions_cam_m(calibration)
     palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
     axes = wrist_axes(palm_cam_m, TOWARDS_CAMERA)
-    model_m = palm_modelled((palm_cam_m - palm_cam_m[0]) @ axes, palm)
+    model_m = model_palm((palm_cam_m - palm_cam_m[0]) @ axes, palm)
     pixel, depth_m = camera.project(palm_cam_m), palm_cam_m[:, 2]
-    rotation, translation = pose_by_least_squares(camera, model_m, pixel, depth_m, axes, palm_cam_m[0])
-    return seen_from(calibration, disc_cam_m, rotation, translation)
+    rotation, translation = estimate_neutral_pose(camera, model_m, pixel, depth_m, axes, palm_cam_m[0])
+    return with_w0_pose(calibration, disc_cam_m, rotation, translation)

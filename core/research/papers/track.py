@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Self
 
-from carpus.core.calibration.neutral_pose import by_the_discs
+from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.pipeline import told_settings
-from carpus.core.pipeline.told_settings import Told
-from carpus.core.pipeline.track import Learnt, TrackSettings, is_of_other_filter
-from carpus.core.research.papers.chain import PaperSettings, as_written
+from carpus.core.pipeline.told_settings import StoredSettings
+from carpus.core.pipeline.track import NeutralNoise, TrackSettings, is_of_other_filter
+from carpus.core.research.papers.chain import PaperSettings, calibrate_as_written
 from carpus.core.research.papers.tracker import PaperTracker
 from carpus.core.session.values import Session
 
@@ -23,7 +23,7 @@ class PaperTrackSettings(TrackSettings):
     paper: PaperSettings = field(default_factory=PaperSettings)
 
     @classmethod
-    def over(cls, base: TrackSettings, paper: PaperSettings) -> Self:
+    def from_base(cls, base: TrackSettings, paper: PaperSettings) -> Self:
         """Settings with this filter in place of Carpus' own."""
         return cls(base.detection, base.calibration, base.tracker, base.smooth, paper)
 
@@ -35,24 +35,24 @@ class PaperTrackSettings(TrackSettings):
     def uses_depth(self) -> bool:
         return False
 
-    def follow(self, calibration: Calibration, camera: Camera, learnt: Learnt) -> tuple[PaperTracker, None]:
+    def follow(self, calibration: Calibration, camera: Camera, learnt: NeutralNoise) -> tuple[PaperTracker, None]:
         return PaperTracker(calibration, camera, self.paper), None
 
     def adapt_calibration(self, calibration: Calibration, camera: Camera) -> Calibration:
-        return as_written(calibration, camera, self.paper.palm)
+        return calibrate_as_written(calibration, camera, self.paper.palm)
 
     def adapt_stored_calibration(self, session: Session) -> Calibration:
-        before = settings_told(session.header.parameters)
+        before = settings_from_json(session.header.parameters)
         calibration = session.calibration
         if before is not None and isinstance(before.settings, PaperTrackSettings):
             if before.settings.paper.palm == self.paper.palm:
                 return calibration
-            calibration = by_the_discs(calibration)
+            calibration = with_w0_from_markers(calibration)
         return self.adapt_calibration(calibration, session.camera)
 
 
-def settings_told(parameters: str) -> Told | None:
+def settings_from_json(parameters: str) -> StoredSettings | None:
     """The settings that a session's parameters tell, of whichever filter; None where they do not."""
-    return told_settings.settings_told(
+    return told_settings.settings_from_json(
         parameters, PaperTrackSettings if is_of_other_filter(parameters) else TrackSettings
     )

@@ -26,13 +26,13 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
-from carpus.core.hand.protocols import SITES, joint_angle_names, joint_discs
-from carpus.core.research.papers.chain import PaperSettings, hand_measured
-from carpus.core.tracking.readout import lost_frame, lost_moment
-from carpus.core.tracking.unscented import Spread, deviations, weights_for
-from carpus.core.types import Detections, FloatArray, Moment, SpotAnswer, TrackedFrame, TrackStatus
+from carpus.core.hand.protocols import SITES, joint_angle_names, markers_at_joint
+from carpus.core.research.papers.chain import PaperSettings, measure_hand
+from carpus.core.tracking.readout import build_lost_frame, nan_kinematics
+from carpus.core.tracking.unscented import UnscentedParameters, compute_weights, sigma_offsets
+from carpus.core.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
 
-Motion = Callable[[FloatArray, FloatArray], FloatArray]
+StateTransition = Callable[[FloatArray, FloatArray], FloatArray]
 """States (P, n) after a step from states (P, n) and noises (P, k)."""
 
 
@@ -45,7 +45,7 @@ class AugmentedGaussian:
 
 
 @dataclass(frozen=True, slots=True)
-class Predicted:
+class PredictedState:
     """The state ahead: ``points`` (P, n) X_n,t|t-1 with ``mean_weight`` and ``covariance_weight`` (P,), and what they
     say of it."""
 
@@ -56,72 +56,76 @@ class Predicted:
 
 
 @dataclass(frozen=True, slots=True)
-class SeenOutputs:
+class PredictedOutputs:
     """What the predicted points show of m outputs: their mean (10) and covariance (11) without the noise of the
     measurement, and their covariance (n, m) with the state."""
 
     mean: FloatArray
     covariance: FloatArray
-    with_state: FloatArray
+    cross_covariance: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class Corrected:
+class UpdatedState:
     """The state after a measurement, and the normalised innovation squared."""
 
     state: AugmentedGaussian
     nis: float
 
 
-def predict(state: AugmentedGaussian, noise_covariance: FloatArray, motion: Motion, spread: Spread) -> Predicted:
+def predict_state(
+    state: AugmentedGaussian, noise_covariance: FloatArray, motion: StateTransition, spread: UnscentedParameters
+) -> PredictedState:
     """Draw points over state and noise (k, k) together and move them.
 
     Raises ``numpy.linalg.LinAlgError`` when the covariance of the state is none.
     """
     n, k = state.mean.size, noise_covariance.shape[0]
-    weights = weights_for(n + k, spread)
+    weights = compute_weights(n + k, spread)
     both = np.zeros((n + k, n + k))
     both[:n, :n], both[n:, n:] = state.covariance, noise_covariance
-    away = deviations(both, weights.scale)
+    away = sigma_offsets(both, weights.scale)
     points = motion(state.mean + away[:, :n], away[:, n:])
     mean = weights.mean @ points
     apart = points - mean
     covariance = (apart * weights.covariance[:, None]).T @ apart
-    return Predicted(points, weights.mean, weights.covariance, AugmentedGaussian(mean, covariance))
+    return PredictedState(points, weights.mean, weights.covariance, AugmentedGaussian(mean, covariance))
 
 
-def seen_from(ahead: Predicted, outputs: FloatArray) -> SeenOutputs:
+def predict_outputs(predicted: PredictedState, outputs: FloatArray) -> PredictedOutputs:
     """Mean and covariances of outputs (P, m) of the predicted points."""
-    mean = ahead.mean_weight @ outputs
+    mean = predicted.mean_weight @ outputs
     apart = outputs - mean
-    weighted = apart * ahead.covariance_weight[:, None]
-    return SeenOutputs(mean, weighted.T @ apart, (ahead.points - ahead.state.mean).T @ weighted)
+    weighted = apart * predicted.covariance_weight[:, None]
+    return PredictedOutputs(mean, weighted.T @ apart, (predicted.points - predicted.state.mean).T @ weighted)
 
 
-def correct(ahead: Predicted, seen: SeenOutputs, measured: FloatArray, noise_variance: FloatArray) -> Corrected:
+def update_state(
+    predicted: PredictedState, outputs: PredictedOutputs, measured: FloatArray, noise_variance: FloatArray
+) -> UpdatedState:
     """The classical update by measurements (m,) with noise variances (m,)."""
     if not measured.size:
-        return Corrected(ahead.state, float("nan"))
-    innovation = measured - seen.mean
-    spread = seen.covariance + np.diag(noise_variance)
-    gain = np.linalg.solve(spread, seen.with_state.T).T
-    covariance = ahead.state.covariance - gain @ spread @ gain.T
-    state = AugmentedGaussian(ahead.state.mean + gain @ innovation, 0.5 * (covariance + covariance.T))
-    return Corrected(state, float(innovation @ np.linalg.solve(spread, innovation)))
+        return UpdatedState(predicted.state, float("nan"))
+    innovation = measured - outputs.mean
+    spread = outputs.covariance + np.diag(noise_variance)
+    gain = np.linalg.solve(spread, outputs.cross_covariance.T).T
+    covariance = predicted.state.covariance - gain @ spread @ gain.T
+    state = AugmentedGaussian(predicted.state.mean + gain @ innovation, 0.5 * (covariance + covariance.T))
+    return UpdatedState(state, float(innovation @ np.linalg.solve(spread, innovation)))
 
 
-def rotation_of(euler_rad: FloatArray) -> FloatArray:
+def rotation_from_euler(euler_rad: FloatArray) -> FloatArray:
     """R (..., 3, 3) of psi, theta, phi (..., 3)."""
     return clinical_angles.rotation_from_angles(euler_rad, "right")
 
 
-def euler_near(rotation: FloatArray, near_rad: FloatArray) -> FloatArray:
+def euler_from_rotation(rotation: FloatArray, near_rad: FloatArray) -> FloatArray:
     """psi, theta, phi (..., 3) of rotations (..., 3, 3), whole turns chosen to lie nearest to ``near_rad`` (..., 3)."""
     raw = clinical_angles.angles_from_rotation(rotation, "right")
     return np.asarray(raw + 2.0 * np.pi * np.round((near_rad - raw) / (2.0 * np.pi)))
 
 
-def body_turn_by_euler(euler_rad: FloatArray) -> FloatArray:
+def body_rate_matrix(euler_rad: FloatArray) -> FloatArray:
     """(3, 3): the turn d of R Exp(d), in W2, that a small change of psi, theta, phi (3,) makes."""
     _, theta, phi = euler_rad
     s, c = np.sin((theta, phi)), np.cos((theta, phi))
@@ -147,29 +151,29 @@ class PaperMotion:
         """(6 + J, 6 + J): eta_v, eta_omega and eta_theta in units of their standard deviations."""
         return np.eye(PALM_NOISES + self.joint_count)
 
-    def at_neutral(self) -> AugmentedGaussian:
+    def neutral_state(self) -> AugmentedGaussian:
         """At rest at the pose that was clicked."""
         s, joints = self.settings, self.joint_count
         sd = [s.position_start_m] * 3 + [s.velocity_start_m_s] * 3 + [s.angle_start_rad] * 3
         sd += [s.joint_start_rad] * joints
         return AugmentedGaussian(np.zeros(PALM_STATES + joints), np.diag(np.square(sd)))
 
-    def over(self, dt_s: float) -> Motion:
+    def build_transition(self, dt_s: float) -> StateTransition:
         """(1) over ``dt_s``, for many states (P, n) and noises (P, k) at once."""
         s = self.settings
         by_noise = math.sqrt(_SAMPLE_S * dt_s)  # eta dt, eta of variance sd^2 dt_0 / dt
 
-        def moved(state: FloatArray, noise: FloatArray) -> FloatArray:
+        def transition(state: FloatArray, noise: FloatArray) -> FloatArray:
             pushed = noise * by_noise
             out = state.copy()
             out[:, POSITION] += state[:, VELOCITY] * dt_s
             out[:, VELOCITY] += s.acceleration_m_s2 * pushed[:, 0:3]
-            turned = rotation_of(state[:, EULER]) @ so3.exp(s.turn_rate_rad_s * pushed[:, 3:6])
-            out[:, EULER] = euler_near(turned, state[:, EULER])
+            turned = rotation_from_euler(state[:, EULER]) @ so3.exp(s.turn_rate_rad_s * pushed[:, 3:6])
+            out[:, EULER] = euler_from_rotation(turned, state[:, EULER])
             out[:, JOINTS] += s.joint_rate_rad_s * pushed[:, 6:]
             return out
 
-        return moved
+        return transition
 
 
 # Which blob is which marker, as the papers decide it: eq. (6) to (12) of the wrist paper, (3) to (10) of the other's.
@@ -195,7 +199,7 @@ def log_posteriors(
     return out
 
 
-def blobs_of_markers(posterior: FloatArray) -> NDArray[np.int64]:
+def assign_blobs(posterior: FloatArray) -> NDArray[np.int64]:
     """Blob of every marker (M,), -1 for none, from the logarithms (D, 1 + M) of (12)."""
     taken = np.full(posterior.shape[1] - 1, -1, dtype=np.int64)
     best = np.full(taken.size, -np.inf)
@@ -205,11 +209,11 @@ def blobs_of_markers(posterior: FloatArray) -> NDArray[np.int64]:
     return taken
 
 
-LEAST_PALM_MARKERS = 3
+MIN_PALM_MARKERS = 3
 _SHARE_WINDOW_S = 1.0
-_NEAREST_M = 0.05
+_MIN_DEPTH_M = 0.05
 """A sigma point may lie behind the camera; it is projected from here."""
-_LARGEST_ANGLE_RAD = 4.0 * np.pi
+_MAX_ANGLE_RAD = 4.0 * np.pi
 """Angles that wound up further than two whole turns are of no hand."""
 
 
@@ -223,107 +227,111 @@ class PaperTracker:
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
         self._rotation, self._translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
         self._palm = np.array(calibration.clicks.protocol.palm)
-        self._hand = hand_measured(calibration, camera, settings.palm)
+        self._hand = measure_hand(calibration, camera, settings.palm)
         self._motion = PaperMotion(settings, self._hand.joint_count)
         self._markers = len(calibration.clicks.protocol.markers)
         self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
         self.begin_at_neutral()
 
     def begin_at_neutral(self, at_s: float | None = None) -> None:
-        self._state = self._motion.at_neutral()
+        self._state = self._motion.neutral_state()
         self._time_s: float | None = None
-        self._seen_s = -np.inf
-        self._waiting = False
+        self._last_seen_s = -np.inf
+        self._is_waiting = False
 
     @property
     def is_lost(self) -> bool:
-        return self._waiting
+        return self._is_waiting
 
-    def expect(self, timestamp_s: float) -> None:
+    def predict_measurement(self, timestamp_s: float) -> None:
         """Nothing: the papers look for blobs in every picture as if it were the first."""
 
-    def would_miss(self, blobs: Detections) -> bool:
+    def is_search_incomplete(self, blobs: Detections) -> bool:
         """Never: no search is narrowed."""
         return False
 
-    def hear(self, answer: SpotAnswer) -> None:
+    def add_operator_label(self, label: MarkerLabel) -> None:
         """Nothing: this filter is as written, and hears nobody."""
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
         """Predict, name the blobs, correct; the frame's result."""
-        row = self._weighed(index, timestamp_s, detections, dropped_before)
+        row = self._track(index, timestamp_s, detections, dropped_before)
         if row is not None:
             return row
         self.begin_at_neutral()
-        self._waiting = True
-        self._remember(timestamp_s, np.full(self._markers, -1))
-        return self._lost(index, timestamp_s, detections, dropped_before)
+        self._is_waiting = True
+        self._record_assignment(timestamp_s, np.full(self._markers, -1))
+        return self._build_lost_row(index, timestamp_s, detections, dropped_before)
 
-    def _weighed(
+    def _track(
         self, index: int, timestamp_s: float, detections: Detections, dropped_before: int
     ) -> TrackedFrame | None:
         """The row of a frame; None where the hand is lost."""
-        dt_s = 0.0 if self._time_s is None or self._waiting else timestamp_s - self._time_s
+        dt_s = 0.0 if self._time_s is None or self._is_waiting else timestamp_s - self._time_s
         if dt_s > self.settings.lost_after_s:
             return None
         pixel = self._camera.undistort(detections.pixel)
         try:
-            ahead = predict(self._state, self._motion.noise_covariance, self._motion.over(dt_s), self.settings.spread)
-            seen = seen_from(ahead, self._outputs(ahead.points))
-            taken, shown = self._named(pixel, seen), self._innovations(seen)
-            corrected = self._corrected(ahead, seen, pixel, taken)
+            ahead = predict_state(
+                self._state, self._motion.noise_covariance, self._motion.build_transition(dt_s), self.settings.spread
+            )
+            seen = predict_outputs(ahead, self._project_markers(ahead.points))
+            taken, shown = self._associate(pixel, seen), self._predict_markers(seen)
+            corrected = self._update(ahead, seen, pixel, taken)
         except np.linalg.LinAlgError:
             return None
         if not _is_sane(corrected):
             return None
         palm_seen = int(np.count_nonzero(taken[self._palm] >= 0))
-        if self._waiting and palm_seen < self._palm.size:
+        if self._is_waiting and palm_seen < self._palm.size:
             return None
-        if palm_seen >= LEAST_PALM_MARKERS or self._time_s is None:
-            self._seen_s = timestamp_s
-        if timestamp_s - self._seen_s > self.settings.lost_after_s:
+        if palm_seen >= MIN_PALM_MARKERS or self._time_s is None:
+            self._last_seen_s = timestamp_s
+        if timestamp_s - self._last_seen_s > self.settings.lost_after_s:
             return None
-        self._waiting, self._time_s, self._state = False, timestamp_s, corrected.state
-        self._remember(timestamp_s, taken)
-        status = TrackStatus.TRACKED if palm_seen >= LEAST_PALM_MARKERS else TrackStatus.PREDICTED
-        return self._shown(index, timestamp_s, status, corrected, *shown, taken, detections, dropped_before)
+        self._is_waiting, self._time_s, self._state = False, timestamp_s, corrected.state
+        self._record_assignment(timestamp_s, taken)
+        status = TrackStatus.TRACKED if palm_seen >= MIN_PALM_MARKERS else TrackStatus.PREDICTED
+        return self._build_row(index, timestamp_s, status, corrected, *shown, taken, detections, dropped_before)
 
-    def _outputs(self, points: FloatArray) -> FloatArray:
+    def _project_markers(self, points: FloatArray) -> FloatArray:
         """(2): pixels (P, 2 M) of all markers for states (P, n)."""
         return self._camera.project(self._discs_cam_m(points)).reshape(len(points), -1)
 
     def _discs_cam_m(self, points: FloatArray) -> FloatArray:
         """Markers (P, M, 3) in camera axes for states (P, n): g_w0c g(t) T_mi,w(Theta)."""
-        discs_w0 = self._hand.discs_m(points[:, JOINTS]) @ np.swapaxes(rotation_of(points[:, EULER]), -1, -2)
+        discs_w0 = self._hand.discs_m(points[:, JOINTS]) @ np.swapaxes(rotation_from_euler(points[:, EULER]), -1, -2)
         out = (discs_w0 + points[:, None, POSITION]) @ self._rotation.T + self._translation
-        out[..., 2] = np.maximum(out[..., 2], _NEAREST_M)
+        out[..., 2] = np.maximum(out[..., 2], _MIN_DEPTH_M)
         return out
 
-    def _innovations(self, seen: SeenOutputs) -> tuple[FloatArray, FloatArray]:
+    def _predict_markers(self, seen: PredictedOutputs) -> tuple[FloatArray, FloatArray]:
         """(10) and (11) of every marker: (M, 2) and (M, 2, 2)."""
         marker = np.arange(self._markers)
         own = seen.covariance.reshape(self._markers, 2, self._markers, 2)[marker, :, marker, :]
         return seen.mean.reshape(-1, 2), own + self.settings.pixel_sd_px**2 * np.eye(2)
 
-    def _named(self, pixel: FloatArray, seen: SeenOutputs) -> NDArray[np.int64]:
+    def _associate(self, pixel: FloatArray, seen: PredictedOutputs) -> NDArray[np.int64]:
         resolution_px2 = float(self._camera.width_px * self._camera.height_px)
-        return blobs_of_markers(
-            log_posteriors(pixel, *self._innovations(seen), self.settings.clutter_prior, resolution_px2)
+        return assign_blobs(
+            log_posteriors(pixel, *self._predict_markers(seen), self.settings.clutter_prior, resolution_px2)
         )
 
-    def _corrected(self, ahead: Predicted, seen: SeenOutputs, pixel: FloatArray, taken: NDArray[np.int64]) -> Corrected:
+    def _update(
+        self, ahead: PredictedState, seen: PredictedOutputs, pixel: FloatArray, taken: NDArray[np.int64]
+    ) -> UpdatedState:
         """The correction by the visible markers V(t) and the blobs associated with them."""
         used = np.flatnonzero(taken >= 0)
         rows = (2 * used[:, None] + np.arange(2)).ravel()
-        part = SeenOutputs(seen.mean[rows], seen.covariance[np.ix_(rows, rows)], seen.with_state[:, rows])
-        return correct(ahead, part, pixel[taken[used]].ravel(), np.full(rows.size, self.settings.pixel_sd_px**2))
+        part = PredictedOutputs(seen.mean[rows], seen.covariance[np.ix_(rows, rows)], seen.cross_covariance[:, rows])
+        return update_state(ahead, part, pixel[taken[used]].ravel(), np.full(rows.size, self.settings.pixel_sd_px**2))
 
-    def _shown(
+    def _build_row(
         self,
         index: int,
         timestamp_s: float,
         status: TrackStatus,
-        corrected: Corrected,
+        corrected: UpdatedState,
         predicted_px: FloatArray,
         predicted_cov_px2: FloatArray,
         taken: NDArray[np.int64],
@@ -331,10 +339,10 @@ class PaperTracker:
         dropped_before: int,
     ) -> TrackedFrame:
         mean, covariance = corrected.state.mean, corrected.state.covariance
-        rotation = rotation_of(mean[EULER])
+        rotation = rotation_from_euler(mean[EULER])
         shown = self._start @ rotation
-        angles, by_turn, zyz = clinical_angles.read_one(shown, self._side)
-        by_euler = by_turn @ body_turn_by_euler(mean[EULER])
+        angles, by_turn, zyz = clinical_angles.compute_wrist_angles(shown, self._side)
+        by_euler = by_turn @ body_rate_matrix(mean[EULER])
         variance = np.vecdot(by_euler @ covariance[EULER, EULER], by_euler)
         joints_rad = mean[JOINTS]
         unknown = np.full(joints_rad.size, np.nan)
@@ -346,7 +354,7 @@ class PaperTracker:
             index=index,
             timestamp_s=timestamp_s,
             status=status,
-            moment=Moment(
+            kinematics=KinematicState(
                 position_m=mean[POSITION],
                 velocity_m_s=mean[VELOCITY],
                 w0_turn_rad=so3.log(self._start.T),
@@ -367,22 +375,26 @@ class PaperTracker:
             marker_measured_depth_m=measured_depth_m,
             detections=detections,
             dropped_before=dropped_before,
-            measured_share=self._share(),
+            measured_share=self._direct_share(),
             nis=corrected.nis,
             nis_dof=2 * used.size,
         )
 
-    def _lost(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int) -> TrackedFrame:
+    def _build_lost_row(
+        self, index: int, timestamp_s: float, detections: Detections, dropped_before: int
+    ) -> TrackedFrame:
         """A row of which nothing is known but the blobs."""
-        unknown = lost_moment(self._hand.joint_count, self._markers)
-        return lost_frame(index, timestamp_s, unknown, self._markers, detections, dropped_before, self._share())
+        unknown = nan_kinematics(self._hand.joint_count, self._markers)
+        return build_lost_frame(
+            index, timestamp_s, unknown, self._markers, detections, dropped_before, self._direct_share()
+        )
 
-    def _remember(self, timestamp_s: float, taken: NDArray[np.int64]) -> None:
+    def _record_assignment(self, timestamp_s: float, taken: NDArray[np.int64]) -> None:
         self._recent.append((timestamp_s, taken))
         while self._recent[0][0] < timestamp_s - _SHARE_WINDOW_S:
             self._recent.popleft()
 
-    def _share(self) -> FloatArray:
+    def _direct_share(self) -> FloatArray:
         """Share (3,) of the palm's markers, or (J,) of the frames with both discs at a joint, over the last second."""
         seen = np.array([taken for _, taken in self._recent]) >= 0
         if self._hand.anatomy is None:
@@ -390,15 +402,15 @@ class PaperTracker:
         return np.asarray(seen[:, _SHOWING].all(axis=2).mean(axis=0))
 
 
-_SHOWING = np.array([[SITES.index(disc) for disc in joint_discs(name)] for name in joint_angle_names()])
+_SHOWING = np.array([[SITES.index(disc) for disc in markers_at_joint(name)] for name in joint_angle_names()])
 
 
-def _is_sane(corrected: Corrected) -> bool:
+def _is_sane(corrected: UpdatedState) -> bool:
     state = corrected.state
     variance = state.covariance.diagonal()
     return bool(
         np.isfinite(state.mean).all()
         and np.isfinite(variance).all()
         and (variance > 0.0).all()
-        and np.abs(state.mean[EULER.start :]).max() < _LARGEST_ANGLE_RAD
+        and np.abs(state.mean[EULER.start :]).max() < _MAX_ANGLE_RAD
     )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
-from carpus.core.calibration.camera.views import Gathering
+from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
+from carpus.core.calibration.camera.views import ViewCollector
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets
@@ -20,14 +20,14 @@ def studio() -> Studio:
 @pytest.fixture(scope="package")
 def shown(studio: Studio) -> list[Frame]:
     """All that a person showed of the chessboard, a picture a second."""
-    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
     return list(ShownSheets(studio, [[placed] for placed in poses(texture)]).frames())
 
 
 @pytest.fixture(scope="package")
-def gathered(shown: list[Frame]) -> Gathering:
+def gathered(shown: list[Frame]) -> ViewCollector:
     """What is kept of it."""
-    out = Gathering(DEFAULT_CAMERA)
+    out = ViewCollector(DEFAULT_CAMERA)
     for frame in shown:
         out.add(frame)
     return out

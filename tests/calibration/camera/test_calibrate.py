@@ -13,26 +13,26 @@ from carpus.core.calibration.camera.board import (
     BOARDS,
     CHARUCO,
     CHESSBOARD,
-    EDGE_MM,
-    LEAST_CORNERS,
+    MIN_CORNERS,
+    PAGE_MARGIN_MM,
     Board,
-    FoundBoard,
-    board_sheet,
+    DetectedBoard,
+    create_board_sheet,
     find_board,
 )
-from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, calibration_lines
+from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, format_calibration
 from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
 from carpus.core.calibration.camera.views import (
-    ASKED_VIEWS,
-    FEWEST_VIEWS,
+    MIN_VIEWS,
+    WANTED_VIEWS,
     BoardView,
-    Gathering,
-    is_new,
-    judge,
-    view_of,
+    ViewCollector,
+    assess_views,
+    is_new_view,
+    to_board_view,
 )
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike, CarpusFault
+from carpus.core.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar, CarpusFault
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import FloatArray, Frame
 from tests.calibration.camera.printed import ShownSheets
@@ -49,7 +49,7 @@ from tests.studio import (
 
 
 @pytest.fixture(scope="package")
-def made(gathered: Gathering) -> CameraCalibration:
+def made(gathered: ViewCollector) -> CameraCalibration:
     return calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
 
 
@@ -62,14 +62,14 @@ def check_lens(made: CameraCalibration, middle_px: float) -> None:
     # Everywhere in the picture, the bend of the lens included.
     u, v = np.meshgrid(np.linspace(20, 620, 9), np.linspace(20, 460, 7))
     pixel = np.stack((u.ravel(), v.ravel()), axis=-1)
-    rays = [lens.back_project(lens.undistort(pixel), np.ones(len(pixel))) for lens in (camera, LENS)]
+    rays = [lens.backproject(lens.undistort(pixel), np.ones(len(pixel))) for lens in (camera, LENS)]
     turned = np.linalg.lstsq(rays[0], rays[1], rcond=None)[0]  # the whole camera turned is no fault of the lens
     assert np.abs(rays[0] @ turned - rays[1]).max() * LENS.fx_px < 1.0
 
 
 def test_the_lens_is_found_within_three_in_a_thousand(made: CameraCalibration) -> None:
     check_lens(made, middle_px=0.003 * 640)
-    assert made.intrinsics.error_px < 0.3
+    assert made.intrinsics.reprojection_error_px < 0.3
     assert abs(made.intrinsics.camera.fx_px - LENS.fx_px) < 4.0 * made.intrinsics.focal_sd_px
 
 
@@ -81,10 +81,10 @@ def test_the_scale_of_depth_is_found_within_two_in_a_thousand(made: CameraCalibr
     assert depth.scale == pytest.approx(true, abs=0.002)
     assert abs(depth.scale - true) < 4.0 * depth.scale_sd
     assert depth.is_registered
-    assert np.linalg.norm(depth.apart_px) < 0.5
+    assert np.linalg.norm(depth.registration_error_px) < 0.5
 
 
-def test_depth_beside_the_colours_and_a_shift_are_told(gathered: Gathering) -> None:
+def test_depth_beside_the_colours_and_a_shift_are_told(gathered: ViewCollector) -> None:
     def moved(view: BoardView) -> BoardView:
         assert view.depth_raw is not None
         depth = np.roll(view.depth_raw, 3, axis=1)
@@ -95,15 +95,15 @@ def test_depth_beside_the_colours_and_a_shift_are_told(gathered: Gathering) -> N
     after = calibrate_camera([moved(view) for view in gathered.views], DEFAULT_CAMERA, "studio").depth
     assert before is not None
     assert after is not None
-    np.testing.assert_allclose(after.apart_px - before.apart_px, [-3.0, 0.0], atol=0.5)
+    np.testing.assert_allclose(after.registration_error_px - before.registration_error_px, [-3.0, 0.0], atol=0.5)
     assert not after.is_registered
     assert after.offset_m == pytest.approx(0.006, abs=0.0025)
 
 
 def test_a_charuco_board_does_too() -> None:
-    texture = texture_of(board_sheet(CHARUCO, "letter"))
+    texture = texture_of(create_board_sheet(CHARUCO, "letter"))
     source = ShownSheets(Studio(seed=4), [[one] for one in poses(texture, distances_m=(0.44, 0.5, 0.6))])
-    gathering = Gathering(source.info.camera)
+    gathering = ViewCollector(source.info.camera)
     for frame in source.frames():
         gathering.add(frame)
     found = calibrate_camera(gathering.views, DEFAULT_CAMERA, "studio")
@@ -112,31 +112,35 @@ def test_a_charuco_board_does_too() -> None:
 
 
 def test_it_is_said_in_words(made: CameraCalibration) -> None:
-    said = "\n".join(calibration_lines(made))
+    said = "\n".join(format_calibration(made))
     assert "px (good: below 0.3 px)" in said
     assert "too long" in said or "too short" in said
     assert "chessboard 10 x 7" in said
 
 
 def shifted(view: BoardView, pixel: FloatArray) -> BoardView:
-    return replace(view, found=replace(view.found, pixel=pixel))
+    return replace(view, found=replace(view.detected, pixel=pixel))
 
 
 def bent(view: BoardView) -> BoardView:
-    return shifted(view, view.found.pixel + 8.0 * np.sin(view.found.corner * 2.1)[:, None] * [1.0, -1.0])
+    return shifted(view, view.detected.pixel + 8.0 * np.sin(view.detected.corner_ids * 2.1)[:, None] * [1.0, -1.0])
 
 
 UNFIT: dict[str, tuple[Callable[[list[BoardView]], list[BoardView]], type[CarpusFault], str | None]] = {
-    "no board": (lambda _: [], BoardMissing, None),
-    "too few": (lambda views: views[: FEWEST_VIEWS - 1], BoardViewsAlike, f"{FEWEST_VIEWS} needed"),
-    "not tilted": (lambda views: [replace(view, nearer=None) for view in views], BoardViewsAlike, "tilted"),
-    "one corner": (lambda views: [shifted(view, view.found.pixel * 0.4) for view in views], BoardViewsAlike, "fields"),
+    "no board": (lambda _: [], BoardNotVisible, None),
+    "too few": (lambda views: views[: MIN_VIEWS - 1], BoardViewsTooSimilar, f"{MIN_VIEWS} needed"),
+    "not tilted": (lambda views: [replace(view, nearer_side=None) for view in views], BoardViewsTooSimilar, "tilted"),
+    "one corner": (
+        lambda views: [shifted(view, view.detected.pixel * 0.4) for view in views],
+        BoardViewsTooSimilar,
+        "fields",
+    ),
     "bent": (lambda views: [bent(view) for view in views], BoardUnfit, None),
 }
 
 
 @pytest.mark.parametrize("case", UNFIT)
-def test_pictures_that_are_not_enough_are_refused(case: str, gathered: Gathering) -> None:
+def test_pictures_that_are_not_enough_are_refused(case: str, gathered: ViewCollector) -> None:
     change, fault, said = UNFIT[case]
     with pytest.raises(fault, match=said):
         calibrate_camera(change(gathered.views), DEFAULT_CAMERA, "studio")
@@ -144,12 +148,12 @@ def test_pictures_that_are_not_enough_are_refused(case: str, gathered: Gathering
 
 def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
     def look(*frames: Frame) -> list[str]:
-        gathering = Gathering(DEFAULT_CAMERA)
+        gathering = ViewCollector(DEFAULT_CAMERA)
         out = []
         for k, frame in enumerate(frames):
-            told = gathering.look(replace(frame, timestamp_s=0.2 * k))
+            told = gathering.process_frame(replace(frame, timestamp_s=0.2 * k))
             assert told is not None
-            out.append(told.lack if told.lack or told.kept else "?")
+            out.append(told.reject_reason if told.reject_reason or told.is_kept else "?")
         return out
 
     def with_color(frame: Frame, color: np.ndarray) -> Frame:
@@ -162,30 +166,33 @@ def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
     assert look(with_color(dark, np.zeros_like(dark.color_rgb))) == ["dark"]
 
 
-def test_next_step_names_what_is_missing_until_all_is_there(gathered: Gathering) -> None:
-    asked, whole = ASKED_VIEWS["chessboard"], gathered.judgement
-    assert judge([], 640, 480).next_step(asked) == "Move the board to the top left"
-    upright = [view for view in gathered.views if view.nearer != "left" and view.nearer != "right"]
-    assert replace(whole, sides=judge(upright, 640, 480).sides).next_step(asked) == "Tilt the board: left edge nearer"
-    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_step(asked) == "Take the board farther away"
-    assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_step(asked) == "Bring the board nearer"
-    assert replace(whole, views=asked - 1).next_step(asked) == "Show it in other places, tilted other ways"
-    assert replace(whole, views=asked).next_step(asked) is None
+def test_next_step_names_what_is_missing_until_all_is_there(gathered: ViewCollector) -> None:
+    asked, whole = WANTED_VIEWS["chessboard"], gathered.coverage
+    assert assess_views([], 640, 480).next_instruction(asked) == "Move the board to the top left"
+    upright = [view for view in gathered.views if view.nearer_side != "left" and view.nearer_side != "right"]
+    assert (
+        replace(whole, sides=assess_views(upright, 640, 480).sides).next_instruction(asked)
+        == "Tilt the board: left edge nearer"
+    )
+    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_instruction(asked) == "Take the board farther away"
+    assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_instruction(asked) == "Bring the board nearer"
+    assert replace(whole, view_count=asked - 1).next_instruction(asked) == "Show it in other places, tilted other ways"
+    assert replace(whole, view_count=asked).next_instruction(asked) is None
 
 
 def test_the_nearer_side_is_the_nearer_side(studio: Studio) -> None:
-    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
     placed = held(texture, (0.0, 0.0, 0.55), 30.0, 90.0, 0.0)
-    gathering = Gathering(DEFAULT_CAMERA)
+    gathering = ViewCollector(DEFAULT_CAMERA)
     assert gathering.add(studio.frame([placed], 0, 0.0))
     left, right = (placed.rotation[2] @ [x, 0.1, 0.0] + placed.shift_m[2] for x in (0.0, 0.29))
-    assert gathering.views[0].nearer == ("left" if left < right else "right")
+    assert gathering.views[0].nearer_side == ("left" if left < right else "right")
     assert gathering.views[0].tilt_deg == pytest.approx(30.0, abs=2.0)
 
 
 def test_a_moving_board_is_not_kept(studio: Studio) -> None:
-    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
-    gathering = Gathering(DEFAULT_CAMERA)
+    texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
+    gathering = ViewCollector(DEFAULT_CAMERA)
     for k, x in enumerate((-0.05, 0.0, 0.0)):
         kept = gathering.add(studio.frame([held(texture, (x, 0.0, 0.55), 5.0, 0.0, 0.0)], k, 0.2 * k))
         assert kept == (k != 1), "the first, of which nobody knows, and the still one"
@@ -194,13 +201,13 @@ def test_a_moving_board_is_not_kept(studio: Studio) -> None:
 @pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
 @pytest.mark.parametrize("paper", PAPER_MM)
 def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper) -> None:
-    sheet = board_sheet(board, paper)
-    boxes = [mark for mark in sheet.marks if isinstance(mark, SheetBox)]
+    sheet = create_board_sheet(board, paper)
+    boxes = [mark for mark in sheet.items if isinstance(mark, SheetBox)]
     foot_mm = max(box.top_mm + box.height_mm for box in boxes)
-    assert min(box.left_mm for box in boxes) >= EDGE_MM
-    assert min(box.top_mm for box in boxes) >= EDGE_MM
-    assert max(box.left_mm + box.width_mm for box in boxes) <= sheet.width_mm - EDGE_MM
-    for mark in sheet.marks:  # ruler and words: beside the board, not on it, and where every printer prints
+    assert min(box.left_mm for box in boxes) >= PAGE_MARGIN_MM
+    assert min(box.top_mm for box in boxes) >= PAGE_MARGIN_MM
+    assert max(box.left_mm + box.width_mm for box in boxes) <= sheet.width_mm - PAGE_MARGIN_MM
+    for mark in sheet.items:  # ruler and words: beside the board, not on it, and where every printer prints
         if isinstance(mark, SheetLine):
             (left, top), (right, bottom) = mark.from_mm, mark.to_mm
         elif isinstance(mark, SheetText):
@@ -209,23 +216,23 @@ def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper
             top, bottom = mark.y_mm - 0.75 * em_mm, mark.y_mm + 0.25 * em_mm
         else:
             continue
-        assert foot_mm + 1.0 < top <= bottom <= sheet.height_mm - EDGE_MM
-        assert EDGE_MM <= left <= right <= sheet.width_mm - EDGE_MM
+        assert foot_mm + 1.0 < top <= bottom <= sheet.height_mm - PAGE_MARGIN_MM
+        assert PAGE_MARGIN_MM <= left <= right <= sheet.width_mm - PAGE_MARGIN_MM
 
 
 @pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
 def test_what_is_printed_is_what_is_looked_for(board: Board) -> None:
-    picture = (texture_of(board_sheet(board, "a4"))[::8, ::8] * 255).clip(0, 255).astype(np.uint8)
+    picture = (texture_of(create_board_sheet(board, "a4"))[::8, ::8] * 255).clip(0, 255).astype(np.uint8)
     large = picture.repeat(3, axis=0).repeat(3, axis=1)
     found = find_board(large, [board])
     assert found is not None
-    assert len(found.corner) == board.corner_count
+    assert len(found.corner_ids) == board.corner_count
 
 
 @pytest.mark.parametrize("board", [CHESSBOARD, CHARUCO], ids=lambda board: board.pattern)
 def test_the_simulated_board_is_shown_in_as_many_ways_as_are_asked_for(board: Board) -> None:
     """Corners alone, not drawn: a pose that has been there before is not kept, and the showing would never end."""
-    sheet = board_sheet(board, "a4")
+    sheet = create_board_sheet(board, "a4")
     texture = np.zeros((round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM), 3), dtype=np.float32)
     corner_m = np.array([0.5 * (sheet.width_mm - 1e3 * board.columns * board.square_m), 20.0, 0.0]) / 1e3
     kept: list[BoardView] = []
@@ -233,10 +240,10 @@ def test_the_simulated_board_is_shown_in_as_many_ways_as_are_asked_for(board: Bo
         for placed in poses(texture, DIFFERENT, BOARD_DISTANCES_M[board.pattern], lap):
             pixel = LENS.project((board.corners_m + corner_m) @ placed.rotation.T + placed.shift_m)
             inside = ((pixel > 4.0) & (pixel < [636.0, 476.0])).all(axis=1)
-            if not inside.all() and (board.pattern == "chessboard" or np.count_nonzero(inside) < LEAST_CORNERS):
+            if not inside.all() and (board.pattern == "chessboard" or np.count_nonzero(inside) < MIN_CORNERS):
                 continue
-            found = FoundBoard(board, np.flatnonzero(inside), pixel[inside])
-            view = view_of(found, DEFAULT_CAMERA, None, 1e-3)
-            if view is not None and is_new(found, kept):
+            found = DetectedBoard(board, np.flatnonzero(inside), pixel[inside])
+            view = to_board_view(found, DEFAULT_CAMERA, None, 1e-3)
+            if view is not None and is_new_view(found, kept):
                 kept.append(view)
-    assert len(kept) >= ASKED_VIEWS[board.pattern]
+    assert len(kept) >= WANTED_VIEWS[board.pattern]

@@ -1,4 +1,5 @@
-"""``carpus calibrate-camera``: the board as PDF, a recording to a camera file, and what later recordings make of it."""
+"""``carpus calibrate_hand-camera``: the board as PDF, a recording to a camera file, and what later recordings make of
+it."""
 
 from __future__ import annotations
 
@@ -14,15 +15,15 @@ from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
 from carpus.core.calibration.camera.calibrate import calibrate_camera
-from carpus.core.calibration.camera.keep import stored_of
-from carpus.core.calibration.camera.views import Gathering
+from carpus.core.calibration.camera.keep import to_stored_calibration
+from carpus.core.calibration.camera.views import ViewCollector
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.calibrated import (
     CalibratedSource,
-    calibration_files,
-    correction_table,
+    compute_correction_table,
+    list_calibration_files,
+    load_stored_calibration,
     new_calibration_path,
-    stored_calibration,
     with_stored_calibration,
 )
 from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info, write_camera_info
@@ -30,7 +31,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CameraFileUnreadable
-from carpus.core.pipeline.track import source_facts
+from carpus.core.pipeline.track import describe_source
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets
@@ -94,7 +95,7 @@ def test_a_recording_becomes_a_camera_file_that_the_next_recording_uses(
     folder = load_settings().data_folder
     again = open_recording(recording, data_folder=folder)
     assert again.info.camera.fx_px == info.camera.fx_px
-    facts = source_facts(again.info)
+    facts = describe_source(again.info)
     assert facts["intrinsics"] == "calibration"
     assert facts["calibrated"] == info.calibration.calibrated
     assert float(facts["calibration_age_days"]) == pytest.approx(0.0, abs=0.1)
@@ -105,9 +106,9 @@ def test_a_recording_becomes_a_camera_file_that_the_next_recording_uses(
 def test_two_calibrations_within_a_second_are_both_kept_and_the_later_one_counts(tmp_path: Path) -> None:
     for scale in (1.01, 1.02, 1.03):
         stored(tmp_path, "9", 3, scale)
-    kept = calibration_files(tmp_path, "9")
+    kept = list_calibration_files(tmp_path, "9")
     assert len(kept) == 3
-    newest = stored_calibration(tmp_path, "9")
+    newest = load_stored_calibration(tmp_path, "9")
     assert newest is not None
     assert newest.calibration is not None
     assert newest.calibration.depth_scale == 1.03
@@ -136,11 +137,11 @@ def test_a_folder_of_pictures_and_an_oni_file_of_the_board_say_the_same(
     assert "--serial" in capsys.readouterr().err
 
 
-def test_depth_that_was_corrected_already_counts_in(gathered: Gathering) -> None:
+def test_depth_that_was_corrected_already_counts_in(gathered: ViewCollector) -> None:
     made = calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
     assert made.depth is not None
     settings = {"depth_scale_corrected": "1.01", "depth_offset_corrected_mm": "2.0"}
-    again = stored_of(made, SERIAL, datetime(2026, 11, 20, tzinfo=UTC), settings)
+    again = to_stored_calibration(made, SERIAL, datetime(2026, 11, 20, tzinfo=UTC), settings)
     assert again.depth_scale == pytest.approx(1.01 * made.depth.scale)
     assert again.depth_offset_m == pytest.approx(0.002 + 1.01 * made.depth.offset_m)
 
@@ -168,13 +169,13 @@ def test_the_newest_of_the_right_camera_is_used(tmp_path: Path) -> None:
     stored(tmp_path, SERIAL, 3, scale=1.01)
     stored(tmp_path, SERIAL, 9, scale=1.02)
     stored(tmp_path, SERIAL + "-b", 12, scale=1.03)
-    found = stored_calibration(tmp_path, SERIAL)
+    found = load_stored_calibration(tmp_path, SERIAL)
     assert found is not None
     assert found.calibration is not None
     assert found.calibration.depth_scale == 1.02
-    assert len(calibration_files(tmp_path, SERIAL)) == 2
-    calibration_files(tmp_path, SERIAL)[-1].write_text("torn")
-    older = stored_calibration(tmp_path, SERIAL)
+    assert len(list_calibration_files(tmp_path, SERIAL)) == 2
+    list_calibration_files(tmp_path, SERIAL)[-1].write_text("torn")
+    older = load_stored_calibration(tmp_path, SERIAL)
     assert older is not None
     assert older.calibration is not None
     assert older.calibration.depth_scale == 1.01
@@ -192,7 +193,7 @@ def test_a_source_with_intrinsics_of_its_own_keeps_them(tmp_path: Path, origin: 
 
 def test_depth_is_put_right_to_a_tenth_of_a_millimetre() -> None:
     made = StoredCalibration(SERIAL, "2026-11-20T08:00:00+00:00", 1.02, 0.004)
-    table = correction_table(made, 0.001)
+    table = compute_correction_table(made, 0.001)
     true_m = np.array([0.45, 0.6, 1.0, 3.0])
     measured = np.round((1.02 * true_m + 0.004) * 1000).astype(int)
     np.testing.assert_allclose(table[measured] * 1e-4, true_m, atol=0.55e-3)
@@ -212,7 +213,7 @@ def test_a_session_says_how_old_the_calibration_was_when_the_hand_moved(tmp_path
 @pytest.mark.parametrize("line", ["depth_scale: 7.0", "depth_scale: many", "depth_offset_m: .nan"])
 def test_a_kept_calibration_that_cannot_be_is_refused(tmp_path: Path, line: str) -> None:
     stored(tmp_path, SERIAL, 3, scale=1.01, offset_m=0.002)
-    path = calibration_files(tmp_path, SERIAL)[0]
+    path = list_calibration_files(tmp_path, SERIAL)[0]
     name = line.split(":")[0]
     path.write_text(re.sub(rf"{name}: [-\d.]+", line, path.read_text()))
     with pytest.raises(CameraFileUnreadable):

@@ -13,13 +13,13 @@ import pytest
 
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
-from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
+from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetDisc, SheetLine, SheetText
 from carpus.core.calibration.card.card import (
-    FIGURES,
+    DIMENSIONS,
     CardReading,
     card_sheets,
-    disc_places_m,
-    figures_of,
+    disc_positions_m,
+    measure_dimensions,
     verdict_sentence,
 )
 from carpus.core.calibration.card.checks import (
@@ -30,13 +30,13 @@ from carpus.core.calibration.card.checks import (
     examine_cameras,
     read_checks,
 )
-from carpus.core.calibration.card.measure import CardWatch, measure_card
+from carpus.core.calibration.card.measure import CardMeasurement, measure_card
 from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import CardMissing
+from carpus.core.errors import CardNotVisible
 from carpus.core.types import Frame
 from tests.studio import LENS, Studio, card_scene
 
@@ -56,7 +56,7 @@ def stretched(frames: Sequence[Frame], share: float) -> list[Frame]:
 
 
 def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0) -> CardCheck:
-    measured = np.array([one.true for one in FIGURES])
+    measured = np.array([one.true_value for one in DIMENSIONS])
     measured[0] += angle
     measured[3] += length
     reading = CardReading(measured, np.full(6, 0.1), scale, np.nan, 0, 0)
@@ -64,71 +64,73 @@ def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0)
 
 
 def test_the_places_of_the_discs_have_the_figures_of_the_card() -> None:
-    np.testing.assert_allclose(figures_of(disc_places_m()), [one.true for one in FIGURES], atol=1e-9)
-    turned = disc_places_m() @ np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
-    np.testing.assert_allclose(figures_of(turned), [one.true for one in FIGURES], atol=1e-6)
+    np.testing.assert_allclose(
+        measure_dimensions(disc_positions_m()), [one.true_value for one in DIMENSIONS], atol=1e-9
+    )
+    turned = disc_positions_m() @ np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
+    np.testing.assert_allclose(measure_dimensions(turned), [one.true_value for one in DIMENSIONS], atol=1e-6)
 
 
 def test_a_right_camera_is_within_its_limits(shown: list[Frame]) -> None:
     reading = measure_card(shown, LENS, "card")
-    assert reading.pictures == len(shown)
-    assert reading.angles_hold
-    assert reading.lengths_hold
+    assert reading.frames_used == len(shown)
+    assert reading.has_valid_angles
+    assert reading.has_valid_lengths
     assert reading.scale == pytest.approx(1.0, abs=0.003)
     assert reading.distance_m == pytest.approx(0.59, abs=0.03)
 
 
 def test_before_a_live_camera_only_steady_pictures_count(shown: list[Frame]) -> None:
-    watch = CardWatch(LENS, steady=True)
-    seen = [watch.look(frame) for frame in shown[:3]]
-    assert [look.pictures for look in seen if look is not None] == [1, 2, 3]
+    watch = CardMeasurement(LENS, only_steady=True)
+    seen = [watch.process_frame(frame) for frame in shown[:3]]
+    assert [look.frames_used for look in seen if look is not None] == [1, 2, 3]
     last = seen[-1]
     assert last is not None
     assert last.pixel is not None
-    assert last.seconds == pytest.approx(1.0)
+    assert last.steady_s == pytest.approx(1.0)
     blank = replace(shown[0], timestamp_s=101.5, color_rgb=np.full_like(shown[0].color_rgb, 200))
-    gone = watch.look(blank)
+    gone = watch.process_frame(blank)
     assert gone is not None
-    assert (gone.pixel, gone.seconds) == (None, pytest.approx(1.0))
+    assert (gone.pixel, gone.steady_s) == (None, pytest.approx(1.0))
     away = replace(shown[3], timestamp_s=102.0, depth_unit_m=shown[3].depth_unit_m * 1.1)
-    moved = watch.look(away)
+    moved = watch.process_frame(away)
     assert moved is not None
-    assert (moved.moved, moved.pictures, moved.seconds) == (True, 1, 0.0)
-    with pytest.raises(CardMissing):
-        watch.reading("card")
+    assert (moved.has_moved, moved.frames_used, moved.steady_s) == (True, 1, 0.0)
+    with pytest.raises(CardNotVisible):
+        watch.compute_reading("card")
 
 
 @pytest.mark.parametrize("share", [0.98, 1.02])
 def test_a_camera_whose_depth_is_two_percent_off_is_told(shown: list[Frame], share: float) -> None:
     reading = measure_card(stretched(shown, share), LENS, "card")
     assert reading.scale == pytest.approx(share, abs=0.004)
-    assert not reading.lengths_hold
-    assert reading.angles_hold, "a pure scale leaves angles right"
+    assert not reading.has_valid_lengths
+    assert reading.has_valid_angles, "a pure scale leaves angles right"
 
 
 def test_a_wrong_focal_length_is_told_too(shown: list[Frame]) -> None:
     wide = Camera(1.05 * LENS.fx_px, 1.05 * LENS.fy_px, LENS.cx_px, LENS.cy_px, distortion=LENS.distortion)
-    assert not measure_card(shown, wide, "card").lengths_hold
+    assert not measure_card(shown, wide, "card").has_valid_lengths
 
 
 def test_without_the_whole_card_nothing_is_measured(shown: list[Frame]) -> None:
     hidden = [replace(frame, color_rgb=frame.color_rgb[::1].copy()) for frame in shown]
     for frame in hidden:
         frame.color_rgb[:200] = 230
-    with pytest.raises(CardMissing, match=f"0 of {len(shown)}"):
+    with pytest.raises(CardNotVisible, match=f"0 of {len(shown)}"):
         measure_card(hidden, LENS, "card")
 
 
 @pytest.mark.parametrize("paper", PAPER_MM)
 def test_card_and_wedge_fit_the_paper_and_fold_up(paper: Paper) -> None:
     for sheet in card_sheets(paper):
-        discs = [mark for mark in sheet.marks if isinstance(mark, Disc)]
+        discs = [mark for mark in sheet.items if isinstance(mark, SheetDisc)]
         assert len(discs) == 3
-        lines = [end for mark in sheet.marks if isinstance(mark, SheetLine) for end in (mark.from_mm, mark.to_mm)]
+        lines = [end for mark in sheet.items if isinstance(mark, SheetLine) for end in (mark.from_mm, mark.to_mm)]
         assert min(min(end) for end in lines) > 5.0
         assert max(x for x, _ in lines) < sheet.width_mm - 5.0
         assert max(y for _, y in lines) < sheet.height_mm - 5.0
-        assert any(isinstance(mark, SheetText) and "100 mm" in mark.text for mark in sheet.marks)
+        assert any(isinstance(mark, SheetText) and "100 mm" in mark.text for mark in sheet.items)
 
 
 def test_verdict_sentence_of_a_camera_that_is_out_says_what_is_off() -> None:
@@ -152,7 +154,7 @@ def test_read_checks_of_a_torn_file_gives_the_others(tmp_path: Path) -> None:
         file.write(b"[" * 100_000 + b'\n{"measured": [1], "sd": [1]}\n' + LINE_OF_0_2_0.encode() + b'\n{"when": "202')
     add_check(path, check(2))
     kept = read_checks(path)
-    assert [one.when[:10] for one in kept] == ["2026-11-20", "2026-11-21", "2026-11-22"]
+    assert [one.checked_at[:10] for one in kept] == ["2026-11-20", "2026-11-21", "2026-11-22"]
     assert [one.reading.angle_error_deg for one in kept] == pytest.approx([0.6] * 3)
     assert path.stat().st_mode & 0o077 == 0
 
@@ -163,11 +165,11 @@ def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> No
     path.parent.mkdir()
     write_camera_info(path, LENS, calibration=StoredCalibration("77", NOW.isoformat(), 1.0, 0.0, 0.2, 20))
     (never,) = examine_cameras(tmp_path, NOW + timedelta(days=2))
-    assert (never.state, never.found) == ("warning", "calibrated 2 days ago, never checked")
+    assert (never.state, never.observation) == ("warning", "calibrated 2 days ago, never checked")
     add_check(checks_path(tmp_path, "77"), check(3))
     (good,) = examine_cameras(tmp_path, NOW + timedelta(days=5))
     assert (good.name, good.state, good.remedy) == ("Camera 77", "good", "")
-    assert good.found == f"calibrated 5 days ago, checked 2 days ago: {verdict_sentence(check(3).reading)}"
+    assert good.observation == f"calibrated 5 days ago, checked 2 days ago: {verdict_sentence(check(3).reading)}"
     (old,) = examine_cameras(tmp_path, NOW + timedelta(days=11))
     assert old.state == "warning"
     assert "older than 7 days" in old.remedy
@@ -183,16 +185,16 @@ def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> No
 
 def test_check_status_after_a_calibration_is_not_out(tmp_path: Path) -> None:
     nothing = check_status(tmp_path, "77", NOW)
-    assert (nothing.check, nothing.is_out, nothing.is_due) == (None, False, True)
+    assert (nothing.last_check, nothing.is_out_of_tolerance, nothing.is_due) == (None, False, True)
     for day, scale in ((0, 1.0), (4, 1.02)):
         add_check(checks_path(tmp_path, "77"), check(day, scale=scale))
     now = check_status(tmp_path, "77", NOW + timedelta(days=12))
-    assert (now.is_out, now.is_due, round(now.checked_days)) == (True, True, 8)
+    assert (now.is_out_of_tolerance, now.is_due, round(now.check_age_days)) == (True, True, 8)
     path = new_calibration_path(tmp_path, "77", NOW + timedelta(days=5))
     when = (NOW + timedelta(days=5)).isoformat()
     write_camera_info(path, LENS, calibration=StoredCalibration("77", when, 1.02, 0.0, 0.2, 20))
     later = check_status(tmp_path, "77", NOW + timedelta(days=6))
-    assert (later.is_out, later.is_due) == (False, True), "it is to be checked with the new values"
+    assert (later.is_out_of_tolerance, later.is_due) == (False, True), "it is to be checked with the new values"
 
 
 @pytest.mark.usefixtures("qapp")
@@ -204,7 +206,7 @@ def test_the_command_prints_measures_and_keeps(
     assert len(re.findall(rb"/Type /Page\b", pdf.read_bytes())) == 2
     for k, share in enumerate((1.0, 1.0, 1.02)):
         path = tmp_path / f"{k}.carpusraw"
-        info = SourceInfo("Xtion", LENS, True, None, 2.0, {"serial": "77"}, recorded=check(k).when)
+        info = SourceInfo("Xtion", LENS, True, None, 2.0, {"serial": "77"}, recorded=check(k).checked_at)
         with RawWriter(path, info) as writer:
             for frame in stretched(shown, share):
                 writer.append_frame(frame)
@@ -214,7 +216,7 @@ def test_the_command_prints_measures_and_keeps(
         assert ("measures right" in said.out) == (share == 1.0)
         assert ("calibrate the camera" in said.err) == (share != 1.0)
     kept = read_checks(checks_path(load_settings().data_folder, "77"))
-    assert [one.reading.lengths_hold for one in kept] == [True, True, False]
+    assert [one.reading.has_valid_lengths for one in kept] == [True, True, False]
     assert main(["check-card", str(path)]) == 1, "still out"
     assert len(read_checks(checks_path(load_settings().data_folder, "77"))) == 3, "the same recording counts once"
 

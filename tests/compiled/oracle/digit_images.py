@@ -23,26 +23,26 @@ from carpus.core.compiled.digit_images import (
 )
 from carpus.core.compiled.digits import BENT, OTHER
 from carpus.core.tracking.digit_association import (
-    MERGED_FROM,
-    MERGED_SHARE,
-    SKIN_PX,
-    WAS_SEEN,
+    MERGED_SD_SHARE,
+    MIN_MERGED_AREA_RATIO,
+    MIN_VISIBLE_PROBABILITY,
+    SKIN_SD_PX,
     DigitAssignment,
     DigitScene,
 )
 from carpus.core.tracking.digit_filter import (
     DIGIT_SIZE,
-    SEEN,
-    DigitPoints,
-    DigitsLinearisation,
+    OBSERVED,
+    DigitLinearisation,
+    DigitSigmaPoints,
     DigitView,
-    bent_weights,
+    digit_sigma_weights,
 )
-from carpus.core.tracking.digit_readout import Seat
-from carpus.core.tracking.hand_geometry import CHAINS, CROWDED_PX, CROWDED_RADII, DISCS, SLOTS, is_crowded
-from carpus.core.tracking.palm_association import SHADE_SHARE, WHOLE_FROM
+from carpus.core.tracking.digit_readout import DigitBase
+from carpus.core.tracking.hand_geometry import CROWDED_PX, CROWDED_RADII, N_DIGITS, N_DISCS, N_SLOTS, is_crowded
+from carpus.core.tracking.palm_association import CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.types import FloatArray
 from tests.compiled.oracle.association import compute_log_odds
 from tests.compiled.oracle.palm import camera_slope
@@ -51,10 +51,10 @@ _TILTING = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 
 """Slots (5, 5) that tilt the discs past them."""
 
 
-def linearise_images(points: DigitPoints, view: DigitView, spread: Spread) -> DigitsLinearisation:
+def linearise_images(points: DigitSigmaPoints, view: DigitView, spread: UnscentedParameters) -> DigitLinearisation:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
-    count, weights = BENT.size, bent_weights(spread)
-    image = view.observe(points.disc_m).reshape(CHAINS, 2 * count + 1, 3 * DISCS)
+    count, weights = BENT.size, digit_sigma_weights(spread)
+    image = view.observe(points.disc_m).reshape(N_DIGITS, 2 * count + 1, 3 * N_DISCS)
     value: FloatArray = weights.mean @ image
     plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]
     half = (plus - minus) * (0.5 / weights.scale)  # (5, 6, 9): slope in the axes of the root
@@ -63,18 +63,18 @@ def linearise_images(points: DigitPoints, view: DigitView, spread: Spread) -> Di
     middle = image[:, :1] - value[:, None]
     error = 2.0 * weights.covariance[1] * (np.swapaxes(bend, 1, 2) @ bend)
     error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
-    by_place = camera_slope(view.camera, image[:, 0].reshape(CHAINS, DISCS, 3))
-    by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(CHAINS, 3 * DISCS, -1)
+    by_place = camera_slope(view.camera, image[:, 0].reshape(N_DIGITS, N_DISCS, 3))
+    by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(N_DIGITS, 3 * N_DISCS, -1)
     own = half - points.along @ np.swapaxes(by_constants, 1, 2)
-    slope = np.zeros((CHAINS, 3 * DISCS, DIGIT_SIZE))
-    slope[:, :, SEEN[BENT]] = np.swapaxes(own, 1, 2) @ points.unroot
-    slope[:, :, SEEN[OTHER]] = by_constants
+    slope = np.zeros((N_DIGITS, 3 * N_DISCS, DIGIT_SIZE))
+    slope[:, :, OBSERVED[BENT]] = np.swapaxes(own, 1, 2) @ points.unroot
+    slope[:, :, OBSERVED[OTHER]] = by_constants
     whole = slope @ points.covariance @ np.swapaxes(slope, 1, 2) + error
     centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
-    return DigitsLinearisation(value, slope, error, points.mean, whole, centre, by_place)
+    return DigitLinearisation(value, slope, error, points.mean, whole, centre, by_place)
 
 
-def project_discs(points: DigitPoints, view: DigitView, scale: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+def project_discs(points: DigitSigmaPoints, view: DigitView, scale: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) of the discs, and depths (5, 3)."""
     image, count = view.observe(points.disc_m), BENT.size
     half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
@@ -82,45 +82,45 @@ def project_discs(points: DigitPoints, view: DigitView, scale: float) -> tuple[F
     return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
 
 
-def propagate_palm_error(linearised: DigitsLinearisation, seat: Seat) -> FloatArray:
+def propagate_palm_error(linearised: DigitLinearisation, seat: DigitBase) -> FloatArray:
     """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
-    by_pose = np.empty((CHAINS, DISCS, 3, 6))
+    by_pose = np.empty((N_DIGITS, N_DISCS, 3, 6))
     by_pose[..., :3] = linearised.by_place
     by_pose[..., 3:] = linearised.by_place @ so3.skew(seat.view.translation_m - linearised.centre_m)
-    flat = by_pose.reshape(CHAINS, 9, 6)
+    flat = by_pose.reshape(N_DIGITS, 9, 6)
     return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))
 
 
 def compute_tilts(
-    normal: FloatArray, covariance: FloatArray, linearised: DigitsLinearisation, view: DigitView
+    normal: FloatArray, covariance: FloatArray, linearised: DigitLinearisation, view: DigitView
 ) -> tuple[FloatArray, FloatArray]:
     """Tilt (5, 3) of discs with normals (5, 3, 3) to the line of sight, and its variance (5, 3)."""
     centre = linearised.centre_m
     across = ((normal @ view.rotation.T) * centre).sum(axis=-1)
     distance = np.sqrt((centre * centre).sum(axis=-1))
-    variance = np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] * _TILTING
+    variance = np.diagonal(covariance, axis1=1, axis2=2)[:, :N_SLOTS] * _TILTING
     return np.arccos(np.clip(-across / distance, -1.0, 1.0)), np.cumsum(variance, axis=1)[:, 2:]
 
 
 def compute_inherited(
-    covariance: FloatArray, seat: Seat, linearised: DigitsLinearisation, normal: FloatArray
+    covariance: FloatArray, seat: DigitBase, linearised: DigitLinearisation, normal: FloatArray
 ) -> FloatArray:
     """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from depths that stay wrong."""
-    camera, joints = seat.view.camera, covariance[:, :SLOTS, :SLOTS]
-    unit = np.empty((CHAINS, DISCS, 3, 1))
+    camera, joints = seat.view.camera, covariance[:, :N_SLOTS, :N_SLOTS]
+    unit = np.empty((N_DIGITS, N_DISCS, 3, 1))
     unit[..., :2, 0] = linearised.centre_m[..., 2:] / (np.array([camera.fx_px, camera.fy_px]) * ACROSS_M)
     unit[..., 2, 0] = 1.0 / DEPTH_STAYS_M
-    slope = linearised.slope[..., :SLOTS] * unit.reshape(CHAINS, 9, 1)
+    slope = linearised.slope[..., :N_SLOTS] * unit.reshape(N_DIGITS, 9, 1)
     across = np.swapaxes(slope, 1, 2)
-    doubt = INHERITED * np.linalg.inv(joints + NARROW2 * np.eye(SLOTS))
+    doubt = INHERITED * np.linalg.inv(joints + NARROW2 * np.eye(N_SLOTS))
     response = np.linalg.solve(across @ slope + doubt, across)
     root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
-    turned = response @ (linearised.by_place @ so3.skew(root_m - linearised.centre_m) * unit).reshape(CHAINS, 9, 3)
+    turned = response @ (linearised.by_place @ so3.skew(root_m - linearised.centre_m) * unit).reshape(N_DIGITS, 9, 3)
     in_camera = normal @ seat.view.rotation.T
     moved = -in_camera[..., 2:] * in_camera
     moved[..., 2] += 1.0
     seen = linearised.by_place @ moved[..., None] * (DEPTH_STAYS_M * unit)
-    by_disc = (response.reshape(CHAINS, SLOTS, DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
+    by_disc = (response.reshape(N_DIGITS, N_SLOTS, N_DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
     return np.asarray(turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2))
 
 
@@ -128,7 +128,7 @@ def compute_visibility(
     visible: FloatArray,
     tilt: FloatArray,
     variance: FloatArray,
-    linearised: DigitsLinearisation,
+    linearised: DigitLinearisation,
     view: DigitView,
     dt_s: float,
 ) -> tuple[FloatArray, FloatArray]:
@@ -145,12 +145,12 @@ def compute_disc_odds(
     scene: DigitScene, densities: tuple[float, float, float], gate2: float, impossible: float, assumed: float
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Log odds (15, D) that the blobs are the discs, and whether the blobs' depths are believed (15, D)."""
-    own = np.einsum("rdidj->rdij", scene.spread.reshape(CHAINS, DISCS, 3, DISCS, 3)).reshape(-1, 3, 3)
+    own = np.einsum("rdidj->rdij", scene.spread.reshape(N_DIGITS, N_DISCS, 3, N_DISCS, 3)).reshape(-1, 3, 3)
     expected, blobs = scene.linearised.value.reshape(-1, 3), scene.blobs
     value, with_depth = compute_log_odds(expected, own, blobs.value, blobs.variance, densities, gate2, impossible)
     value = value + (np.log(scene.visible / (1.0 - scene.visible)).ravel() - assumed)[:, None]
     value[:, ~scene.free] = impossible
-    value.reshape(CHAINS, DISCS, -1)[~scene.has_discs] = impossible
+    value.reshape(N_DIGITS, N_DISCS, -1)[~scene.has_discs] = impossible
     return value, with_depth
 
 
@@ -166,17 +166,17 @@ def measured_as_named(
         variance = np.where(is_named[..., None], scene.blobs.variance[blob], 1.0)
         measured[..., 2] = np.where(names.with_depth, measured[..., 2], np.nan)
         # Now that the disc is known, so is the size it would have if it were whole.
-        missing = WHOLE_FROM - scene.area_px[blob] / scene.whole_px
-        wander_px = SHADE_SHARE * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
-        expected = scene.linearised.value.reshape(CHAINS, DISCS, 3)
+        missing = MIN_WHOLE_AREA_SHARE - scene.area_px[blob] / scene.whole_px
+        wander_px = CENTRE_SHIFT_SHARE * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
+        expected = scene.linearised.value.reshape(N_DIGITS, N_DISCS, 3)
         radius_px = settings.marker_radius_m * scene.view.camera.fx_px / expected[..., 2]
         crowded_px = np.where(is_crowded(expected[..., :2], radius_px, CROWDED_RADII), CROWDED_PX, 0.0)
-        own = (noise.pixel_sd_px**2 + SKIN_PX**2 + wander_px**2 + crowded_px**2)[..., None]
+        own = (noise.pixel_sd_px**2 + SKIN_SD_PX**2 + wander_px**2 + crowded_px**2)[..., None]
         variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
         _measure_unresolved(scene, names.assigned, measured, variance)
     else:
-        measured, variance = np.full((CHAINS, DISCS, 3), np.nan), np.ones((CHAINS, DISCS, 3))
-    return measured.reshape(CHAINS, 9), variance.reshape(CHAINS, 9) * scene.noise_factor
+        measured, variance = np.full((N_DIGITS, N_DISCS, 3), np.nan), np.ones((N_DIGITS, N_DISCS, 3))
+    return measured.reshape(N_DIGITS, 9), variance.reshape(N_DIGITS, 9) * scene.noise_factor
 
 
 def _measure_unresolved(
@@ -189,13 +189,13 @@ def _measure_unresolved(
     either lies half of that from the centre, along the line on which they are expected, as surely as that is known. The
     depth is of either. A disc that was hidden a moment ago may have been given any blob.
     """
-    expected, spread = scene.linearised.value.reshape(CHAINS, DISCS, 3), scene.spread
+    expected, spread = scene.linearised.value.reshape(N_DIGITS, N_DISCS, 3), scene.spread
     face_px = scene.disc_m2 * (scene.view.camera.fx_px / expected[..., 2]) ** 2
     area_px = scene.area_px[np.maximum(assigned, 0)]
     alone = (assigned < 0) & scene.has_discs[:, None]
-    known = (assigned >= 0) & (scene.visible >= WAS_SEEN)
-    for chain, disc in np.argwhere(known & (area_px > MERGED_FROM * face_px)).tolist():
-        other = next((d for d in (disc + 1, disc - 1) if 0 <= d < DISCS and alone[chain, d]), None)
+    known = (assigned >= 0) & (scene.visible >= MIN_VISIBLE_PROBABILITY)
+    for chain, disc in np.argwhere(known & (area_px > MIN_MERGED_AREA_RATIO * face_px)).tolist():
+        other = next((d for d in (disc + 1, disc - 1) if 0 <= d < N_DISCS and alone[chain, d]), None)
         if other is None:
             continue
         alone[chain, other] = False
@@ -208,7 +208,7 @@ def _measure_unresolved(
             for i, j in ((3 * disc, 3 * other), (3 * disc + 1, 3 * other + 1))
         )
         shift = gap * (half_px / math.sqrt(gap @ gap + unsure2))
-        stray2 = half_px**2 * (1.0 + MERGED_SHARE**2) - shift @ shift
+        stray2 = half_px**2 * (1.0 + MERGED_SD_SHARE**2) - shift @ shift
         measured[chain, other, :2] = measured[chain, disc, :2] + shift
         variance[chain, other, :2] = variance[chain, disc, :2] + stray2
         measured[chain, disc, :2] -= shift

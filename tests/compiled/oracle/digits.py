@@ -15,21 +15,21 @@ from carpus.core.compiled.digits import BENT, FLOOR, OTHER
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.tracking.digit_filter import (
     DIGIT_SIZE,
-    SEEN,
+    OBSERVED,
     DigitMotion,
-    DigitPoints,
+    DigitSigmaPoints,
     Forgetting,
-    bent_weights,
+    digit_sigma_weights,
 )
-from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, DISCS, SLOTS
+from carpus.core.tracking.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.unscented import Spread
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.types import FloatArray
 
 _DOWN = np.array([1.0, 1.0, -1.0])
 _AXES = np.arange(3)
-_DISC = np.arange(DISCS)
-_PAST = np.tri(DISCS)[..., None]
+_DISC = np.arange(N_DISCS)
+_PAST = np.tri(N_DISCS)[..., None]
 """(3, 3, 1) whether a disc (row) moves with a bone."""
 
 # Rows: slots, fan and roll; columns: azimuth, then of a finger the pitches of its segments and of its discs'
@@ -57,12 +57,12 @@ _FINGER_PHASES = np.array(
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     ]
 )
-_ANGULAR = [*range(SLOTS), SLOTS + 3, SLOTS + 4]
+_ANGULAR = [*range(N_SLOTS), N_SLOTS + 3, N_SLOTS + 4]
 """Slots, fan and roll in joints and constants side by side."""
 
 
 def _of_state(phases: FloatArray) -> FloatArray:
-    spread = np.zeros((SLOTS + CONSTANTS, phases.shape[1]))
+    spread = np.zeros((N_SLOTS + N_CONSTANTS, phases.shape[1]))
     spread[_ANGULAR] = phases
     return spread
 
@@ -83,21 +83,21 @@ def digit_discs_m(root_m: FloatArray, state: FloatArray, chains: list[int] | Non
     """
     turn = np.exp(1j * (state @ (_TURNS if chains is None else _TURNS[chains])))
     thumbs = 1 if chains is None or chains[0] == 0 else 0
-    level, up = np.zeros((*state.shape[:2], DISCS), dtype=np.complex128), np.empty((*state.shape[:2], DISCS))
+    level, up = np.zeros((*state.shape[:2], N_DISCS), dtype=np.complex128), np.empty((*state.shape[:2], N_DISCS))
     level.real[thumbs:], up[thumbs:] = _finger_arcs(state[thumbs:], turn[thumbs:])
     if thumbs:
         level.real[0], level.imag[0], up[0] = _thumb_arc(state[0], turn[0])
     level *= turn[..., :1]
     out = np.empty((*up.shape, 3))
     out[..., 0], out[..., 1], out[..., 2] = level.real, level.imag, up
-    out += (root_m[:, None] + state[..., SLOTS + 5 : SLOTS + 8] * _DOWN)[..., None, :]
+    out += (root_m[:, None] + state[..., N_SLOTS + 5 : N_SLOTS + 8] * _DOWN)[..., None, :]
     return out
 
 
 def _finger_arcs(state: FloatArray, turn: NDArray[np.complex128]) -> tuple[FloatArray, FloatArray]:
     """How far ahead and how high over the knuckle the discs (F, S, 3) of fingers are."""
-    arc = np.cumsum(state[..., SLOTS : SLOTS + DISCS] * turn[..., 1:4], axis=-1)
-    arc += (1j * state[..., SLOTS + 8 :]) * turn[..., 4:]
+    arc = np.cumsum(state[..., N_SLOTS : N_SLOTS + N_DISCS] * turn[..., 1:4], axis=-1)
+    arc += (1j * state[..., N_SLOTS + 8 :]) * turn[..., 4:]
     return arc.real, arc.imag
 
 
@@ -106,16 +106,16 @@ def _thumb_arc(state: FloatArray, turn: NDArray[np.complex128]) -> tuple[FloatAr
 
     In the axes of the metacarpal (its direction, dorsal normal, flexion axis), rolled, then raised.
     """
-    mc, pp, dp = state[:, SLOTS], state[:, SLOTS + 1 : SLOTS + 2], state[:, SLOTS + 2]
-    height = 1j * state[:, SLOTS + 8 :]
+    mc, pp, dp = state[:, N_SLOTS], state[:, N_SLOTS + 1 : N_SLOTS + 2], state[:, N_SLOTS + 2]
+    height = 1j * state[:, N_SLOTS + 8 :]
     # IP1 and TIP1: along the proximal phalanx, and along its normal.
     bent = np.empty((len(state), 2), dtype=np.complex128)
     bent[:, 0], bent[:, 1] = height[:, 1] * turn[:, 5], (dp + height[:, 2]) * turn[:, 4]
     bent += pp
     straight = bent.real * turn[:, 3:4]
     in_plane = (straight.real + 1j * bent.imag) * turn[:, 2:3]
-    over = np.empty((len(state), DISCS), dtype=np.complex128)
-    over[:, 0] = state[:, SLOTS + 8]
+    over = np.empty((len(state), N_DISCS), dtype=np.complex128)
+    over[:, 0] = state[:, N_SLOTS + 8]
     over.real[:, 1:], over.imag[:, 1:] = in_plane.imag, straight.imag
     over *= turn[:, 6:]
     raised = np.empty(over.shape, dtype=np.complex128)
@@ -136,7 +136,7 @@ class DigitFrames:
 
 def digit_frames(state: FloatArray) -> DigitFrames:
     """Directions and normals for states (5, 16) of slots and constants."""
-    both = np.empty((2, CHAINS, DISCS, 3))
+    both = np.empty((2, N_DIGITS, N_DISCS, 3))
     phase = state[1:] @ _FINGER_PHASES
     sin, cos = np.sin(phase), np.cos(phase)
     azimuth_cos, azimuth_sin = cos[:, :1], sin[:, :1]
@@ -147,8 +147,8 @@ def digit_frames(state: FloatArray) -> DigitFrames:
     both[1, 1:, :, 1] = sin[:, 4:] * azimuth_sin
     both[1, 1:, :, 2] = cos[:, 4:]
     # One thumb: plain numbers are quicker than arrays of one.
-    extension, abduction, flexion, aside, bend = state[0, :SLOTS].tolist()
-    azimuth, roll = float(state[0, SLOTS + 3]) + extension, float(state[0, SLOTS + 4])
+    extension, abduction, flexion, aside, bend = state[0, :N_SLOTS].tolist()
+    azimuth, roll = float(state[0, N_SLOTS + 3]) + extension, float(state[0, N_SLOTS + 4])
     c0, s0, c1, s1 = math.cos(azimuth), math.sin(azimuth), math.cos(abduction), math.sin(abduction)
     c2, s2, c3, s3 = math.cos(flexion), math.sin(flexion), math.cos(aside), math.sin(aside)
     cr, sr = math.cos(roll), math.sin(roll)
@@ -173,38 +173,42 @@ def digit_frames(state: FloatArray) -> DigitFrames:
 
 def digit_joints_m(root_m: FloatArray, state: FloatArray, frames: DigitFrames) -> FloatArray:
     """Joint centres (5, 4, 3) of each digit in W, from its root's to the tip, for states (5, 16)."""
-    joints = np.empty((CHAINS, DISCS + 1, 3))
-    joints[:, 0] = root_m + state[:, SLOTS + 5 : SLOTS + 8] * _DOWN
-    joints[:, 1:] = state[:, SLOTS : SLOTS + 3, None] * frames.direction
+    joints = np.empty((N_DIGITS, N_DISCS + 1, 3))
+    joints[:, 0] = root_m + state[:, N_SLOTS + 5 : N_SLOTS + 8] * _DOWN
+    joints[:, 1:] = state[:, N_SLOTS : N_SLOTS + 3, None] * frames.direction
     return np.asarray(np.cumsum(joints, axis=1, out=joints))
 
 
 def slope_by_constants(state: FloatArray, frames: DigitFrames, joints_m: FloatArray) -> FloatArray:
     """Derivative (5, 3 discs, 3, 11) of the discs in W by the constants, for states (5, 16)."""
-    slope = np.zeros((CHAINS, DISCS, 3, CONSTANTS))
-    slope[..., :DISCS] = np.swapaxes(frames.direction[:, None] * _PAST, 2, 3)
+    slope = np.zeros((N_DIGITS, N_DISCS, 3, N_CONSTANTS))
+    slope[..., :N_DISCS] = np.swapaxes(frames.direction[:, None] * _PAST, 2, 3)
     slope[:, _DISC, :, 8 + _DISC] = np.swapaxes(frames.normal, 0, 1)
     slope[..., _AXES, 5 + _AXES] = _DOWN
-    lever = joints_m[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal - joints_m[:, :1]
+    lever = joints_m[:, 1:] + state[:, N_SLOTS + 8 :, None] * frames.normal - joints_m[:, :1]
     slope[..., 0, 3] = -lever[..., 1]
     slope[..., 1, 3] = lever[..., 0]
     slope[0, :, :, 4] = lever[0] @ so3.skew(frames.direction[0, 0])
     return slope
 
 
-def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> DigitPoints:
+def spread_points(
+    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
+) -> DigitSigmaPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
-    bent, other, scale = SEEN[BENT], SEEN[OTHER], bent_weights(spread).scale
+    bent, other, scale = OBSERVED[BENT], OBSERVED[OTHER], digit_sigma_weights(spread).scale
     root = np.linalg.cholesky(covariance[:, bent[:, None], bent] + FLOOR * np.eye(BENT.size))
     unroot = np.linalg.inv(root)
     along = unroot @ covariance[:, bent[:, None], other]
-    step = np.empty((CHAINS, BENT.size, SLOTS + CONSTANTS))
+    step = np.empty((N_DIGITS, BENT.size, N_SLOTS + N_CONSTANTS))
     step[..., BENT], step[..., OTHER] = np.swapaxes(root, 1, 2) * scale, along * scale
-    state = mean[:, SEEN]
+    state = mean[:, OBSERVED]
     point = state[:, None] + np.concatenate((np.zeros_like(step[:, :1]), step, -step), axis=1)
     frames = digit_frames(state)
-    by_constants = slope_by_constants(state, frames, digit_joints_m(root_disc_m, state, frames))[..., OTHER - SLOTS]
-    return DigitPoints(digit_discs_m(root_disc_m, point), unroot, along, by_constants, frames.normal, mean, covariance)
+    by_constants = slope_by_constants(state, frames, digit_joints_m(root_disc_m, state, frames))[..., OTHER - N_SLOTS]
+    return DigitSigmaPoints(
+        digit_discs_m(root_disc_m, point), unroot, along, by_constants, frames.normal, mean, covariance
+    )
 
 
 def _softened(
@@ -222,9 +226,9 @@ def apply_limits(
     mixture: ModeMixture, limits: FloatArray, direction: FloatArray, soft_rad: float, near_sd: float
 ) -> tuple[FloatArray, FloatArray] | None:
     """Means and covariances with the limits (5, 5, 2) of the angles heard; None where none is near."""
-    angle = np.einsum("rks,rjs->rkj", mixture.mean[..., :SLOTS], direction)
-    across = mixture.covariance[..., :SLOTS] @ np.swapaxes(direction, 1, 2)[:, None]  # (5, K, n, 5)
-    shared = direction[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)
+    angle = np.einsum("rks,rjs->rkj", mixture.mean[..., :N_SLOTS], direction)
+    across = mixture.covariance[..., :N_SLOTS] @ np.swapaxes(direction, 1, 2)[:, None]  # (5, K, n, 5)
+    shared = direction[:, None] @ across[..., :N_SLOTS, :]  # (5, K, 5, 5)
     variance = np.diagonal(shared, axis1=-2, axis2=-1)
     limits = limits[:, None]
     reach = near_sd * np.sqrt(variance + soft_rad**2)
@@ -236,7 +240,7 @@ def apply_limits(
     safe, narrowed = np.where(known, variance, 1.0), np.where(known, narrowed, 1.0)
     precision = np.where(known, np.maximum(1.0 / narrowed - 1.0 / safe, 0.0), 0.0)
     pull = np.where(known, -lowered / narrowed - angle / safe - precision * angle, 0.0)
-    inner = np.eye(SLOTS) + precision[..., None] * shared
+    inner = np.eye(N_SLOTS) + precision[..., None] * shared
     gain = np.swapaxes(np.linalg.solve(np.swapaxes(inner, -1, -2), np.swapaxes(across, -1, -2)), -1, -2)
     return (
         mixture.mean + (gain @ pull[..., None])[..., 0],
@@ -248,9 +252,9 @@ def move_digits(
     motion: DigitMotion, dt_s: float, scale2: FloatArray, forgetting: Forgetting | None
 ) -> tuple[FloatArray, FloatArray]:
     """Transition (5, n, n) and noise (5, K, n, n) of a step."""
-    forward = np.repeat(np.eye(DIGIT_SIZE)[None], CHAINS, axis=0)
+    forward = np.repeat(np.eye(DIGIT_SIZE)[None], N_DIGITS, axis=0)
     noise = np.zeros((*scale2.shape, DIGIT_SIZE, DIGIT_SIZE))
-    angle, rate, constant = np.arange(SLOTS), SLOTS + np.arange(SLOTS), 2 * SLOTS + np.arange(CONSTANTS)
+    angle, rate, constant = np.arange(N_SLOTS), N_SLOTS + np.arange(N_SLOTS), 2 * N_SLOTS + np.arange(N_CONSTANTS)
     keep = np.where(motion.stationary2 > 0.0, math.exp(-dt_s / motion.settles_s), 1.0)
     forward[:, angle, angle], forward[:, angle, rate] = keep, dt_s
     density = motion.density[:, None] * scale2[..., None]

@@ -81,7 +81,8 @@ def corrected(
     """Kalman correction of every chain and mode by ``measured`` (C, m), NaN where there is nothing.
 
     ``variance`` (C, m) of the measurements' own errors, ``shared`` (C, m, m) a covariance common to several of them;
-    ``partial`` of :func:`partial_update`. Everything is taken in units of the noise, since pixels and metres differ by
+    ``partial`` of :func:`partial_update_shares`. Everything is taken in units of the noise, since pixels and metres
+    differ by
     orders of magnitude.
     """
     used = np.isfinite(measured)

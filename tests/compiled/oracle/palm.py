@@ -9,30 +9,30 @@ from scipy.linalg import solve_triangular
 
 from carpus.core import so3
 from carpus.core.camera import Camera
-from carpus.core.tracking.kernel import ModeMixture, switching
+from carpus.core.tracking.kernel import ModeMixture, mode_transition_matrix
 from carpus.core.tracking.motion import PalmMotion
 from carpus.core.tracking.palm_state import (
-    MOVING,
     POSE,
     POSITION,
     RATE,
+    RIGID_MOTION,
     SHAPE,
     SIZE,
-    SOFT,
+    SOFT_TISSUE,
     TURN,
     VELOCITY,
     PalmEstimate,
-    View,
+    PalmView,
 )
 from carpus.core.tracking.soft_tissue import HOME, WRIST, DigitSpeeds
-from carpus.core.tracking.unscented import Weights
+from carpus.core.tracking.unscented import SigmaWeights
 from carpus.core.types import FloatArray
 from tests.compiled.oracle.mixture import merged
 
 DISCS, FLOOR = np.arange(6), 1e-14
 _OF_WRIST, _OF_THUMB, _OF_KNUCKLES = slice(0, 3), slice(3, 6), slice(6, 18)
 _OF_DISC = 3 * DISCS[:, None, None] + np.arange(3)[:, None]  # (6, 3, 1): each disc's own u, v, z
-_BY_SHAPE, _BY_SKIN = (first + 3 * DISCS[:, None, None] + np.arange(3) for first in (SHAPE.start, SOFT.start))
+_BY_SHAPE, _BY_SKIN = (first + 3 * DISCS[:, None, None] + np.arange(3) for first in (SHAPE.start, SOFT_TISSUE.start))
 
 
 def right_jacobian(turn_rad: FloatArray) -> FloatArray:
@@ -79,7 +79,9 @@ def switch_modes(motion: PalmMotion, rate_rad_s: FloatArray, dt_s: float, digits
     np.fill_diagonal(by_tissue, 1.0 - leave)
     out: FloatArray = by_tissue[motion.tissue_of[:, None], motion.tissue_of]
     scales, resting = motion.scales.size, motion.scales.size * tissue.resting
-    out[:resting, :resting] *= np.kron(switching(scales, motion.dwell_s, dt_s), np.ones((tissue.resting,) * 2))
+    out[:resting, :resting] *= np.kron(
+        mode_transition_matrix(scales, motion.dwell_s, dt_s), np.ones((tissue.resting,) * 2)
+    )
     out[resting:, :resting] /= scales
     return out
 
@@ -90,10 +92,10 @@ def move_palm(
     """F (12, 12) and Q (K, 12, 12) of what moves, shares kept (K, n), Q of the tissue (K, r, r), the turn (3, 3)."""
     noise, tissue, scales2 = motion.noise, motion.tissue, (motion.scale_of**2)[:, None, None]
     turned, on_the_way = so3.exp(rate_rad_s * dt_s), right_jacobian(rate_rad_s * dt_s)
-    moving = np.eye(MOVING.stop)
+    moving = np.eye(RIGID_MOTION.stop)
     moving[POSITION, VELOCITY] = dt_s * np.eye(3)
     moving[TURN, TURN], moving[TURN, RATE] = turned.T, dt_s * on_the_way
-    driven = np.zeros((motion.modes, MOVING.stop, MOVING.stop))
+    driven = np.zeros((motion.modes, RIGID_MOTION.stop, RIGID_MOTION.stop))
     for place, speed, q, along, unscaled in (
         (POSITION, VELOCITY, noise.push, np.eye(3), np.zeros((3, 3))),
         (TURN, RATE, noise.turning, on_the_way, np.zeros((3, 3)) if unseen is None else unseen),
@@ -107,17 +109,19 @@ def move_palm(
     fading = dt_s / tissue.lasts_s
     if tissue.follows_joints:
         turning_rad_s = float(np.linalg.norm(rate_rad_s))
-        speeds = np.full(SOFT.stop - SOFT.start, max(turning_rad_s, *digits))
+        speeds = np.full(SOFT_TISSUE.stop - SOFT_TISSUE.start, max(turning_rad_s, *digits))
         speeds[_OF_WRIST], speeds[_OF_THUMB], speeds[_OF_KNUCKLES] = turning_rad_s, digits.thumb, digits.fingers
         fading += dt_s / tissue.lasts_rad * speeds
     soft = np.exp(-fading)
     kept = np.ones((motion.modes, SIZE))
-    kept[:, SOFT] = soft[motion.tissue_of]
+    kept[:, SOFT_TISSUE] = soft[motion.tissue_of]
     relaxing = tissue.stationary * (1.0 - soft[:, :, None] * soft[:, None, :])
     return moving, driven, kept, relaxing[motion.tissue_of], turned
 
 
-def see_palm(estimate: PalmEstimate, mixture: ModeMixture, view: View, weights: Weights) -> tuple[FloatArray, ...]:
+def see_palm(
+    estimate: PalmEstimate, mixture: ModeMixture, view: PalmView, weights: SigmaWeights
+) -> tuple[FloatArray, ...]:
     """Value (1, 18), slope (1, 18, n) and error (1, 18, 18) of h; each disc's mean (6, 3) and covariance (6, 3, 3)."""
     root = np.linalg.cholesky(estimate.covariance[POSE[:, None], POSE] + FLOOR * np.eye(POSE.size))
     offset = weights.scale * np.concatenate((np.zeros((1, POSE.size)), root.T, -root.T))
@@ -147,5 +151,5 @@ def reset_errors(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[FloatArra
     mean, covariance = merged(mixture)
     apart = mixture.mean - mean[:, None]
     apart[..., TURN] += 0.5 * (mixture.mean[..., TURN] @ so3.skew(mean[0, TURN]))
-    moved = nominal.moved(mean[0], covariance[0])
+    moved = nominal.add_error(mean[0], covariance[0])
     return moved.rotation_w2_w0, moved.value, moved.covariance, apart

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from carpus.core import so3
-from carpus.core.hand.back_surface import BackSurface
-from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate, View
+from carpus.core.hand.back_surface import DorsalSurface
+from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, SURFACE, TURN, PalmEstimate, PalmView
 from carpus.core.tracking.surface_fit import SurfaceSettings
 from carpus.core.types import FloatArray, SurfaceSamples
 
@@ -15,10 +15,10 @@ KEPT = np.array([0, 1, 5])
 
 
 def measure_surface(
-    estimate: PalmEstimate, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
+    estimate: PalmEstimate, samples: SurfaceSamples, surface: DorsalSurface, view: PalmView, settings: SurfaceSettings
 ) -> tuple[FloatArray | int, ...] | None:
     """What the compiled function tells."""
-    in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
+    in_camera = view.camera.backproject(samples.pixel, samples.depth_m)
     in_w0 = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam
     rotation, position, middle = estimate.rotation_w2_w0, estimate.position_m, surface.middle_m
     shifted, turned = np.zeros(3), np.zeros(3)
@@ -45,7 +45,7 @@ def measure_surface(
     together = shared * kept @ overlap @ kept.T + (1.0 - shared) * kept @ kept.T
     reading_m = max(settings.reading_per_m * depth_m**2, float(sensor.reading_sd_m(depth_m)))
     scatter2 = max(float(weight @ over**2 / weight.sum()), reading_m**2)
-    up_m = float(sensor.stays_sd_m(depth_m)) if sensor.stays_px else 0.0
+    up_m = float(sensor.bias_sd_m(depth_m)) if sensor.stays_px else 0.0
     turn_rad = up_m * view.camera.fx_px / (max(sensor.stays_px, 1.0) * depth_m)
     stays = np.array([settings.turn_sd_rad**2 + turn_rad**2] * 2 + [settings.up_sd_m**2 + up_m**2])
     by_whole = inverse @ (weighed @ by_pose.T)
@@ -53,13 +53,13 @@ def measure_surface(
     by_turn = by_whole[:, :3] + np.cross(middle, by_shift)
     slope = np.zeros((3, SIZE))
     slope[:, TURN], slope[:, POSITION] = by_turn, by_shift @ estimate.rotation_w2_w0.T
-    slope[:, RELIEF] = slope[:, BACK] = np.eye(3)
-    value = by_shift @ shifted + by_turn @ turned - estimate.value[RELIEF] - estimate.value[BACK]
+    slope[:, RELIEF] = slope[:, SURFACE] = np.eye(3)
+    value = by_shift @ shifted + by_turn @ turned - estimate.value[RELIEF] - estimate.value[SURFACE]
     covariance = settings.goes_on * scatter2 * (inverse @ together @ inverse) + np.diag(stays)
     return value, covariance, slope, int(np.count_nonzero(near))
 
 
-def planes_under(place: FloatArray, surface: BackSurface) -> FloatArray:
+def planes_under(place: FloatArray, surface: DorsalSurface) -> FloatArray:
     """Planes (S, 4) of the nodes nearest to places (S, 3) about the surface's middle."""
     rows, columns = surface.height_m.shape
     node = np.rint(place @ surface.to_node[:3] + surface.to_node[3])

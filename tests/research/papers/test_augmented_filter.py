@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
-from carpus.core.research.papers.tracker import AugmentedGaussian, correct, predict, seen_from
-from carpus.core.tracking.unscented import Spread
+from carpus.core.research.papers.tracker import AugmentedGaussian, predict_outputs, predict_state, update_state
+from carpus.core.tracking.unscented import UnscentedParameters
 from carpus.core.types import FloatArray
 
-SPREADS = [Spread(1.0, 2.0, 0.0), Spread(0.25, 2.0, 0.0), Spread(0.5, 0.0, 1.0)]
+SPREADS = [UnscentedParameters(1.0, 2.0, 0.0), UnscentedParameters(0.25, 2.0, 0.0), UnscentedParameters(0.5, 0.0, 1.0)]
 
 
 def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
@@ -19,20 +19,20 @@ def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
 
 
 @pytest.mark.parametrize("spread", SPREADS)
-def test_on_a_linear_model_it_is_the_kalman_filter(spread: Spread) -> None:
+def test_on_a_linear_model_it_is_the_kalman_filter(spread: UnscentedParameters) -> None:
     rng = np.random.default_rng(3)
     n, k, m = 5, 3, 4
     x, p, q = rng.normal(size=n), some_covariance(rng, n), some_covariance(rng, k)
     f, g, h = rng.normal(size=(n, n)), rng.normal(size=(n, k)), rng.normal(size=(m, n))
     r, y = rng.uniform(0.5, 2.0, m), rng.normal(size=m)
 
-    ahead = predict(AugmentedGaussian(x, p), q, lambda states, noise: states @ f.T + noise @ g.T, spread)
+    ahead = predict_state(AugmentedGaussian(x, p), q, lambda states, noise: states @ f.T + noise @ g.T, spread)
     there, spread_there = f @ x, f @ p @ f.T + g @ q @ g.T
     assert np.allclose(ahead.state.mean, there)
     assert np.allclose(ahead.state.covariance, spread_there)
 
-    seen = seen_from(ahead, ahead.points @ h.T)
-    after = correct(ahead, seen, y, r)
+    seen = predict_outputs(ahead, ahead.points @ h.T)
+    after = update_state(ahead, seen, y, r)
     s = h @ spread_there @ h.T + np.diag(r)
     gain = spread_there @ h.T @ np.linalg.inv(s)
     assert np.allclose(seen.covariance + np.diag(r), s)
@@ -42,8 +42,8 @@ def test_on_a_linear_model_it_is_the_kalman_filter(spread: Spread) -> None:
 
 
 def test_nothing_measured_changes_nothing() -> None:
-    ahead = predict(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
-    after = correct(ahead, seen_from(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
+    ahead = predict_state(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
+    after = update_state(ahead, predict_outputs(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
     assert after.state is ahead.state
     assert np.isnan(after.nis)
 
@@ -62,7 +62,7 @@ def shown(state: FloatArray) -> FloatArray:
 
 @pytest.mark.parametrize("spread", SPREADS)
 @pytest.mark.parametrize("seed", range(3))
-def test_predict_and_update_are_filterpys(spread: Spread, seed: int) -> None:
+def test_predict_and_update_are_filterpys(spread: UnscentedParameters, seed: int) -> None:
     rng = np.random.default_rng(seed)
     x, p, q = rng.normal(size=3), 0.02 * some_covariance(rng, 3), 0.03 * some_covariance(rng, 2)
     r, y = np.array([0.04, 0.01]), shown(x) + 0.2 * rng.normal(size=2)
@@ -77,13 +77,13 @@ def test_predict_and_update_are_filterpys(spread: Spread, seed: int) -> None:
     oracle.compute_process_sigmas(1.0)
     predicted_points = oracle.sigmas_f.copy()
     oracle.predict()
-    ahead = predict(AugmentedGaussian(x, p), q, moved, spread)
+    ahead = predict_state(AugmentedGaussian(x, p), q, moved, spread)
     assert np.allclose(ahead.state.mean, oracle.x[:3], rtol=1e-9, atol=1e-12)
     assert np.allclose(ahead.state.covariance, oracle.P[:3, :3], rtol=1e-9, atol=1e-12)
 
     oracle.sigmas_f = predicted_points  # it draws new ones; (9) goes on with those that were moved
     oracle.update(y)
-    after = correct(ahead, seen_from(ahead, shown(ahead.points)), y, r)
+    after = update_state(ahead, predict_outputs(ahead, shown(ahead.points)), y, r)
     assert np.allclose(after.state.mean, oracle.x[:3], rtol=1e-8, atol=1e-10)
     assert np.allclose(after.state.covariance, oracle.P[:3, :3], rtol=1e-8, atol=1e-10)
     assert np.linalg.norm(after.state.mean - ahead.state.mean) > 1e-3
@@ -91,4 +91,4 @@ def test_predict_and_update_are_filterpys(spread: Spread, seed: int) -> None:
 
 def test_a_covariance_that_is_none_is_told() -> None:
     with pytest.raises(np.linalg.LinAlgError):
-        predict(AugmentedGaussian(np.zeros(2), np.diag([1.0, -1.0])), np.eye(1), lambda x, _w: x, SPREADS[0])
+        predict_state(AugmentedGaussian(np.zeros(2), np.diag([1.0, -1.0])), np.eye(1), lambda x, _w: x, SPREADS[0])

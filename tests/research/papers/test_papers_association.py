@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import multivariate_normal
 
-from carpus.core.research.papers.tracker import blobs_of_markers, log_posteriors
+from carpus.core.research.papers.tracker import assign_blobs, log_posteriors
 
 RESOLUTION = 640.0 * 480.0
 
@@ -30,14 +30,14 @@ def test_every_blob_goes_to_the_largest_posterior(seed: int, blobs: int, markers
 
     found = log_posteriors(pixel, predicted, covariance, clutter, RESOLUTION)
     assert found.shape == (blobs, 1 + markers)
-    assert blobs_of_markers(found).tolist() == [wanted.get(j, (0.0, -1))[1] for j in range(markers)]
+    assert assign_blobs(found).tolist() == [wanted.get(j, (0.0, -1))[1] for j in range(markers)]
 
 
 def test_no_blob_looks_at_the_others() -> None:
     """What tells the papers' way from a joint one: the second blob is not given the marker that it could have."""
     predicted, covariance = np.array([[100.0, 100.0], [112.0, 100.0]]), np.broadcast_to(25.0 * np.eye(2), (2, 2, 2))
     pixel = np.array([[101.0, 100.0], [104.0, 100.0]])
-    assert blobs_of_markers(log_posteriors(pixel, predicted, covariance, 0.1, RESOLUTION)).tolist() == [0, -1]
+    assert assign_blobs(log_posteriors(pixel, predicted, covariance, 0.1, RESOLUTION)).tolist() == [0, -1]
 
 
 def test_what_is_far_from_all_is_clutter() -> None:

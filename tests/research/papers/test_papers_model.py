@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.calibration.neutral_pose import by_the_discs
+from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES
-from carpus.core.research.papers.chain import PaperSettings, as_written, hand_measured, palm_modelled
-from carpus.core.research.papers.tracker import PaperMotion, body_turn_by_euler, euler_near, rotation_of
+from carpus.core.research.papers.chain import PaperSettings, calibrate_as_written, measure_hand, model_palm
+from carpus.core.research.papers.tracker import PaperMotion, body_rate_matrix, euler_from_rotation, rotation_from_euler
 from tests.research.papers.hands import MIDDLE_M, calibration, hand_calibration, straight_hand
 from tests.tracking.hands import CAMERA, FROM_ABOVE, RIGHT_PALM_M
 
@@ -22,7 +22,7 @@ SETTINGS = PaperSettings(acceleration_m_s2=2.0, turn_rate_rad_s=1.5, joint_rate_
 def test_the_state_moves_by_equation_1() -> None:
     rng = np.random.default_rng(2)
     state, noise = rng.normal(size=(4, 26)), rng.normal(size=(4, 23))
-    out = PaperMotion(SETTINGS, 17).over(DT_S)(state, noise)
+    out = PaperMotion(SETTINGS, 17).build_transition(DT_S)(state, noise)
     for before, eta, after in zip(state, noise, out, strict=True):
         turned = Rotation.from_euler("ZYX", before[6:9]) * Rotation.from_rotvec(1.5 * eta[3:6] * DT_S)
         assert np.allclose(after[:3], before[:3] + before[3:6] * DT_S)
@@ -34,10 +34,10 @@ def test_the_state_moves_by_equation_1() -> None:
 def test_missing_pictures_add_as_much_noise_as_there_was_time() -> None:
     """Four steps of a frame each, or one of four: the joints are as unsure."""
     noise = np.eye(23)
-    once = PaperMotion(SETTINGS, 17).over(DT_S)(np.zeros((23, 26)), noise)
-    four = PaperMotion(SETTINGS, 17).over(4.0 * DT_S)(np.zeros((23, 26)), noise)
+    once = PaperMotion(SETTINGS, 17).build_transition(DT_S)(np.zeros((23, 26)), noise)
+    four = PaperMotion(SETTINGS, 17).build_transition(4.0 * DT_S)(np.zeros((23, 26)), noise)
     assert np.allclose(np.sum(four[:, 9:] ** 2, axis=0), 4.0 * np.sum(once[:, 9:] ** 2, axis=0))
-    still = PaperMotion(SETTINGS, 17).over(0.0)(np.zeros((23, 26)), noise)
+    still = PaperMotion(SETTINGS, 17).build_transition(0.0)(np.zeros((23, 26)), noise)
     assert not still.any()
 
 
@@ -45,13 +45,13 @@ def test_euler_angles_there_and_back_without_a_jump() -> None:
     rng = np.random.default_rng(5)
     near = rng.uniform(-1.2, 1.2, (50, 3)) + np.array([4.0 * np.pi, 0.0, 0.0])
     there = near + 0.1 * rng.normal(size=near.shape)
-    assert np.allclose(euler_near(rotation_of(there), near), there)
-    assert np.allclose(rotation_of(there), Rotation.from_euler("ZYX", there).as_matrix())
+    assert np.allclose(euler_from_rotation(rotation_from_euler(there), near), there)
+    assert np.allclose(rotation_from_euler(there), Rotation.from_euler("ZYX", there).as_matrix())
 
 
 def test_a_small_change_of_euler_angles_is_that_turn() -> None:
     euler, step = np.array([0.5, -0.7, 0.4]), 1e-6
-    by_euler = body_turn_by_euler(euler)
+    by_euler = body_rate_matrix(euler)
     for axis in range(3):
         moved = Rotation.from_euler("ZYX", euler + step * np.eye(3)[axis])
         turn = (Rotation.from_euler("ZYX", euler).inv() * moved).as_rotvec() / step
@@ -61,7 +61,7 @@ def test_a_small_change_of_euler_angles_is_that_turn() -> None:
 @pytest.mark.parametrize("mirror", [1.0, -1.0])
 def test_the_flat_palm_keeps_lengths_and_angles(mirror: float) -> None:
     palm = RIGHT_PALM_M * [1.0, mirror, 1.0]
-    flat = palm_modelled(palm, "flat")
+    flat = model_palm(palm, "flat")
     assert not flat[:, 2].any()
     assert np.allclose(np.linalg.norm(flat, axis=1), np.linalg.norm(palm, axis=1))
     for disc, laid in zip(palm[1:], flat[1:], strict=True):
@@ -70,12 +70,12 @@ def test_the_flat_palm_keeps_lengths_and_angles(mirror: float) -> None:
         ]
         assert angle[0] == pytest.approx(angle[1], abs=1e-7)
     assert np.array_equal(np.sign(flat[:, 1]), np.sign(palm[:, 1]))
-    assert palm_modelled(palm, "measured") is palm
+    assert model_palm(palm, "measured") is palm
 
 
 def test_the_straight_hand_is_found_as_it_is() -> None:
     anatomy, _ = straight_hand()
-    hand = hand_measured(hand_calibration(FROM_ABOVE), CAMERA, "flat")
+    hand = measure_hand(hand_calibration(FROM_ABOVE), CAMERA, "flat")
     bent = np.linspace(-0.2, 0.6, 17)
     thumb_apart = np.r_[0:21][
         ~np.isin(np.arange(21), (3, 4))
@@ -86,7 +86,7 @@ def test_the_straight_hand_is_found_as_it_is() -> None:
 
 def test_lengths_of_the_chain_are_those_between_the_discs() -> None:
     skin = joint_centres(anatomy_from_size(0.19), np.full(17, 0.15)) * [1.0, -1.0, 1.0]
-    hand = hand_measured(calibration(skin, HAND21, side="left"), CAMERA, "flat")
+    hand = measure_hand(calibration(skin, HAND21, side="left"), CAMERA, "flat")
     rng = np.random.default_rng(1)
     model = hand.discs_m(rng.uniform(-0.5, 1.0, 17))
     for chain in SITE_CHAINS:
@@ -101,15 +101,17 @@ def test_a_disc_without_depth_is_as_far_as_the_one_before() -> None:
     lost[tip] = np.nan
     holed = calibration(whole.marker_position_w0_m, HAND21)
     object.__setattr__(holed, "marker_position_w0_m", lost)
-    flat, measured = hand_measured(holed, CAMERA, "flat"), hand_measured(whole, CAMERA, "flat")
+    flat, measured = measure_hand(holed, CAMERA, "flat"), measure_hand(whole, CAMERA, "flat")
     assert np.allclose(flat.discs_m(np.zeros(17)), measured.discs_m(np.zeros(17)), atol=1e-6)
-    assert np.isnan(as_written(holed, CAMERA, "flat").marker_position_w0_m[tip]).all(), "what is unknown stays unknown"
+    assert np.isnan(calibrate_as_written(holed, CAMERA, "flat").marker_position_w0_m[tip]).all(), (
+        "what is unknown stays unknown"
+    )
 
 
 def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> None:
     before = calibration(RIGHT_PALM_M)
-    after = as_written(before, CAMERA, "flat")
-    flat = palm_modelled(RIGHT_PALM_M, "flat")
+    after = calibrate_as_written(before, CAMERA, "flat")
+    flat = model_palm(RIGHT_PALM_M, "flat")
     point = RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M
     assert np.allclose(after.marker_position_w0_m @ after.rotation_w0_cam.T + after.translation_w0_cam_m, point)
 
@@ -124,7 +126,7 @@ def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> 
         for sign in (1.0, -1.0):
             assert cost(sign * 1e-4 * axis, np.zeros(3)) > least
             assert cost(np.zeros(3), sign * 1e-5 * axis) > least
-    again = by_the_discs(after)
+    again = with_w0_from_markers(after)
     assert np.allclose(
         again.marker_position_w0_m[[0, 3]], [[0.0, 0.0, 0.0], [np.linalg.norm(RIGHT_PALM_M[3]), 0.0, 0.0]]
     )
@@ -132,9 +134,9 @@ def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> 
 
 
 def test_a_palm_taken_as_measured_lies_where_its_discs_are() -> None:
-    after = as_written(calibration(RIGHT_PALM_M), CAMERA, "measured")
+    after = calibrate_as_written(calibration(RIGHT_PALM_M), CAMERA, "measured")
     place = CAMERA.project(after.marker_position_w0_m @ after.rotation_w0_cam.T + after.translation_w0_cam_m)
-    model = palm_modelled(
-        RIGHT_PALM_M @ FROM_ABOVE.T @ by_the_discs(calibration(RIGHT_PALM_M)).rotation_w0_cam, "measured"
+    model = model_palm(
+        RIGHT_PALM_M @ FROM_ABOVE.T @ with_w0_from_markers(calibration(RIGHT_PALM_M)).rotation_w0_cam, "measured"
     )
     assert np.allclose(CAMERA.project(model @ after.rotation_w0_cam.T + after.translation_w0_cam_m), place, atol=1e-6)

@@ -35,7 +35,7 @@ def wrist_tracker(side: Side = "right") -> PaperTracker:
 
 
 def errors_deg(frames: list[TrackedFrame], at) -> FloatArray:  # type: ignore[no-untyped-def]
-    return np.array([np.degrees(frame.moment.angles_rad) - at(frame.timestamp_s) for frame in frames])
+    return np.array([np.degrees(frame.kinematics.angles_rad) - at(frame.timestamp_s) for frame in frames])
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
@@ -48,16 +48,16 @@ def test_a_rigid_palm_without_clutter_is_followed_to_a_few_degrees(
     error = errors_deg(frames, at)
     assert (np.sqrt(np.mean(error**2, axis=0)) < 4.0).all()
     assert all(frame.status is TrackStatus.TRACKED for frame in frames)
-    sd = np.degrees([frame.moment.angles_sd_rad for frame in frames])
+    sd = np.degrees([frame.kinematics.angles_sd_rad for frame in frames])
     assert np.mean(np.abs(error) < 2.0 * sd) > 0.8
-    assert np.isnan(frames[-1].moment.angular_velocity_rad_s).all(), "white in the papers' model"
+    assert np.isnan(frames[-1].kinematics.angular_velocity_rad_s).all(), "white in the papers' model"
 
 
 def test_depth_is_never_looked_at() -> None:
     seen = palm_blobs(swing(1, 30.0), 30)
     wrong = [Detections(b.pixel, np.full(6, 0.2), np.full(6, 1e-6), b.area_px, b.similarity) for b in seen]
     one, other = followed(wrist_tracker(), seen), followed(wrist_tracker(), wrong)
-    assert np.array_equal([f.moment.angles_rad for f in one], [f.moment.angles_rad for f in other])
+    assert np.array_equal([f.kinematics.angles_rad for f in one], [f.kinematics.angles_rad for f in other])
 
 
 def test_a_hand_is_followed_where_nothing_hides() -> None:
@@ -72,15 +72,15 @@ def test_a_hand_is_followed_where_nothing_hides() -> None:
 
     frames = followed(PaperTracker(hand_calibration(rotation), CAMERA, MEASURED), finger_blobs(bent, FRAMES, rotation))
     assert all(frame.status is TrackStatus.TRACKED for frame in frames)
-    error = np.degrees([frame.moment.joint_angles_rad - bent(frame.timestamp_s) for frame in frames])
+    error = np.degrees([frame.kinematics.joint_angles_rad - bent(frame.timestamp_s) for frame in frames])
     rmse = np.sqrt(np.mean(error[15:] ** 2, axis=0))
     assert (rmse[5:] < 6.0).all()
     assert (rmse[5::3] < 2.0).all(), "abduction is what a picture shows"
-    wrist = np.sqrt(np.mean(np.degrees([frame.moment.angles_rad for frame in frames]) ** 2, axis=0))
+    wrist = np.sqrt(np.mean(np.degrees([frame.kinematics.angles_rad for frame in frames]) ** 2, axis=0))
     assert (wrist < 6.0).all()
     last = frames[-1]
-    assert last.moment.joint_position_m.shape == (21, 3)
-    assert np.isfinite(last.moment.joint_angles_sd_rad).all()
+    assert last.kinematics.joint_position_m.shape == (21, 3)
+    assert np.isfinite(last.kinematics.joint_angles_sd_rad).all()
     assert (last.measured_share == 1.0).all()
     assert last.nis_dof == 42
 
@@ -88,7 +88,7 @@ def test_a_hand_is_followed_where_nothing_hides() -> None:
 def test_the_wrist_disc_is_where_position_says() -> None:
     made = calibration(RIGHT_PALM_M)
     for frame in followed(wrist_tracker(), palm_blobs(swing(1, 30.0), 30)):
-        place = made.rotation_w0_cam @ frame.moment.position_m + made.translation_w0_cam_m
+        place = made.rotation_w0_cam @ frame.kinematics.position_m + made.translation_w0_cam_m
         assert np.allclose(place, frame.marker_position_cam_m[0], atol=1e-9)
 
 
@@ -108,15 +108,15 @@ def test_a_hand_out_of_sight_is_predicted_then_lost_and_found_again_at_neutral(w
     assert away[last].timestamp_s - away[19].timestamp_s == pytest.approx(1.5, abs=0.05)
     assert set(status[last:]) == {TrackStatus.LOST}
     assert all(is_unknown(frame) for frame in away[last:])
-    assert all(np.isfinite(frame.moment.angles_rad).all() for frame in away[:last])
-    sd = [frame.moment.angles_sd_rad[1] for frame in away[20:last]]
+    assert all(np.isfinite(frame.kinematics.angles_rad).all() for frame in away[:last])
+    sd = [frame.kinematics.angles_sd_rad[1] for frame in away[20:last]]
     assert (np.diff(sd) > 0.0).all(), "what is not seen grows less sure"
 
     part = blobs(np.delete(seen[0].pixel, 0, axis=0)) if not whole_hand else blobs(seen[0].pixel[:3])
     assert tracker.step(90, 3.0, part).status is TrackStatus.LOST, "not all of the palm is there"
     back = tracker.step(91, 3.1, seen[0])
     assert back.status is TrackStatus.TRACKED
-    assert np.isfinite(back.moment.angles_rad).all()
+    assert np.isfinite(back.kinematics.angles_rad).all()
 
 
 def test_a_gap_in_the_recording_loses_the_hand() -> None:
@@ -136,9 +136,9 @@ def test_nonsense_never_ends_it(seed: int) -> None:
             if frame.status is TrackStatus.LOST:
                 assert is_unknown(frame)
             else:
-                assert np.isfinite(frame.moment.angles_rad).all()
-                assert (frame.moment.angles_sd_rad >= 0.0).all()
-                assert np.isfinite(frame.moment.joint_angles_sd_rad).all()
+                assert np.isfinite(frame.kinematics.angles_rad).all()
+                assert (frame.kinematics.angles_sd_rad >= 0.0).all()
+                assert np.isfinite(frame.kinematics.joint_angles_sd_rad).all()
         assert len(frame.measured_share) in (3, 17)
 
 
@@ -147,5 +147,5 @@ def test_angles_and_sds_are_those_of_the_state() -> None:
     tracker = wrist_tracker()
     frame = followed(tracker, palm_blobs(lambda t: np.array([12.0, 25.0, -14.0]) * min(1.0, t), 40))[-1]
     state = tracker._state
-    assert np.allclose(frame.moment.angles_rad, state.mean[6:9])
-    assert np.allclose(frame.moment.angles_sd_rad, np.sqrt(np.diag(state.covariance)[6:9]))
+    assert np.allclose(frame.kinematics.angles_rad, state.mean[6:9])
+    assert np.allclose(frame.kinematics.angles_sd_rad, np.sqrt(np.diag(state.covariance)[6:9]))
