@@ -32,10 +32,10 @@ from carpus.app.command_line import (
     reopen_closed_streams,
 )
 from carpus.app.commands import COMMANDS
-from carpus.core.durable import DISK_FULL_ERRNOS
-from carpus.core.errors import CarpusFault, DiskFull
-from carpus.core.purpose import PURPOSE
-from carpus.core.version import __version__
+from carpus.core.model.errors import CarpusFault, DiskFull
+from carpus.core.model.purpose import PURPOSE
+from carpus.core.platform.durable import DISK_FULL_ERRNOS
+from carpus.core.platform.version import __version__
 
 EXIT_DONE, EXIT_FAILED = 0, 1
 
@@ -119,7 +119,7 @@ def _run(asked: Sequence[str]) -> int:
 def _describe_failure(cause: Exception) -> str | None:
     """One sentence, or None where nobody is left to tell."""
     if isinstance(cause, CarpusFault):
-        from carpus.core.words import format_fault_line
+        from carpus.core.model.fault_text import format_fault_line
 
         return format_fault_line(cause)
     if isinstance(cause, BrokenPipeError):

@@ -16,13 +16,13 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 
 from carpus.core.capture.devices.cameras import CAMERAS, validate_address
-from carpus.core.errors import CameraUnknown
-from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
-from carpus.core.names import describe_known_names, find_similar_name
-from carpus.core.rounding import format_rounded
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
+from carpus.core.model.errors import CameraUnknown
+from carpus.core.model.names import describe_known_names, find_similar_name
+from carpus.core.model.rounding import format_rounded
 
 if TYPE_CHECKING:
-    from carpus.core.errors import CarpusFault
+    from carpus.core.model.errors import CarpusFault
 
 
 _STOP_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
@@ -64,7 +64,7 @@ def print_message(sentence: str, prefix: str = "carpus") -> None:
 
 def print_fault(fault: CarpusFault) -> None:
     """One line of what a source tells and does not raise."""
-    from carpus.core.words import format_fault_line
+    from carpus.core.model.fault_text import format_fault_line
 
     print_message(format_fault_line(fault))
 
@@ -149,7 +149,7 @@ class CommandParser(argparse.ArgumentParser):
 
 def parse_table_form(text: str) -> TableDialect:
     """The form of tables of a region; a region that there is not is wrong usage."""
-    from carpus.ui.saved_table import regional_table_form
+    from carpus.ui.kit.table_file import regional_table_form
 
     try:
         return regional_table_form(text)

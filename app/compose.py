@@ -13,35 +13,35 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 
-from carpus.app.desktop.care_cameras import MaintenanceCameras
-from carpus.app.desktop.journey import AppServices, MainController
+from carpus.app.desktop.access_log import AccessLogger
+from carpus.app.desktop.appearance import apply_appearance, theme_name
+from carpus.app.desktop.first_start import TourController, WelcomeController
 from carpus.app.desktop.log import LOG_FORMATTER
-from carpus.app.desktop.looks import apply_appearance, theme_name
-from carpus.app.desktop.openings import AccessLogger
+from carpus.app.desktop.main_controller import AppServices, MainController
+from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.preferences import PreferencesController
-from carpus.app.desktop.welcoming import TourController, WelcomeController
 from carpus.app.desktop.window import DataProtection, Desktop
 from carpus.app.settings import LockSettings, Settings, sessions_folder
 from carpus.app.settings import settings_folder as own_settings_folder
 from carpus.core.capture.source import FrameSource
-from carpus.core.errors import CarpusFault, ServerUnavailable
-from carpus.core.records.keeping import RecordRetention
+from carpus.core.model.errors import CarpusFault, ServerUnavailable
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import RecoveredSession, recover_sessions
-from carpus.core.records.set_up import SessionSetup
-from carpus.ui.fault_words import fault_words
-from carpus.ui.records.backing_up import BackupController
-from carpus.ui.records.erasing import DeletionController
-from carpus.ui.records.lists import RecordListsController
-from carpus.ui.records.locking import LockController
-from carpus.ui.shell import MainWindow
-from carpus.ui.theme import Theme
-from carpus.ui.translate import tr
+from carpus.core.records.retention import RecordRetention
+from carpus.core.records.session_setup import SessionSetup
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr
+from carpus.ui.screens.records.backup import BackupController
+from carpus.ui.screens.records.deletion import DeletionController
+from carpus.ui.screens.records.lock import LockController
+from carpus.ui.screens.records.record_lists import RecordListsController
+from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.words.camera_check import camera_words
+from carpus.ui.words.fault_words import fault_words
 
 if TYPE_CHECKING:
-    from carpus.app.desktop.sources import SourceFactory
-    from carpus.ui.settings.screen import SettingsScreen
+    from carpus.app.desktop.source_factory import SourceFactory
+    from carpus.ui.screens.settings.screen import SettingsScreen
 
 
 RenderPractice = Callable[[SessionSetup, Callable[[int, int], None]], tuple[FrameSource, float]]
@@ -77,7 +77,7 @@ def compose(
     @cache
     def sources() -> SourceFactory:
         from carpus.app.desktop.practice import render_practice, render_practice_start
-        from carpus.app.desktop.sources import SourceFactory
+        from carpus.app.desktop.source_factory import SourceFactory
         from carpus.core.records.new_sessions import SessionIntake
 
         beginning = render_practice_start if practice_renderer is None else lambda _: None
@@ -128,7 +128,7 @@ def _show_startup_notices(
 
 def _connect_settings(screen: SettingsScreen, journey: MainController, theme: Theme) -> None:
     """What the settings lead to, and cards that others have."""
-    from carpus.ui.settings.camera_card import CameraCard
+    from carpus.ui.screens.settings.camera_card import CameraCard
 
     way, camera = journey.navigator, journey.camera_state
     card = CameraCard(theme)

@@ -22,14 +22,14 @@ from urllib.parse import urlsplit
 
 import platformdirs
 
-from carpus.core.durable import replace_text, write_fault
-from carpus.core.errors import CarpusFault, SettingsInvalid
-from carpus.core.phrase import phrase
+from carpus.core.model.errors import CarpusFault, SettingsInvalid
+from carpus.core.model.phrase import phrase
+from carpus.core.model.setting_values import NOT_IN_FILE, convert_value, expand_home, settable_names
 from carpus.core.pipeline.live_values import LiveSettings, StartMode
+from carpus.core.platform.durable import replace_text, write_fault
 from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
-from carpus.core.typed_value import NOT_IN_FILE, convert_value, expand_home, settable_names
 
 if TYPE_CHECKING:
     from carpus.core.pipeline.track import TrackSettings

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.core.capture.source import FrameSource, NoticeHandler, ignore_notice
-from carpus.core.errors import IntrinsicsAssumed, RecordingMissing, RecordingUnreadable
-from carpus.core.phrase import phrase
+from carpus.core.model.errors import IntrinsicsAssumed, RecordingMissing, RecordingUnreadable
+from carpus.core.model.phrase import phrase
 
 if TYPE_CHECKING:
     from carpus.app.settings import Settings
@@ -41,7 +41,7 @@ def open_recording(
     source = _open_by_kind(path, _OpenOptions(need_depth, registered, leave_out_damaged, notice))
     if data_folder is None:
         return source
-    from carpus.core.capture.calibrated import with_stored_calibration
+    from carpus.core.capture.calibrated_source import with_stored_calibration
 
     return with_stored_calibration(source, data_folder)
 
@@ -58,7 +58,7 @@ def open_board(recording: Path | None, notice: NoticeHandler) -> FrameSource:
 def open_card(recording: Path | None, settings: Settings, notice: NoticeHandler) -> FrameSource:
     """What a printed card is looked at with, calibrated by what is kept of it: a recording, or None for the live
     camera."""
-    from carpus.core.capture.calibrated import with_stored_calibration
+    from carpus.core.capture.calibrated_source import with_stored_calibration
 
     if recording is None:
         return with_stored_calibration(_open_named_camera(settings, notice), settings.data_folder)
@@ -67,7 +67,7 @@ def open_card(recording: Path | None, settings: Settings, notice: NoticeHandler)
 
 def _open_named_camera(settings: Settings, notice: NoticeHandler) -> FrameSource:
     """The live camera of the settings, named as it was given."""
-    from carpus.core.capture.calibrated import with_given_name
+    from carpus.core.capture.calibrated_source import with_given_name
     from carpus.core.capture.devices.cameras import open_camera
 
     return with_given_name(open_camera(settings.camera.uri, notice=notice), settings.data_folder)

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from carpus.core.version import __version__
+from carpus.core.platform.version import __version__
 
 if TYPE_CHECKING:
-    from carpus.app.python_face import compare, export, open_session, propose_clicks, simulate, track, write_session
+    from carpus.app.python_api import compare, export, open_session, propose_clicks, simulate, track, write_session
 
 __all__ = [
     "__version__", "compare", "export", "open_session", "propose_clicks", "simulate", "track", "write_session",
@@ -23,9 +23,9 @@ def __getattr__(name: str) -> Any:
     """Load a function for researchers, and NumPy and the tracker with it."""
     if name not in __all__:
         raise AttributeError(f"module 'carpus' has no attribute {name!r}")
-    from carpus.app import python_face
+    from carpus.app import python_api
 
-    return getattr(python_face, name)
+    return getattr(python_api, name)
 
 
 def __dir__() -> list[str]:

@@ -28,7 +28,7 @@ OTHERS = "Keeping it running"
 """Of all that no heading names."""
 PYTHON = """# Python interface
 
-::: carpus.app.python_face
+::: carpus.app.python_api
     options:
       members: [track, write_session, open_session, simulate, propose_clicks, export, compare]
       show_root_toc_entry: false

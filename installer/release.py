@@ -30,10 +30,10 @@ class NotReleasableError(Exception):
 
 
 def version_of(text: str) -> str:
-    """Of ``core/version.py``, the one place where it stands."""
+    """Of ``core/platform/version.py``, the one place where it stands."""
     found = re.search(r'^__version__ = "(.+)"', text, re.MULTILINE)
     if found is None:
-        raise NotReleasableError("core/version.py names no version")
+        raise NotReleasableError("core/platform/version.py names no version")
     return found[1]
 
 
@@ -60,7 +60,7 @@ def check_tree(status: str, tags: str, version: str) -> None:
     if status.strip():
         raise NotReleasableError(f"something is not committed: {status.split()[1]}")
     if f"v{version}" in tags.split():
-        raise NotReleasableError(f"v{version} was released already: raise __version__ in core/version.py")
+        raise NotReleasableError(f"v{version} was released already: raise __version__ in core/platform/version.py")
 
 
 def checksums(paths: list[Path]) -> str:

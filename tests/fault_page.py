@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from carpus.core.errors import CarpusFault
-from carpus.core.words import format_fault
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.fault_text import format_fault
 
 PAGE = Path(__file__).parents[1] / "resources" / "faults.md"
 HEAD = """# Fault codes

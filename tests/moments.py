@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from carpus.core.types import TrackedFrame
+from carpus.core.model.types import TrackedFrame
 
 
 def with_moment(frame: TrackedFrame, **values: Any) -> TrackedFrame:

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 
 from carpus.core.calibration.camera.board import Board, Pattern, create_board_sheet
-from carpus.core.calibration.camera.sheet import PrintedSheet, SheetBox, SheetDisc
+from carpus.core.calibration.camera.printed_sheet import PrintedSheet, SheetBox, SheetDisc
 from carpus.core.calibration.card.card import (
     CARD_CORNER_MM,
     FOOT_CORNER_MM,
@@ -24,15 +24,15 @@ from carpus.core.calibration.card.card import (
     card_sheet,
     wedge_sheet,
 )
-from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.source import SERIAL as SAID_SERIAL
 from carpus.core.capture.source import SourceInfo
+from carpus.core.model.camera import DEFAULT_CAMERA, Camera
+from carpus.core.model.types import SIMULATED, FloatArray, Frame
 from carpus.core.simulation.appearance import sample_appearance, to_linear
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor, create_depth_sensor
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trace import FloatImage
-from carpus.core.types import SIMULATED, FloatArray, Frame
+from carpus.core.simulation.sphere_tracing import FloatImage
 
 PX_PER_MM = 8
 FINER = 2

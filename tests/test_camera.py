@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.camera import Camera, DistortionModel
-from carpus.core.types import FloatArray
+from carpus.core.model.camera import Camera, DistortionModel
+from carpus.core.model.types import FloatArray
 
 CAMERA = Camera(520.0, 530.0, 322.0, 236.0)
 RATIONAL_MODEL: DistortionModel = "rational_polynomial"

@@ -13,7 +13,13 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.child_process import BLAS_THREADS, ChildDiedError, ChildProcess, call_in_child, end_with_owner
+from carpus.core.platform.child_process import (
+    BLAS_THREADS,
+    ChildDiedError,
+    ChildProcess,
+    call_in_child,
+    end_with_owner,
+)
 
 ROOT = Path(__file__).parents[1]
 
@@ -61,7 +67,7 @@ def test_child_has_settled_signals_and_threads(is_forked: bool, monkeypatch: pyt
 
 
 def test_module_loads_nothing_large_before_signals_are_settled() -> None:
-    code = "import sys, carpus.core.child_process; print({'h5py', 'numpy', 'PySide6'} & set(sys.modules))"
+    code = "import sys, carpus.core.platform.child_process; print({'h5py', 'numpy', 'PySide6'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.strip() == "set()"
 
@@ -76,7 +82,7 @@ def test_child_that_ignores_its_end_is_killed() -> None:
 
 def test_child_ends_with_its_owner() -> None:
     owner = (
-        "from carpus.core.child_process import ChildProcess\n"
+        "from carpus.core.platform.child_process import ChildProcess\n"
         "child = ChildProcess('tests.test_child_process:sleep_until_owner_goes', name='test')\n"
         "print(child.link.recv(), flush=True)\n"
         "import os, signal; os.kill(os.getpid(), signal.SIGKILL)\n"

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.depth_sensor import (
+from carpus.core.model.depth_sensor import (
     ASSUMED,
     AZURE_KINECT,
     D415,

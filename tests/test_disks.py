@@ -9,8 +9,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from carpus.core import disks
-from carpus.core.disks import (
+from carpus.core.platform import disks
+from carpus.core.platform.disks import (
     check_disk_encryption,
     detect_bitlocker,
     detect_encryption,

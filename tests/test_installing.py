@@ -12,9 +12,9 @@ import pytest
 from carpus.core.capture import doctor
 from carpus.core.capture.devices import orbbec, realsense
 from carpus.core.capture.devices.cameras import CAMERAS, format_udev_rules, load_camera_kind
-from carpus.core.errors import ExtraMissing
-from carpus.core.installing import CAMERAS_EXTRA, install_hint
-from carpus.core.words import format_fault_line
+from carpus.core.model.errors import ExtraMissing
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.installation import CAMERAS_EXTRA, install_hint
 
 ROOT = Path(__file__).parents[1]
 
@@ -50,7 +50,7 @@ def test_only_one_module_speaks_of_pip() -> None:
         for path in (ROOT / part).rglob("*.py")
         if "pip install" in path.read_text(encoding="utf-8")
     }
-    assert speaking == {"core/installing.py"}
+    assert speaking == {"core/model/installation.py"}
 
 
 def test_the_udev_rules_let_every_kind_be_opened(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from carpus.app.__main__ import main
-from carpus.core.provenance import sha256_of_recording, sha256_of_settings, source_revision
+from carpus.core.platform.provenance import sha256_of_recording, sha256_of_settings, source_revision
 from carpus.core.session.reader import read_session
 from tests.rendered import FLEXION, Rendered
 

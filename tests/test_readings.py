@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.motions import create_motion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth, compute_truth
-from carpus.core.types import FloatArray
 from tests.accuracy.readings import Reading, read_figures, reading_of, strokes_of
 
 

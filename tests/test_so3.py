@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from carpus.core import so3
-from carpus.core.types import FloatArray
+from carpus.core.model import so3
+from carpus.core.model.types import FloatArray
 from tests.compiled.oracle.palm import right_jacobian
 
 NO_LIMIT = settings(deadline=None, max_examples=150)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from carpus.core.types import TrackStatus
+from carpus.core.model.types import TrackStatus
 from tests.accuracy import hand21
 from tests.accuracy.carpus import run_on_blobs
 from tests.accuracy.hand21 import ANGLES

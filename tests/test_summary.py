@@ -10,15 +10,14 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.errors import SessionUnfinished
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.errors import SessionUnfinished
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.types import TrackStatus
 from carpus.core.records.recordings import write_session
-from carpus.core.results import session_lines
-from carpus.core.results.figures import compute_session_results
-from carpus.core.results.session_lines import range_lines, recording_summary, session_summary
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.session_summary import _calibration_lines, range_lines, recording_summary, session_summary
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import stack_states
-from carpus.core.types import TrackStatus
 from tests.capture.test_tum import write_recording
 from tests.moments import with_moment
 from tests.session.samples import begun, make_frame, make_header, stored_journal, time_of
@@ -171,4 +170,4 @@ def test_the_forearm_is_told_from_thumb_up_also_where_it_started_elsewhere() -> 
     assert re.search(r"rotation +arc \d+\.\d°$", other), "beside another movement it is no pronation"
     start = np.radians([0.0, 0.0, 30.0])
     began = dataclasses.replace(made, calibration=dataclasses.replace(made.calibration, start_angles_rad=start))
-    assert any("60.0° pronation" in one for one in session_lines._calibration_lines(began))
+    assert any("60.0° pronation" in one for one in _calibration_lines(began))

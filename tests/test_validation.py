@@ -6,7 +6,7 @@ import re
 import shlex
 from pathlib import Path
 
-from carpus.core.provenance import source_revision
+from carpus.core.platform.provenance import source_revision
 from tests.accuracy.jobs import jobs_for
 from tests.accuracy.scenarios import WRIST
 from tests.validation import MOTIONS, main, mountings

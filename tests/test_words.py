@@ -12,7 +12,6 @@ from collections.abc import Iterator
 import pytest
 
 import carpus.core
-from carpus.core import errors
 from carpus.core.calibration.result import (
     FINDING_TEXTS,
     CalibrationFinding,
@@ -20,9 +19,10 @@ from carpus.core.calibration.result import (
     finding_sentence,
     finding_words,
 )
-from carpus.core.errors import CarpusFault
-from carpus.core.hand.protocols import HAND21
-from carpus.core.words import format_fault, format_fault_line, join_marker_names, marker_name
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.fault_text import format_fault, format_fault_line, join_marker_names, marker_name
+from carpus.core.model.hand.protocols import HAND21
 from tests.fault_page import PAGE, fault_page
 
 JARGON = re.compile(r"\b(exception|abort|aborted|null|None|nan)\b", re.IGNORECASE)
@@ -36,7 +36,7 @@ def kinds(of: type[CarpusFault] = CarpusFault) -> Iterator[type[CarpusFault]]:
 
 
 def all_kinds() -> set[type[CarpusFault]]:
-    """Faults are defined in core.errors, but a kind that hides in another module is found too."""
+    """Faults are defined in core.model.errors, but a kind that hides in another module is found too."""
     for module in pkgutil.walk_packages(carpus.core.__path__, "carpus.core."):
         importlib.import_module(module.name)
     return {kind for kind in kinds() if kind.__module__.startswith("carpus.core.")}

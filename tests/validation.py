@@ -25,14 +25,14 @@ from pathlib import Path
 import numpy as np
 
 from carpus import __version__
-from carpus.app.batch.processes import run_tasks
-from carpus.app.batch.work import TrackingTask
+from carpus.app.batch.tracking_task import TrackingTask
+from carpus.app.batch.worker_pool import run_tasks
 from carpus.app.sources import TrackingInput
-from carpus.core.agreement.retest import RetestAnalysis, analyse_retests
-from carpus.core.agreement.study import AgreementStudy, format_study, read_study_table, run_study
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.provenance import source_revision
-from carpus.core.results.figures import compute_session_results
+from carpus.core.platform.provenance import source_revision
+from carpus.core.research.agreement.retest import RetestAnalysis, analyse_retests
+from carpus.core.research.agreement.study import AgreementStudy, format_study, read_study_table, run_study
+from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec

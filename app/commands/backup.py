@@ -8,10 +8,10 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.app.command_line import print_fault, progress_bar
-from carpus.app.of_file import make_server_copier, open_store, user_initials
+from carpus.app.session_commands import make_server_copier, open_store, user_initials
 from carpus.app.settings import load_valid_settings, sessions_folder, settings_folder
-from carpus.core.errors import BackupMissing, CarpusFault
-from carpus.core.rounding import format_rounded
+from carpus.core.model.errors import BackupMissing, CarpusFault
+from carpus.core.model.rounding import format_rounded
 
 EXAMPLE = """carpus backup /media/backup
 carpus backup /media/backup --list"""
@@ -26,8 +26,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.core.records.backup import create_backup, list_backups, prune_backups, verify_backup
+    from carpus.core.records.clinic_records import save_backup_record
     from carpus.core.records.log import AuditLogWriter
-    from carpus.core.records.of_clinic import save_backup_record
 
     place: Path = arguments.place
     settings, _ = load_valid_settings()

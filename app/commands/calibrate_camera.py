@@ -14,7 +14,7 @@ from carpus.app.command_line import number_type, print_fault, print_message, pro
 
 if TYPE_CHECKING:
     from carpus.core.calibration.camera.board import Board
-    from carpus.core.calibration.camera.views import ViewCollector
+    from carpus.core.calibration.camera.board_views import ViewCollector
     from carpus.core.capture.source import FrameSource
 
 EXAMPLE = """carpus calibrate-camera --board board.pdf
@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _print_board(arguments: argparse.Namespace) -> int:
     from carpus.core.calibration.camera.board import BOARDS, create_board_sheet
-    from carpus.core.errors import OutputExists
+    from carpus.core.model.errors import OutputExists
 
     if arguments.board.exists():
         raise OutputExists(arguments.board)
@@ -72,12 +72,12 @@ def _print_board(arguments: argparse.Namespace) -> int:
 def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.app.sources import open_board
+    from carpus.core.calibration.camera.board_views import ViewCollector
     from carpus.core.calibration.camera.calibrate import calibrate_camera, format_calibration
-    from carpus.core.calibration.camera.keep import save_calibration, to_stored_calibration, write_calibration
-    from carpus.core.calibration.camera.views import ViewCollector
-    from carpus.core.capture.calibrated import save_camera_name
-    from carpus.core.dates import is_moment
-    from carpus.core.errors import OutputExists
+    from carpus.core.calibration.camera.storage import save_calibration, to_stored_calibration, write_calibration
+    from carpus.core.capture.calibrated_source import save_camera_name
+    from carpus.core.model.dates import is_moment
+    from carpus.core.model.errors import OutputExists
 
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
@@ -126,7 +126,7 @@ def _boards(arguments: argparse.Namespace) -> list[Board]:
 
 def _collect_views(source: FrameSource, gathering: ViewCollector, *, is_live: bool) -> None:
     """Look at the frames: all of a recording; of a camera until it is enough, or until Ctrl+C."""
-    from carpus.core.calibration.camera.views import WANTED_VIEWS
+    from carpus.core.calibration.camera.board_views import WANTED_VIEWS
 
     said = ""
     if is_live:

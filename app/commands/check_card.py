@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import print_fault, print_message, progress_bar, report_usage_error
-from carpus.core.rounding import format_rounded
+from carpus.core.model.rounding import format_rounded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from carpus.core.calibration.card.card import CardReading
     from carpus.core.capture.source import FrameSource
-    from carpus.core.types import Frame
+    from carpus.core.model.types import Frame
 
 EXAMPLE = """carpus check-card --card card.pdf
 carpus check-card"""
@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.card is not None:
         if arguments.recording is not None:
             return report_usage_error("check-card", "--card only prints; leave out the recording.")
-        from carpus.core.errors import OutputExists
+        from carpus.core.model.errors import OutputExists
 
         if arguments.card.exists():
             raise OutputExists(arguments.card)
@@ -57,8 +57,8 @@ def _check_camera(arguments: argparse.Namespace) -> int:
     from carpus.core.calibration.card.card import verdict_sentence
     from carpus.core.calibration.card.checks import CardCheck, add_check, checks_path, read_checks
     from carpus.core.calibration.card.measure import measure_card
-    from carpus.core.capture.calibrated import save_camera_name
-    from carpus.core.dates import is_moment, to_iso
+    from carpus.core.capture.calibrated_source import save_camera_name
+    from carpus.core.model.dates import is_moment, to_iso
 
     settings = load_settings()
     data_folder = settings.data_folder

@@ -9,9 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.app.command_line import add_region_option, number_type, report_usage_error
-from carpus.core.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S
-from carpus.core.hand.protocols import SITES
-from carpus.core.names import describe_known_names
+from carpus.core.model.hand.protocols import SITES
+from carpus.core.model.names import describe_known_names
+from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S
 
 MAX_LIMIT_DEG = 90.0
 EXAMPLE = "carpus compare session.h5 reference.c3d --output out/agreement"
@@ -88,8 +88,8 @@ def run(arguments: argparse.Namespace) -> int:
         return _compare_study(arguments)
     if arguments.reference is None:
         return report_usage_error("compare", "a session and its reference are needed, or --study TABLE.csv.")
-    from carpus.app.of_file import read_choices
-    from carpus.core.agreement.compared_files import (
+    from carpus.app.session_commands import read_choices
+    from carpus.core.research.agreement.agreement_files import (
         compare_files,
         format_comparison,
         format_limit_verdicts,
@@ -127,9 +127,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _compare_study(arguments: argparse.Namespace) -> int:
     from carpus.app.command_line import progress_bar
-    from carpus.app.of_file import read_choices
-    from carpus.core.agreement.compared_files import format_limit_verdicts
-    from carpus.core.agreement.study import format_study, read_study_table, run_study, write_agreement_study
+    from carpus.app.session_commands import read_choices
+    from carpus.core.research.agreement.agreement_files import format_limit_verdicts
+    from carpus.core.research.agreement.study import format_study, read_study_table, run_study, write_agreement_study
 
     of_one: dict[str, object] = {"columns": {}, "markers": {}, "unit": None, "session": None}
     given = [name for name, usual in of_one.items() if getattr(arguments, name) != usual]

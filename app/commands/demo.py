@@ -8,7 +8,7 @@ from pathlib import Path
 from carpus.app.command_line import progress_bar
 from carpus.app.commands import desktop
 from carpus.app.settings import load_settings, with_data_folder
-from carpus.core.durable import make_private_folder
+from carpus.core.platform.durable import make_private_folder
 
 EXAMPLE = "carpus demo --data-folder out/practice"
 
@@ -23,8 +23,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if desktop.has_display() and not arguments.unattended:
         return desktop.open_window(arguments.data_folder, is_demo=True)
+    from carpus.app.demo_driver import run_demo
     from carpus.app.desktop.log import start_log
-    from carpus.app.unattended import run_demo
 
     start_log()
     settings = with_data_folder(load_settings(), arguments.data_folder)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import print_fault, print_message
-from carpus.app.of_file import log_folder_action
+from carpus.app.session_commands import log_folder_action
 from carpus.app.settings import (
     Settings,
     load_valid_settings,
@@ -20,15 +20,15 @@ from carpus.app.settings import (
     with_data_folder,
     with_saved_folder,
 )
-from carpus.core.durable import make_private_folder
-from carpus.core.errors import CarpusFault, DataFolderChanged, FolderInUse
+from carpus.core.model.errors import CarpusFault, DataFolderChanged, FolderInUse
+from carpus.core.platform.durable import make_private_folder
 from carpus.core.records.reserve import create_reserve
-from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 
 if TYPE_CHECKING:  # nothing of Qt without a display
     from PySide6.QtWidgets import QApplication
 
-    from carpus.app.desktop.alone import SingleInstance
+    from carpus.app.desktop.single_instance import SingleInstance
     from carpus.app.desktop.window import Desktop
 
 
@@ -51,12 +51,12 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
         print_message("there is no display here; “carpus demo” shows the whole way without one.")
         return 1
     gc.disable()  # what is built by a start stays: the collector would look through it again and again, for nothing
-    from carpus.app.desktop import log, looks
+    from carpus.app.desktop import appearance, log
 
     log.start_log()
     loaded, told = load_valid_settings()
     settings = with_data_folder(loaded, data_folder)
-    qt = looks.create_application(["carpus"])
+    qt = appearance.create_application(["carpus"])
     usual = loaded.data_folder if loaded.data_folder.is_dir() else None
     is_reopened = False
     while True:
@@ -93,9 +93,9 @@ def _open_desktop(
     ``default_folder`` is the folder that one named for this start stands in for; None where there is nothing to be
     told."""
     from carpus.app import compose
-    from carpus.app.desktop import no_folder
-    from carpus.app.desktop.alone import SingleInstance
+    from carpus.app.desktop import folder_window
     from carpus.app.desktop.log import show_uncaught_errors
+    from carpus.app.desktop.single_instance import SingleInstance
     from carpus.app.desktop.window import close_on_signals
     from carpus.core.records.restoring import delete_unfinished, has_restored_folder
 
@@ -122,7 +122,7 @@ def _open_desktop(
         except CarpusFault as fault:
             alone.release()
             print_fault(fault)
-            chosen = no_folder.choose_data_folder(qt, settings, fault)
+            chosen = folder_window.choose_data_folder(qt, settings, fault)
             if chosen is None:
                 return 1
             settings = with_saved_folder(settings, chosen)

@@ -11,9 +11,9 @@ from carpus.app.command_line import CAMERA_HELP, parse_camera_address
 from carpus.app.settings import Settings, load_settings
 from carpus.core.calibration.card.checks import examine_cameras
 from carpus.core.capture.doctor import examine
-from carpus.core.errors import CarpusFault
-from carpus.core.version import __version__
-from carpus.core.words import format_fault_line
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.platform.version import __version__
 
 EXAMPLE = "carpus doctor --camera realsense"
 _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}

@@ -7,14 +7,14 @@ from contextlib import closing
 from pathlib import Path
 
 from carpus.app.command_line import print_message
-from carpus.app.of_file import find_data_folder, open_library, require_store
+from carpus.app.session_commands import find_data_folder, open_library, require_store
 from carpus.app.settings import load_valid_settings
-from carpus.core.errors import PatientUnknown, RecordingMissing
-from carpus.core.names import describe_known_names, fold_name
+from carpus.core.model.errors import PatientUnknown, RecordingMissing
+from carpus.core.model.names import describe_known_names, fold_name
+from carpus.core.model.rounding import format_rounded
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.keeping import RecordRetention
 from carpus.core.records.library import Library
-from carpus.core.rounding import format_rounded
+from carpus.core.records.retention import RecordRetention
 from carpus.core.session.reader import read_outline
 
 EXAMPLE = """carpus erase "Fern 12"

@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import add_region_option, print_fault, progress_bar
-from carpus.app.of_file import log_export
-from carpus.core.errors import SessionsMissing
-from carpus.core.formats.formats import FORMATS
-from carpus.core.names import describe_known_names
+from carpus.app.session_commands import log_export
+from carpus.core.formats.export import FORMATS
+from carpus.core.model.errors import SessionsMissing
+from carpus.core.model.names import describe_known_names
 
 EXAMPLE = "carpus export session.h5 --format csv,c3d --output out/export"
 ALL = "all"
@@ -44,8 +44,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.app.of_file import read_choices
-    from carpus.core.formats.formats import ExportRequest, export_sessions
+    from carpus.app.session_commands import read_choices
+    from carpus.core.formats.export import ExportRequest, export_sessions
 
     paths = find_sessions(arguments.sessions)
     with progress_bar("exporting", "file") as progress:

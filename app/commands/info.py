@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import print_fault
-from carpus.app.of_file import log_session_action, read_choices
+from carpus.app.session_commands import log_session_action, read_choices
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.errors import RecordingMissing
-from carpus.core.results.session_lines import recording_summary, session_summary, source_summary
+from carpus.core.model.errors import RecordingMissing
+from carpus.core.results.session_summary import recording_summary, session_summary, source_summary
 from carpus.core.session.reader import read_session
 
 EXAMPLE = "carpus info session.h5"

@@ -6,9 +6,9 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import print_fault, print_message
-from carpus.app.of_file import open_store
+from carpus.app.session_commands import open_store
 from carpus.app.settings import load_valid_settings
-from carpus.core.errors import CarpusFault, OutputExists, PatientListDamaged
+from carpus.core.model.errors import CarpusFault, OutputExists, PatientListDamaged
 
 EXAMPLE = "carpus log --output log.csv"
 HEAD = ("number", "when", "who", "by", "did", "kind", "subject", "facts")
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.core.formats.new_output import require_folder, write_new_table
+    from carpus.core.formats.output_files import require_folder, write_new_table
     from carpus.core.records.log import read_log
 
     settings, _ = load_valid_settings()

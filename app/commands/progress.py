@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import add_region_option, print_fault, report_usage_error
-from carpus.core.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
-from carpus.core.measures.change import ErrorLimits
-from carpus.core.names import describe_known_names, fold_name
+from carpus.core.measures.change_limits import ErrorLimits
+from carpus.core.model.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
+from carpus.core.model.names import describe_known_names, fold_name
 
 if TYPE_CHECKING:
-    from carpus.core.results.figures import SessionResults
+    from carpus.core.results.session_results import SessionResults
 
 EXAMPLE = """carpus progress "Fern 12"
 carpus progress all --output measures.csv"""
@@ -45,8 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.agreement.limits_file import read_limits
     from carpus.core.formats.measures_files import MEASURES_HEADER, to_csv_rows, write_measures
+    from carpus.core.records.limits_file import read_limits
     from carpus.core.results.measures_table import build_measure_rows
     from carpus.core.results.progress import select_latest_versions
 
@@ -63,8 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [row for one in figures for row in build_measure_rows(one, names[id(one)])]
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
-            from carpus.app.of_file import read_report_form
-            from carpus.ui.report.gather import write_progress_report
+            from carpus.app.session_commands import read_report_form
+            from carpus.ui.report.builders import write_progress_report
             from carpus.ui.report.pdf import ensure_application
 
             application = ensure_application()
@@ -87,7 +87,7 @@ def _find_figures(subject: str, places: list[Path], limits: ErrorLimits) -> list
     """Sessions of a patient that can be read, with their figures: of a data folder those that the list of patients has
     as this patient's and not in the archive, of any other the files that carry the pseudonym. Raises
     :class:`PatientUnknown` or :class:`SessionsMissing` for none."""
-    from carpus.app.of_file import has_store
+    from carpus.app.session_commands import has_store
 
     out: list[tuple[Path, SessionResults]] = []
     known: list[str] = []
@@ -105,7 +105,7 @@ def _find_figures(subject: str, places: list[Path], limits: ErrorLimits) -> list
 
 def _figures_in_library(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionResults]], list[str]]:
     """Of a data folder; and the pseudonyms of its patients."""
-    from carpus.app.of_file import open_library
+    from carpus.app.session_commands import open_library
     from carpus.core.records.session_list import SessionFileScanner
 
     with closing(open_library(folder, read_only=True)) as library:
@@ -131,8 +131,8 @@ def _figures_in_files(
     subject: str, place: Path, limits: ErrorLimits
 ) -> tuple[list[tuple[Path, SessionResults]], list[str]]:
     """Of files that lie in no data folder, or are named one by one; and every pseudonym that they carry."""
-    from carpus.app.of_file import find_session_files, read_choices
-    from carpus.core.results.figures import compute_session_results
+    from carpus.app.session_commands import find_session_files, read_choices
+    from carpus.core.results.session_results import compute_session_results
     from carpus.core.session.reader import read_outline, read_session
 
     out = []

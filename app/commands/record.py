@@ -19,15 +19,15 @@ from carpus.app.command_line import (
     report_usage_error,
 )
 from carpus.app.settings import load_settings
-from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
+from carpus.core.capture.calibrated_source import with_given_name, with_stored_calibration
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import FrameSource, find_recording_date
-from carpus.core.dates import to_iso
-from carpus.core.errors import CarpusFault, OutputExists
+from carpus.core.model.dates import to_iso
+from carpus.core.model.errors import CarpusFault, OutputExists
+from carpus.core.model.types import Frame
 from carpus.core.pipeline.recorder import Recorder
-from carpus.core.types import Frame
 
 EXAMPLE = "carpus record --output out/hand.carpusraw --seconds 30"
 MAX_RECORDING_S = 86400.0

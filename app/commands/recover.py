@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import print_fault
-from carpus.app.of_file import log_session_action
-from carpus.core.errors import FolderMissing
+from carpus.app.session_commands import log_session_action
+from carpus.core.model.errors import FolderMissing
 from carpus.core.records.recordings import recover_recordings, spool_folder
 from carpus.core.session.reader import read_outline
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.app.command_line import print_message
-from carpus.app.of_file import log_created_files
+from carpus.app.session_commands import log_created_files
 from carpus.app.settings import ANGLE_ORDERS, load_settings
-from carpus.core.errors import OutputExists
+from carpus.core.model.errors import OutputExists
 from carpus.core.results.ranges import with_angle_order
 from carpus.core.results.report_form import PAPERS
 from carpus.core.session.reader import read_session
@@ -41,17 +41,17 @@ def run(arguments: argparse.Namespace) -> int:
         if named.setdefault(session.header.session_id, session) is not session:
             print_message(f"{path} is left out: it holds a session that was named before.")
     sessions = list(named.values())
-    from carpus.app.of_file import read_choices, read_comment, read_report_form
+    from carpus.app.session_commands import read_choices, read_comment, read_report_form
 
     form = read_report_form(settings.data_folder)
     if arguments.paper:
         form = replace(form, paper=arguments.paper)
     look = {"form": form, "language": arguments.language, "therapist": settings.report.therapist}
     # Qt is loaded only now: a wrong file is told without it.
-    from carpus.core.agreement.limits_file import read_limits
-    from carpus.core.results.figures import compute_session_results
+    from carpus.core.records.limits_file import read_limits
     from carpus.core.results.progress import select_latest_versions
-    from carpus.ui.report.gather import write_progress_report, write_session_report
+    from carpus.core.results.session_results import compute_session_results
+    from carpus.ui.report.builders import write_progress_report, write_session_report
     from carpus.ui.report.pdf import ensure_application
 
     choices = [read_choices(one.path) for one in sessions]

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import print_fault, print_message, progress_bar, report_usage_error
-from carpus.app.of_file import log_folder_action
+from carpus.app.session_commands import log_folder_action
 from carpus.app.settings import load_valid_settings, settings_folder
-from carpus.core.errors import BackupMissing, CarpusFault
-from carpus.core.names import describe_known_names
+from carpus.core.model.errors import BackupMissing, CarpusFault
+from carpus.core.model.names import describe_known_names
 
 if TYPE_CHECKING:
     from carpus.core.records.restoring import LogHistory
@@ -68,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _read_past(place: Path, folder: Path) -> LogHistory:
     """What was done since, as the data folder that was backed up knows it, if it is there, and the newest backup."""
-    from carpus.app.of_file import open_library
+    from carpus.app.session_commands import open_library
     from carpus.core.records.restoring import read_history
     from carpus.core.records.store import has_store
 

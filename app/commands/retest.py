@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import add_region_option, print_fault
-from carpus.app.of_file import read_figures
-from carpus.core.errors import ReferenceUnreadable, StudyUnsuited
-from carpus.core.rounding import format_rounded
+from carpus.app.session_commands import read_figures
+from carpus.core.model.errors import ReferenceUnreadable, StudyUnsuited
+from carpus.core.model.rounding import format_rounded
 
 if TYPE_CHECKING:
     pass
@@ -51,8 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.agreement.limits_file import save_limits
-    from carpus.core.agreement.retest import analyse_retests, write_retests
+    from carpus.core.records.limits_file import save_limits
+    from carpus.core.research.agreement.retest import analyse_retests, write_retests
 
     figures, raters = read_figures(arguments.sessions, print_fault, _read_raters(arguments.raters))
     found = analyse_retests(figures, raters)

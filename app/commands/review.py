@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from carpus.app.commands import desktop
-from carpus.core.errors import SessionMissing
+from carpus.core.model.errors import SessionMissing
 
 EXAMPLE = "carpus review session.h5"
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from carpus.app.command_line import count_type, number_type, progress_bar
-from carpus.core.depth_sensor import SENSORS
-from carpus.core.hand.protocols import protocol_names
-from carpus.core.names import describe_known_names
+from carpus.core.model.depth_sensor import SENSORS
+from carpus.core.model.hand.protocols import protocol_names
+from carpus.core.model.names import describe_known_names
 from carpus.core.simulation.motions import MOTIONS
 from carpus.core.simulation.spec import HABITS, NONE, WORN_ITEMS, RecordingSpec
 

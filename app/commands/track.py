@@ -18,26 +18,26 @@ from carpus.app.command_line import (
     progress_bar,
     report_usage_error,
 )
-from carpus.app.of_file import log_session_action
+from carpus.app.session_commands import log_session_action
 from carpus.app.settings import load_settings
 from carpus.app.sources import is_batch, open_recording, warn_assumed_intrinsics
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
-from carpus.core.capture.paced import PacedSource
+from carpus.core.capture.playback_sources import PacedSource
 from carpus.core.capture.source import RecordingDate
-from carpus.core.dates import to_iso
-from carpus.core.errors import NameUnsuited, RecordingMissing
-from carpus.core.hand.exercises import EXERCISES
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.names import normalize_name
+from carpus.core.model.dates import to_iso
+from carpus.core.model.errors import NameUnsuited, RecordingMissing
+from carpus.core.model.hand.exercises import EXERCISES
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.names import normalize_name
 from carpus.core.pipeline.live import Listener
-from carpus.core.pipeline.told_settings import StoredSettings, list_differences
+from carpus.core.pipeline.stored_settings import StoredSettings, list_differences
 from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
-from carpus.core.research.papers.chain import PaperSettings
-from carpus.core.research.papers.track import PaperTrackSettings, settings_from_json
+from carpus.core.platform.version import __version__
+from carpus.core.research.papers.hand_model import PaperSettings
+from carpus.core.research.papers.track_settings import PaperTrackSettings, settings_from_json
 from carpus.core.session.reader import read_outline, read_session
-from carpus.core.tracking.settings import Profile
-from carpus.core.version import __version__
+from carpus.core.tracking.filter.settings import Profile
 
 EXAMPLE = """carpus track out/demo --calibration out/demo/calibration.json --output out/demo.h5
 carpus track recordings --output sessions"""
@@ -314,7 +314,7 @@ def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> 
 
 def _open_stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener:
     """The open stream of a hand, once somebody listens, though not waited for without end."""
-    from carpus.core.pipeline.stream import SampleStream, import_pylsl
+    from carpus.core.pipeline.lsl_stream import SampleStream, import_pylsl
 
     begun_s: list[float] = []
     stream = SampleStream.open(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
@@ -400,8 +400,10 @@ def warn_of_findings(verdict: Verdict) -> None:
 
 def print_report(report: TrackReport) -> None:
     """Where the session is and its main figures."""
-    from carpus.core.results.figures import compute_session_results  # all measures: nobody waits for them at the start
-    from carpus.core.results.session_lines import range_lines
+    from carpus.core.results.session_results import (
+        compute_session_results,  # all measures: nobody waits for them at the start
+    )
+    from carpus.core.results.session_summary import range_lines
 
     print(f"Session: {report.output}")
     doubtful = f", doubtful {report.doubtful}" if report.doubtful else ""

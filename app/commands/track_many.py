@@ -11,19 +11,19 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.batch.processes import TIME_LIMIT_S, count_cores, run_tasks
-from carpus.app.batch.work import TrackingOutcome, TrackingTask, fault_outcome
+from carpus.app.batch.tracking_task import TrackingOutcome, TrackingTask, fault_outcome
+from carpus.app.batch.worker_pool import TIME_LIMIT_S, count_cores, run_tasks
 from carpus.app.command_line import progress_bar, report_usage_error
 from carpus.app.sources import SESSION_SUFFIX, TrackingInput, plan_inputs
-from carpus.core.durable import write_fault
-from carpus.core.errors import CarpusFault, OutputExists, RecordingMissing
 from carpus.core.formats.measures_files import check_measures_path, open_measures_file
-from carpus.core.formats.new_output import format_cell, write_new_table
+from carpus.core.formats.output_files import format_cell, write_new_table
+from carpus.core.model.errors import CarpusFault, OutputExists, RecordingMissing
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.rounding import format_rounded
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.research.papers.track import settings_from_json
-from carpus.core.rounding import format_rounded
+from carpus.core.platform.durable import write_fault
+from carpus.core.research.papers.track_settings import settings_from_json
 from carpus.core.session.reader import read_outline
-from carpus.core.words import format_fault_line
 
 OUTCOMES_FILE, MEASURES_FILE = "outcomes.csv", "measures.csv"
 _HEAD = ("recording", "session", "outcome", "frames", "tracked_share", "lost_share", "said")
@@ -141,7 +141,7 @@ def _run_tasks(tasks: Sequence[TrackingTask], arguments: argparse.Namespace) -> 
     limit_s = TIME_LIMIT_S if arguments.time_limit is None else 60.0 * arguments.time_limit
     if arguments.scheduler is None:
         return run_tasks(tasks, arguments.jobs or count_cores(), limit_s=limit_s)
-    from carpus.app.batch.processes import run_tasks_on_scheduler
+    from carpus.app.batch.worker_pool import run_tasks_on_scheduler
 
     return run_tasks_on_scheduler(arguments.scheduler, tasks, limit_s)
 

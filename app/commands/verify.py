@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import print_fault, progress_bar
-from carpus.app.of_file import find_data_folder, log_session_action
-from carpus.core.errors import CarpusFault, DamagedFramesExcluded, RecordingDamaged, RecordingMissing
+from carpus.app.session_commands import find_data_folder, log_session_action
+from carpus.core.model.errors import CarpusFault, DamagedFramesExcluded, RecordingDamaged, RecordingMissing
 from carpus.core.session.reader import read_outline, verify
 
 EXAMPLE = "carpus verify session.h5"

@@ -9,14 +9,14 @@ import numpy as np
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand, check_hand_length
 from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, nearest_blob
-from carpus.core.calibration.naming import propose_labels
+from carpus.core.calibration.label_proposal import propose_labels
 from carpus.core.calibration.result import ALL_STRAIGHT, Calibration, Clicks
-from carpus.core.camera import Camera
 from carpus.core.detection.appearance import estimate_radius_px
-from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import Detections, FloatArray, Frame, Side
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.types import Detections, FloatArray, Frame, Side
-from carpus.ui.ports import CalibrationAssessment, CalibrationLimits, FoundMarker, LabelProposal
+from carpus.ui.shell.view_models import CalibrationAssessment, CalibrationLimits, FoundMarker, LabelProposal
 
 SAME_MARKER_PX = 3.0
 """Nearer than this two places are the same disc."""

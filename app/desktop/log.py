@@ -12,8 +12,8 @@ from types import TracebackType
 
 import platformdirs
 
-from carpus.core.durable import make_private_folder
-from carpus.core.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault
+from carpus.core.platform.durable import make_private_folder
 
 SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
 """A path or a file's name with a pseudonym in it."""

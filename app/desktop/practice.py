@@ -11,13 +11,13 @@ from dataclasses import replace
 from typing import Any
 
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.capture.paced import PracticeSource
+from carpus.core.capture.playback_sources import PracticeSource
 from carpus.core.capture.source import FrameSource
-from carpus.core.errors import CarpusFault
-from carpus.core.records.set_up import PRACTICE_REPETITIONS, SessionSetup
+from carpus.core.model.errors import CarpusFault
+from carpus.core.records.session_setup import PRACTICE_REPETITIONS, SessionSetup
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.ui.opening import OpeningCancelledError, Progress
+from carpus.ui.shell.source_opener import OpeningCancelledError, Progress
 
 _SPEED_HZ, _RANGE_SHARE, _SECONDS = 0.4, 0.8, 9.0
 _MOTION_OVERRIDES: dict[str, dict[str, Any]] = {

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QObject, Signal
 
-from carpus.app.desktop.journey import MainController
-from carpus.app.of_file import read_figures
+from carpus.app.desktop.main_controller import MainController
+from carpus.app.session_commands import read_figures
 from carpus.app.settings import (
     LockSettings,
     RecordsSettings,
@@ -18,14 +18,14 @@ from carpus.app.settings import (
     WelcomeSettings,
     save_preferences,
 )
-from carpus.core.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault
 from carpus.core.records.values import BackupSettings
-from carpus.ui.ports import Preferences
-from carpus.ui.theme import Theme, ThemeName
+from carpus.ui.kit.theme import Theme, ThemeName
+from carpus.ui.shell.view_models import Preferences
 
 if TYPE_CHECKING:
-    from carpus.ui.settings.flow import SettingsFlow
-    from carpus.ui.settings.screen import SettingsScreen
+    from carpus.ui.screens.settings.flow import SettingsFlow
+    from carpus.ui.screens.settings.screen import SettingsScreen
 
 
 SETTING_PATHS = {
@@ -71,7 +71,7 @@ class PreferencesController(QObject):
         return cast("SettingsFlow", self._controller.navigator.flow("settings")).screen
 
     def _create_flow(self) -> SettingsFlow:
-        from carpus.ui.settings.flow import SettingsFlow
+        from carpus.ui.screens.settings.flow import SettingsFlow
 
         settings, context = self._settings, self._controller.context
         now = {name: getattr(getattr(settings, part), of) for name, (part, of) in SETTING_PATHS.items()}

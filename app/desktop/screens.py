@@ -8,27 +8,27 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from carpus.ui.flow import Flow, Navigator, ScreenContext
+from carpus.ui.shell.flow import Flow, Navigator, ScreenContext
 
 if TYPE_CHECKING:
-    from carpus.ui.beside.flow import ComparisonFlow
-    from carpus.ui.by_hand.flow import ManualMeasurementsFlow
-    from carpus.ui.camera_calibration.flow import CameraCalibrationFlow
-    from carpus.ui.check_card.flow import CheckCardFlow
-    from carpus.ui.correct.flow import CorrectionFlow
-    from carpus.ui.help.flow import HelpFlow
-    from carpus.ui.live.flow import LiveFlow
-    from carpus.ui.markers.flow import MarkersFlow
-    from carpus.ui.patients.flow import PatientsFlow
-    from carpus.ui.progress.flow import ProgressFlow
-    from carpus.ui.report.flow import ReportFlow
-    from carpus.ui.review.flow import ReviewFlow
-    from carpus.ui.sessions.flow import SessionsFlow
-    from carpus.ui.setup.flow import CameraFlow, ExerciseFlow
+    from carpus.ui.screens.beside.flow import ComparisonFlow
+    from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
+    from carpus.ui.screens.camera_calibration.flow import CameraCalibrationFlow
+    from carpus.ui.screens.check_card.flow import CheckCardFlow
+    from carpus.ui.screens.correct.flow import CorrectionFlow
+    from carpus.ui.screens.help.flow import HelpFlow
+    from carpus.ui.screens.live.flow import LiveFlow
+    from carpus.ui.screens.markers.flow import MarkersFlow
+    from carpus.ui.screens.patients.flow import PatientsFlow
+    from carpus.ui.screens.progress.flow import ProgressFlow
+    from carpus.ui.screens.report.flow import ReportFlow
+    from carpus.ui.screens.review.flow import ReviewFlow
+    from carpus.ui.screens.sessions.flow import SessionsFlow
+    from carpus.ui.screens.setup.flow import CameraFlow, ExerciseFlow
 
 SLOW_CORE_MODULES = (
     "carpus.core.pipeline.correction",
-    "carpus.core.agreement.retest",
+    "carpus.core.research.agreement.retest",
     "carpus.core.calibration.camera.calibrate",
     "carpus.core.calibration.card.measure",
     "carpus.core.results.side_by_side",
@@ -73,63 +73,63 @@ def load_flow_class(place: str) -> Callable[[ScreenContext], Flow]:
     """Load what the screen of a place is made of."""
     match place:
         case "patients":
-            from carpus.ui.patients.flow import PatientsFlow
+            from carpus.ui.screens.patients.flow import PatientsFlow
 
             return PatientsFlow
         case "exercise":
-            from carpus.ui.setup.flow import ExerciseFlow
+            from carpus.ui.screens.setup.flow import ExerciseFlow
 
             return ExerciseFlow
         case "camera":
-            from carpus.ui.setup.flow import CameraFlow
+            from carpus.ui.screens.setup.flow import CameraFlow
 
             return CameraFlow
         case "markers":
-            from carpus.ui.markers.flow import MarkersFlow
+            from carpus.ui.screens.markers.flow import MarkersFlow
 
             return MarkersFlow
         case "live":
-            from carpus.ui.live.flow import LiveFlow
+            from carpus.ui.screens.live.flow import LiveFlow
 
             return LiveFlow
         case "sessions":
-            from carpus.ui.sessions.flow import SessionsFlow
+            from carpus.ui.screens.sessions.flow import SessionsFlow
 
             return SessionsFlow
         case "review":
-            from carpus.ui.review.flow import ReviewFlow
+            from carpus.ui.screens.review.flow import ReviewFlow
 
             return ReviewFlow
         case "progress":
-            from carpus.ui.progress.flow import ProgressFlow
+            from carpus.ui.screens.progress.flow import ProgressFlow
 
             return ProgressFlow
         case "report":
-            from carpus.ui.report.flow import ReportFlow
+            from carpus.ui.screens.report.flow import ReportFlow
 
             return ReportFlow
         case "by_hand":
-            from carpus.ui.by_hand.flow import ManualMeasurementsFlow
+            from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
 
             return ManualMeasurementsFlow
         case "beside":
-            from carpus.ui.beside.flow import ComparisonFlow
+            from carpus.ui.screens.beside.flow import ComparisonFlow
 
             return ComparisonFlow
         case "board":
-            from carpus.ui.camera_calibration.flow import CameraCalibrationFlow
+            from carpus.ui.screens.camera_calibration.flow import CameraCalibrationFlow
 
             return CameraCalibrationFlow
         case "card":
-            from carpus.ui.check_card.flow import CheckCardFlow
+            from carpus.ui.screens.check_card.flow import CheckCardFlow
 
             return CheckCardFlow
         case "help":
-            from carpus.ui.help.flow import HelpFlow
+            from carpus.ui.screens.help.flow import HelpFlow
 
             return HelpFlow
         case "correct":
-            from carpus.ui.correct.flow import CorrectionFlow
+            from carpus.ui.screens.correct.flow import CorrectionFlow
 
             return CorrectionFlow
     raise KeyError(place)
@@ -148,6 +148,6 @@ def load_screens() -> Iterator[str]:
     for place in PLACES:
         load_flow_class(place)
         yield place
-    for module in ("carpus.ui.settings.flow",):
+    for module in ("carpus.ui.screens.settings.flow",):
         import_module(module)
         yield module

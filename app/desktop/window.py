@@ -11,21 +11,21 @@ from PySide6.QtCore import QMetaObject, QObject, Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
 from carpus.app.command_line import handle_stop_signals
-from carpus.app.desktop.journey import MainController
+from carpus.app.desktop.first_start import TourController, WelcomeController
+from carpus.app.desktop.main_controller import MainController
 from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.desktop.screens import load_core, load_screens
-from carpus.app.desktop.welcoming import TourController, WelcomeController
 from carpus.core.records.library import Library
-from carpus.ui.background import Background
-from carpus.ui.collector import GarbageCollector
-from carpus.ui.last_places import RecentLocations, encode_geometry, restore_window
-from carpus.ui.records.backing_up import BackupController
-from carpus.ui.records.erasing import DeletionController
-from carpus.ui.records.lists import RecordListsController
-from carpus.ui.records.locking import LockController
-from carpus.ui.shell import MainWindow
-from carpus.ui.theme import Theme
-from carpus.ui.translate import tr
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.garbage_collection import GarbageCollector
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr
+from carpus.ui.screens.records.backup import BackupController
+from carpus.ui.screens.records.deletion import DeletionController
+from carpus.ui.screens.records.lock import LockController
+from carpus.ui.screens.records.record_lists import RecordListsController
+from carpus.ui.shell.main_window import MainWindow
+from carpus.ui.shell.recent_locations import RecentLocations, encode_geometry, restore_window
 
 PRELOAD_DELAY_MS = 200
 """After the first picture, which need not wait for it."""

@@ -10,9 +10,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import assign_nearest
 from carpus.core.calibration.candidates import find_marker_candidates, is_paper
-from carpus.core.calibration.name_checks import (
+from carpus.core.calibration.label_checks import (
     MAX_DEPTH_OFFSET_M,
     SAME_MARKER_RADII,
     SAME_SPOT_PX,
@@ -22,17 +21,15 @@ from carpus.core.calibration.name_checks import (
     is_other_side,
     plan_view,
 )
-from carpus.core.calibration.neutral_pose import estimate_neutral_pose
-from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
-from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.calibration.still_depth import (
+from carpus.core.calibration.neutral_depth import (
     COMPARED_WIDTH_PX,
     MIN_OFFSET_PX,
     estimate_back_surface,
     estimate_depth_offset_px,
 )
-from carpus.core.camera import Camera
-from carpus.core.depth_sensor import DepthSensor
+from carpus.core.calibration.neutral_pose import estimate_neutral_pose
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
+from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import (
     MAX_CLICK_DISTANCE_RADII,
     MarkerAppearance,
@@ -42,9 +39,12 @@ from carpus.core.detection.appearance import (
 )
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
-from carpus.core.hand.clinical_angles import wrist_axes
-from carpus.core.types import Detections, FloatArray, Frame, Region
+from carpus.core.model.assignment import assign_nearest
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
+from carpus.core.model.hand.clinical_angles import wrist_axes
+from carpus.core.model.types import Detections, FloatArray, Frame, Region
 
 _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""

@@ -9,13 +9,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
 from carpus.core.detection import appearance
 from carpus.core.detection.appearance import MAX_CLICK_DISTANCE_RADII, estimate_radius_px, learn_appearance
 from carpus.core.detection.components import find_components
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.types import ByteImage, Detections, FloatArray, Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import ByteImage, Detections, FloatArray, Frame
 
 PAPER_HSV_RANGE: tuple[tuple[int, ...], ...] = ((90, 60, 30), (130, 255, 255))
 """Lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""

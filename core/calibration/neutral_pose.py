@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core import so3
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.hand.clinical_angles import wrist_axes
-from carpus.core.types import FloatArray
+from carpus.core.model import so3
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.clinical_angles import wrist_axes
+from carpus.core.model.types import FloatArray
 
 _MAX_ITERATIONS = 30
 _CONVERGED_STEP = 1e-12

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from carpus.core.hand.back_surface import DorsalSurface
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.phrase import Phrase, phrase
-from carpus.core.types import FloatArray, Side
-from carpus.core.words import MessageText, Translate, join_marker_names, join_sentences, marker_name
+from carpus.core.model.fault_text import MessageText, Translate, join_marker_names, join_sentences, marker_name
+from carpus.core.model.hand.dorsal_surface import DorsalSurface
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.types import FloatArray, Side
 
 FindingKind = Literal[
     "click_on_no_marker",

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 import yaml
 
-from carpus.core.camera import DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
-from carpus.core.dates import is_moment
-from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, parse_sensor
-from carpus.core.durable import open_private, write_fault
-from carpus.core.errors import CameraFileUnreadable, OutputExists
-from carpus.core.phrase import phrase
-from carpus.core.types import SIMULATED
+from carpus.core.model.camera import DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
+from carpus.core.model.dates import is_moment
+from carpus.core.model.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, parse_sensor
+from carpus.core.model.errors import CameraFileUnreadable, OutputExists
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import SIMULATED
+from carpus.core.platform.durable import open_private, write_fault
 
 CAMERA_FILE = "camera_info.yaml"
 _DEFAULT_MODEL: DistortionModel = "plumb_bob"

@@ -31,8 +31,7 @@ from carpus.core.capture.devices.cameras import (
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
-from carpus.core.disks import check_disk_encryption, detect_encryption
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CameraBusy,
     CameraLost,
     CameraMismatch,
@@ -43,11 +42,12 @@ from carpus.core.errors import (
     DriverMissing,
     ExtraMissing,
 )
-from carpus.core.installing import Finding, install_hint, is_packed
-from carpus.core.phrase import phrase
-from carpus.core.rounding import format_rounded
-from carpus.core.types import Frame
-from carpus.core.words import format_fault
+from carpus.core.model.fault_text import format_fault
+from carpus.core.model.installation import Finding, install_hint, is_packed
+from carpus.core.model.phrase import phrase
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import Frame
+from carpus.core.platform.disks import check_disk_encryption, detect_encryption
 
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
 WINDOW_LIBRARIES = ("GL", "EGL", "fontconfig", "dbus-1", "xkbcommon", "xcb-cursor")

@@ -12,10 +12,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import DEFAULT_CAMERA, DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
 from carpus.core.capture.camera_info import rescale_camera
 from carpus.core.capture.video_mode import Lens, PixelFormat
-from carpus.core.types import Frame
+from carpus.core.model.camera import DEFAULT_CAMERA, DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
+from carpus.core.model.types import Frame
 
 T = TypeVar("T")
 

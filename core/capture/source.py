@@ -14,11 +14,11 @@ from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 
-from carpus.core.camera import Camera
-from carpus.core.dates import is_moment, moment_from_timestamp, to_iso
-from carpus.core.depth_sensor import DepthSensor
-from carpus.core.errors import CarpusFault
-from carpus.core.types import SIMULATED, Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.dates import is_moment, moment_from_timestamp, to_iso
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.types import SIMULATED, Frame
 
 SERIAL, SERIAL_GIVEN = "serial", "serial_given"
 """Settings of a source: which camera it is, and that its number is a name that a person gave."""

@@ -11,7 +11,7 @@ from importlib import import_module
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
-from carpus.core.errors import CompiledPartMissing
+from carpus.core.model.errors import CompiledPartMissing
 
 
 def find_sources(folder: Path) -> list[str]:

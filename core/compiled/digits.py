@@ -19,7 +19,7 @@ from cython.cimports.libc.math import cos, erfc, exp, sin, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.palm import require_array
-from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.model.hand.kinematics import DIP_PER_PIP
 
 FLOOR = 1e-14
 """Variance that keeps the covariance of slots that do not move positive definite."""

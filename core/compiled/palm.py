@@ -1,7 +1,8 @@
 """The palm in every frame: how it moves, what the camera should see of it, and its errors reset after an update.
 
 Symbols of the wrist paper: R rotation, omega angular velocity, P covariance of the error vector (54,), whose numbers
-stand where ``core/tracking/palm_state.py`` says. An error d of the turn means R Exp(d). K modes, J of the soft tissue.
+stand where ``core/tracking/filter/palm_state.py`` says. An error d of the turn means R Exp(d). K modes, J of the soft
+tissue.
 """
 
 from __future__ import annotations

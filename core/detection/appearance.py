@@ -11,13 +11,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import assign_nearest
-from carpus.core.camera import Camera
 from carpus.core.compiled.blobs import BlobWindows, mask_paper
 from carpus.core.detection.components import Components, find_components
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import get_stencil
-from carpus.core.types import ByteImage, FloatArray, Frame
+from carpus.core.model.assignment import assign_nearest
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import ByteImage, FloatArray, Frame
 
 SMALL_RADIUS_M = 0.004
 """Radius of the small paper discs (reference 2)."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.compiled.blobs import find_blobs
-from carpus.core.types import ByteImage, FloatArray
+from carpus.core.model.types import ByteImage, FloatArray
 
 
 @dataclass(frozen=True, slots=True)

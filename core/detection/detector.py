@@ -10,14 +10,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
 from carpus.core.compiled.blobs import BlobWindows
 from carpus.core.detection import appearance
 from carpus.core.detection.appearance import MarkerAppearance, build_paper_mask, classify_paper_colors
 from carpus.core.detection.components import find_components
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import get_stencil
-from carpus.core.types import ByteImage, DepthImage, Detections, FloatArray, Frame, Region
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import ByteImage, DepthImage, Detections, FloatArray, Frame, Region
 
 REGION_SD = 4.0
 """A disc is looked for within so many standard deviations of where it is expected."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carpus.core.compiled.samples import sample_discs, sample_outline
-from carpus.core.types import (
+from carpus.core.model.types import (
     FINGER_SAMPLE_STEP_PX,
     MAX_FINGER_READINGS,
     MAX_SURFACE_READINGS,

@@ -17,10 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from carpus.core.errors import OutputExists
-from carpus.core.formats.new_output import TAB_DIALECT, write_new_json, write_new_table, write_new_text
-from carpus.core.formats.provenance import DAY_ZERO
-from carpus.core.formats.take import (
+from carpus.core.formats.export_item import (
     ANGLE_DEFINITIONS,
     CAMERA_AXES,
     W0_AXES,
@@ -29,9 +26,12 @@ from carpus.core.formats.take import (
     frame_rate_hz,
     is_measured,
 )
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.formats.export_provenance import DAY_ZERO
+from carpus.core.formats.output_files import TAB_DIALECT, write_new_json, write_new_table, write_new_text
+from carpus.core.model.errors import OutputExists
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.types import FloatArray
 from carpus.core.session.values import Session
-from carpus.core.types import FloatArray
 
 BIDS_VERSION = "1.11.0"
 OWN_FOLDER = "bids"

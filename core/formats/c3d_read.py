@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from carpus.core.errors import ReferenceUnreadable
-from carpus.core.phrase import phrase
-from carpus.core.types import FloatArray
+from carpus.core.model.errors import ReferenceUnreadable
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import FloatArray
 
 BLOCK = 512
 INTEL, DEC, SGI = 84, 85, 86

@@ -16,8 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.new_output import open_new_file
-from carpus.core.formats.take import (
+from carpus.core.formats.export_item import (
     CAMERA_AXES,
     ExportItem,
     UniformTimes,
@@ -25,8 +24,9 @@ from carpus.core.formats.take import (
     joint_centres_cam_m,
     repetition_events,
 )
+from carpus.core.formats.output_files import open_new_file
+from carpus.core.model.types import FloatArray
 from carpus.core.session.values import Event, Session
-from carpus.core.types import FloatArray
 
 BLOCK = 512
 INTEL = 84

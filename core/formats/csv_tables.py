@@ -16,23 +16,30 @@ from pathlib import Path
 
 import numpy as np
 
+from carpus.core.formats.export_item import (
+    ANGLE_DEFINITIONS,
+    CAMERA_AXES,
+    W0_AXES,
+    ExportItem,
+    format_number,
+    is_measured,
+)
 from carpus.core.formats.measures_files import MEASURES_HEADER, to_csv_rows
-from carpus.core.formats.new_output import MACHINE_DIALECT, format_cell, write_new_json, write_new_table
-from carpus.core.formats.take import ANGLE_DEFINITIONS, CAMERA_AXES, W0_AXES, ExportItem, format_number, is_measured
-from carpus.core.hand.exercises import PRONOSUPINATION
-from carpus.core.hand.forearm_rotation import (
+from carpus.core.formats.output_files import MACHINE_DIALECT, format_cell, write_new_json, write_new_table
+from carpus.core.measures.manual_measurements import COLUMNS, to_rows
+from carpus.core.model.hand.exercises import PRONOSUPINATION
+from carpus.core.model.hand.forearm_rotation import (
     is_counted_from_thumb_up,
     supination_from_thumb_up,
     to_clinical_wrist_angles,
 )
-from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.by_hand import COLUMNS, to_rows
-from carpus.core.results.figures import SessionResults
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.types import TrackStatus
 from carpus.core.results.measures_table import MEASURE_COLUMNS, build_measure_rows, positive_direction
 from carpus.core.results.motion_curves import motion_columns
 from carpus.core.results.repetition_rows import trained_angle_name
+from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Motion, RepetitionRow, Session
-from carpus.core.types import TrackStatus
 
 STATUS = "tracked: at least 3 palm markers measured; predicted: fewer; lost: nothing known; doubtful: contradicted"
 ESTIMATES = (

@@ -10,8 +10,7 @@ from dataclasses import astuple, fields
 from pathlib import Path
 from typing import Any
 
-from carpus.core.errors import ExtraMissing, OutputExists
-from carpus.core.formats.new_output import (
+from carpus.core.formats.output_files import (
     MACHINE_DIALECT,
     TableDialect,
     escape_formula,
@@ -19,6 +18,7 @@ from carpus.core.formats.new_output import (
     open_new_file,
     write_new_table,
 )
+from carpus.core.model.errors import ExtraMissing, OutputExists
 from carpus.core.results.measures_table import MeasureRow
 
 PARQUET = ".parquet"

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.new_output import open_new_file, write_new_json
-from carpus.core.formats.take import ANGLE_DEFINITIONS, ExportItem
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.formats.export_item import ANGLE_DEFINITIONS, ExportItem
+from carpus.core.formats.output_files import open_new_file, write_new_json
+from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.results.measures_table import positive_direction
 from carpus.core.session.values import Motion, Session
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats.c3d_read import PointTrack, zeros_to_nan
 from carpus.core.formats.table_read import is_non_numeric, parse_number, read_text
-from carpus.core.phrase import phrase
-from carpus.core.types import FloatArray
+from carpus.core.model.errors import ReferenceUnreadable
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import FloatArray
 
 _METRES = {"mm": 1e-3, "m": 1.0, "cm": 1e-2}
 

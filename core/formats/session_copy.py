@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.camera import Camera
-from carpus.core.formats.provenance import reproject_pixels
-from carpus.core.formats.take import ExportItem
+from carpus.core.formats.export_item import ExportItem
+from carpus.core.formats.export_provenance import reproject_pixels
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import TrackedFrame, TrackStatus
 from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import DetectionTable, iter_states
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import TrackedFrame, TrackStatus
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:

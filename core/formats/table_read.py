@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from carpus.core.errors import ReferenceUnreadable
-from carpus.core.phrase import phrase
+from carpus.core.model.errors import ReferenceUnreadable
+from carpus.core.model.phrase import phrase
 
 MAX_BYTES = 1 << 30
 MAX_HEADER_LINE = 200

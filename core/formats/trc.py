@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.new_output import open_new_file, write_new_json
-from carpus.core.formats.take import CAMERA_AXES, ExportItem, format_number
+from carpus.core.formats.export_item import CAMERA_AXES, ExportItem, format_number
+from carpus.core.formats.output_files import open_new_file, write_new_json
 
 ROTATION_UP_CAM = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Camera axes to OpenSim's: the camera looks down, so that away from it is down; X stays, Z is down the picture."""

@@ -10,7 +10,7 @@ import numpy as np
 from carpus.core.measures.noise import STATIC_SHARE_OF_SD, clean_cutoff_hz, estimate_extreme, moving_noise
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import Signal, low_pass
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 MIN_REPETITIONS_FOR_SD = 3
 """Fewer repetitions are listed one by one: they have no mean worth a spread."""

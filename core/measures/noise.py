@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.measures.signals import Signal, low_pass
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 MOVING_SHARE_OF_SD = 0.5
 """Share of a stated standard deviation that moves from frame to frame; the rest is the calibration's."""

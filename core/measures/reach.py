@@ -22,7 +22,7 @@ from carpus.core.measures.noise import (
 from carpus.core.measures.repetitions import MIN_RANGE_RAD, Stroke, find_repetitions
 from carpus.core.measures.signals import Signal, low_pass, rate_of_change
 from carpus.core.measures.speed import MIN_PEAK_M_S, ONSET_SPEED_SHARE, count_speed_peaks, sparc
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 MIN_CHORD_M = 0.050
 MIN_PEAK_RISE_M_S = 0.020

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.measures.signals import Signal, find_runs, low_pass
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 COUNTING_CUTOFF_HZ = 4.0
 MIN_RANGE_RAD = math.radians(10.0)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray, TrackStatus
+from carpus.core.model.types import FloatArray, TrackStatus
 
 BoolArray = NDArray[np.bool_]
 

@@ -31,7 +31,7 @@ from carpus.core.measures.noise import (
 )
 from carpus.core.measures.repetitions import MIN_RANGE_RAD, Stroke
 from carpus.core.measures.signals import SPEED_CUTOFF_HZ, Signal, find_runs, low_pass, rate_of_change
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 MIN_SAMPLES = 8
 MIN_PEAK_RAD_S = math.radians(5.0)

@@ -12,9 +12,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from carpus.core.pipeline.channels import BlockingQueue, BoundedQueue, QueueClosedError, QueueFullError
+from carpus.core.model.types import Frame, TrackedFrame
+from carpus.core.pipeline.queues import BlockingQueue, BoundedQueue, QueueClosedError, QueueFullError
 from carpus.core.pipeline.recording import LiveRecording
-from carpus.core.types import Frame, TrackedFrame
 
 MAX_PREVIEW_WAITING = 16
 """Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""

@@ -18,10 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.child_process import ChildProcess, lower_priority
-from carpus.core.errors import CarpusFault, MarkersNotCorrectable, OutputExists, ReanalysisFailed
-from carpus.core.phrase import phrase
-from carpus.core.pipeline.told_settings import settings_from_json
+from carpus.core.model.errors import CarpusFault, MarkersNotCorrectable, OutputExists, ReanalysisFailed
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import BoolArray, Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame
+from carpus.core.pipeline.stored_settings import settings_from_json
 from carpus.core.pipeline.track import (
     Progress,
     TrackSettings,
@@ -32,12 +32,12 @@ from carpus.core.pipeline.track import (
     session_notes,
     write_tracked,
 )
-from carpus.core.session.marker_doubts import CORRECTED, SAME_BLOB_PX, Correction, correction_to_json
+from carpus.core.platform.child_process import ChildProcess, lower_priority
+from carpus.core.session.label_checks import CORRECTED, SAME_BLOB_PX, Correction, correction_to_json
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Event, Session
-from carpus.core.tracking.operator_hints import SAME_POSITION_PX, RecentBlobs
+from carpus.core.tracking.association.operator_labels import SAME_POSITION_PX, RecentBlobs
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import BoolArray, Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame
 
 MAX_STEP_PX, HOLD_TIME_S = 7.0, 0.5
 """A disc moves no further than this from picture to picture; so soon after a correction its name must have held."""

@@ -28,13 +28,13 @@ from typing import Protocol, Self
 import numpy as np
 
 from carpus.core.capture.source import FrameSource, SourceInfo
-from carpus.core.errors import CameraLost, CameraReturned
-from carpus.core.pipeline.around_hand import FrameSink
+from carpus.core.model.errors import CameraLost, CameraReturned
+from carpus.core.model.types import Frame, TrackedFrame
 from carpus.core.pipeline.backlog import Backlog, Pipeline, QueuedFrame, compute_capacity
-from carpus.core.pipeline.channels import Mailbox
+from carpus.core.pipeline.hand_crop import FrameSink
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, LiveSettings, TrackedView
+from carpus.core.pipeline.queues import Mailbox
 from carpus.core.pipeline.recording import LiveRecording, QueuedEvent, SessionSink, read_free_bytes
-from carpus.core.types import Frame, TrackedFrame
 
 log = logging.getLogger(__name__)
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from carpus.core.typed_value import NOT_IN_FILE
-from carpus.core.types import Frame, TrackedFrame
+from carpus.core.model.setting_values import NOT_IN_FILE
+from carpus.core.model.types import Frame, TrackedFrame
 
 LiveEventKind = Literal[
     "camera_lost",
@@ -62,7 +62,8 @@ class LiveEvent:
     """Something rare that the person must be told.
 
     ``time_s`` in the recording's own time (NaN before the first frame). ``cause`` is a
-    :class:`~core.errors.CarpusFault` or, where the program itself is wrong, any other exception; None where the kind
+    :class:`~core.model.errors.CarpusFault` or, where the program itself is wrong, any other exception; None where the
+    kind
     says it all. ``value`` is the kind's figure: bytes left for ``disk_low``.
     """
 

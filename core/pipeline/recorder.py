@@ -8,9 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
-from carpus.core.errors import DiskTooSlow
-from carpus.core.phrase import phrase
-from carpus.core.pipeline.channels import BoundedQueue, QueueClosedError, QueueFullError
+from carpus.core.model.errors import DiskTooSlow
+from carpus.core.model.phrase import phrase
+from carpus.core.pipeline.queues import BoundedQueue, QueueClosedError, QueueFullError
 
 Item = TypeVar("Item")
 POLL_S = 0.2

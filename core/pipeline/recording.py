@@ -9,10 +9,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from carpus.core.pipeline.around_hand import FrameSink
+from carpus.core.model.types import Frame, TrackedFrame
+from carpus.core.pipeline.hand_crop import FrameSink
 from carpus.core.pipeline.live_values import LiveEventKind, LiveSettings
 from carpus.core.pipeline.recorder import Recorder, Sink
-from carpus.core.types import Frame, TrackedFrame
 
 _DISK_CHECK_ROWS = 30
 

@@ -18,26 +18,17 @@ from carpus.core.calibration.calibrate import CalibrationOutcome, MeasurementNoi
 from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.camera import Camera
-from carpus.core.capture.files.pictures import decode_color, decode_depth
+from carpus.core.capture.files.image_codec import decode_color, decode_depth
 from carpus.core.capture.files.raw import LazyFrame, RawRecording
 from carpus.core.capture.source import FrameSource, RecordingDate, SourceInfo, compute_recording_id, find_recording_date
-from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.surface_samples import compute_read_region, sample_fingers, sample_surface
-from carpus.core.errors import FrameDamaged, OutputExists, RecordingEmpty
-from carpus.core.phrase import phrase
-from carpus.core.pipeline.live import Listener
-from carpus.core.provenance import sha256_of_file, sha256_of_recording, sha256_of_settings, source_revision
-from carpus.core.session.plausible import check_calibration
-from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
-from carpus.core.session.values import SET_UP, Event, Session, new_header, stack_states
-from carpus.core.session.writer import SessionWriter
-from carpus.core.tracking.predicted_measurement import PredictedMeasurement
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import ASSUMED
+from carpus.core.model.errors import FrameDamaged, OutputExists, RecordingEmpty
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import (
     OPERATOR_LABEL,
     SIMULATED,
     Detections,
@@ -48,6 +39,15 @@ from carpus.core.types import (
     TrackedFrame,
     TrackStatus,
 )
+from carpus.core.pipeline.live import Listener
+from carpus.core.platform.provenance import sha256_of_file, sha256_of_recording, sha256_of_settings, source_revision
+from carpus.core.session.plausibility import check_calibration
+from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
+from carpus.core.session.values import SET_UP, Event, Session, new_header, stack_states
+from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.filter.predicted_measurement import PredictedMeasurement
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
 
 AnyFrame = Frame | LazyFrame
 """A frame, or one whose pictures are unpacked where they are looked at."""

@@ -23,8 +23,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
 from typing import Any
 
-from carpus.core.durable import lock_file, make_private_folder, open_private, replace_text, sync_folder, write_fault
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     BackupFolderUnsuited,
     BackupIncomplete,
     BackupMismatch,
@@ -32,13 +31,21 @@ from carpus.core.errors import (
     OutputBusy,
     PatientListUnreadable,
 )
-from carpus.core.phrase import phrase
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.durable import (
+    lock_file,
+    make_private_folder,
+    open_private,
+    replace_text,
+    sync_folder,
+    write_fault,
+)
+from carpus.core.platform.version import __version__
 from carpus.core.records.database import STORE_FILE, copy_to_memory
 from carpus.core.records.reserve import RESERVE_FILE
 from carpus.core.records.session_list import PENDING_COPY_SUFFIX
 from carpus.core.records.store import SESSIONS_FOLDER, require_store
-from carpus.core.session.disk import TEMPORARY, find_free_name
-from carpus.core.version import __version__
+from carpus.core.session.atomic_files import TEMPORARY, find_free_name
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"

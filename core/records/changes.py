@@ -13,7 +13,7 @@ from sqlalchemy import Connection, Table, delete, func, insert, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
-from carpus.core.errors import ConcurrentChange, PseudonymTaken
+from carpus.core.model.errors import ConcurrentChange, PseudonymTaken
 from carpus.core.records.schema import AUDIT_LOG, PATIENT, SESSION, TABLES
 
 LOST_FOLDER = "lost/"

@@ -12,22 +12,22 @@ from uuid import uuid4
 
 import numpy as np
 
-from carpus.core.durable import link_or_copy, make_private_folder, replace_file, write_fault
-from carpus.core.errors import CarpusFault, ConcurrentChange, OutputExists, SessionUnreadable
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.model.errors import CarpusFault, ConcurrentChange, OutputExists, SessionUnreadable
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.types import ByteImage, FloatArray
+from carpus.core.platform.durable import link_or_copy, make_private_folder, replace_file, write_fault
 from carpus.core.records.changes import update_row
 from carpus.core.records.library import Library, with_listed_exercise
-from carpus.core.records.of_sessions import choices_change
 from carpus.core.records.schema import SESSION
 from carpus.core.records.session_list import PENDING_COPY_SUFFIX, PENDING_FOLDER, check_share
-from carpus.core.records.set_up import MARKERS_SUFFIX
+from carpus.core.records.session_records import choices_change
+from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.results.ranges import with_angle_order
 from carpus.core.results.repetition_rows import RepetitionChoices, compute_repetitions
-from carpus.core.results.seen import motion_estimate
-from carpus.core.session.disk import find_free_name, publish
+from carpus.core.results.valid_data import motion_estimate
+from carpus.core.session.atomic_files import find_free_name, publish
 from carpus.core.session.reader import read_detections, read_outline, read_session, rewrite_session
 from carpus.core.session.values import DetectionTable, RepetitionRow, Session, SessionHeader
-from carpus.core.types import ByteImage, FloatArray
 
 SESSION_SUFFIX = ".h5"
 

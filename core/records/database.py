@@ -14,8 +14,7 @@ from sqlalchemy import Connection, create_engine, event, inspect
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import StaticPool
 
-from carpus.core.durable import is_disk_full, make_private_file, write_fault
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     DiskFull,
     OutputNotWritable,
     PatientListBusy,
@@ -24,9 +23,10 @@ from carpus.core.errors import (
     PatientListUnreadable,
     PatientListVersionUnknown,
 )
-from carpus.core.phrase import phrase
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.durable import is_disk_full, make_private_file, write_fault
 from carpus.core.records.schema import METADATA, SESSION, SQLITE_LOG, TABLES, VERSION
-from carpus.core.session.disk import find_free_name
+from carpus.core.session.atomic_files import find_free_name
 
 STORE_FILE = "records.sqlite3"
 MAX_CHECKED_BYTES = 64 << 20

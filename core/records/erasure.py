@@ -19,13 +19,18 @@ from pathlib import Path
 
 from sqlalchemy import delete, select
 
-from carpus.core.errors import ConcurrentChange, DiskFull, ErasureBlockedByLink, ErasureUnfinished, FolderMissing
-from carpus.core.names import fold_name
+from carpus.core.model.errors import (
+    ConcurrentChange,
+    DiskFull,
+    ErasureBlockedByLink,
+    ErasureUnfinished,
+    FolderMissing,
+)
+from carpus.core.model.names import fold_name
 from carpus.core.records.changes import ERASED_SUBJECTS, RowChange, delete_row, fingerprint, is_patient_id, update_row
+from carpus.core.records.clinic_records import clear_places
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import AuditLogWriter, SubjectKind
-from carpus.core.records.of_clinic import clear_places
-from carpus.core.records.of_sessions import find_output_files
 from carpus.core.records.patients import Patients
 from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import DIAGNOSIS, FILE_STATE, PATIENT, RECIPIENT, SESSION
@@ -39,9 +44,10 @@ from carpus.core.records.session_list import (
     find_pending_results,
     read_file_states,
 )
+from carpus.core.records.session_records import find_output_files
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
-from carpus.core.session.disk import iter_paths
+from carpus.core.session.atomic_files import iter_paths
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,32 +11,32 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.agreement.limits_file import read_limits
-from carpus.core.capture.files.pictures import decode_color, read_color
+from carpus.core.capture.files.image_codec import decode_color, read_color
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.files.raw import RawRecording
-from carpus.core.errors import CarpusFault, ServerUnavailable, SessionUnreadable
-from carpus.core.formats.formats import ExportRequest, export_sessions
-from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.measures.change import DEFAULT_LIMITS
-from carpus.core.phrase import phrase
-from carpus.core.records import of_sessions, patients
+from carpus.core.formats.export import ExportRequest, export_sessions
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
+from carpus.core.measures.change_limits import DEFAULT_LIMITS
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.errors import CarpusFault, ServerUnavailable, SessionUnreadable
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import ByteImage, Side
+from carpus.core.records import patients, session_records
 from carpus.core.records.erasure import resume_erasures
+from carpus.core.records.limits_file import read_limits
 from carpus.core.records.log import AuditLog, AuditLogWriter, AuditSource
-from carpus.core.records.of_sessions import MAX_COMMENT_CHARACTERS, OutputKind
 from carpus.core.records.patients import Patients
 from carpus.core.records.session_list import SessionList
-from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SessionSetup
+from carpus.core.records.session_records import MAX_COMMENT_CHARACTERS, OutputKind
+from carpus.core.records.session_setup import MARKERS_SUFFIX, PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.store import Store, open_to_read
 from carpus.core.records.values import SessionEntry, entry_from_outline, select_latest_versions
-from carpus.core.results.figures import SessionResults, compute_session_results
 from carpus.core.results.ranges import with_angle_order
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.session_results import SessionResults, compute_session_results
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
 from carpus.core.session.values import AngleOrder, Session
-from carpus.core.types import ByteImage, Side
 
 MAX_OPEN_RECORDINGS = 2
 """Files of pictures that stay open: two sessions are looked at beside each other."""
@@ -247,13 +247,13 @@ class Library:
     def choices(self, session_id: str) -> RepetitionChoices:
         if session_id in self.unlisted:
             return RepetitionChoices()
-        found, self._shown_versions[session_id] = of_sessions.read_choices(self.store, session_id)
+        found, self._shown_versions[session_id] = session_records.read_choices(self.store, session_id)
         return found
 
     def save_choices(self, session_id: str, choices: RepetitionChoices) -> None:
         """Store it in place of what was read last. Raises :class:`ConcurrentChange` where that is not what holds."""
-        before, version = of_sessions.read_choices(self.store, session_id)
-        self._shown_versions[session_id] = of_sessions.save_choices(
+        before, version = session_records.read_choices(self.store, session_id)
+        self._shown_versions[session_id] = session_records.save_choices(
             self.store, session_id, choices, self._shown_versions.get(session_id, version)
         )
         if before.is_session_excluded == choices.is_session_excluded:
@@ -265,18 +265,18 @@ class Library:
         """What holds of it; empty where nothing was written."""
         if session_id in self.unlisted:
             return ""
-        return of_sessions.current_comment(of_sessions.read_comments(self.store, session_id))
+        return session_records.current_comment(session_records.read_comments(self.store, session_id))
 
     def save_comment(self, session_id: str, text: str) -> None:
         """Add a comment, which holds from now on; what was written before stays readable."""
         text = text.strip()[:MAX_COMMENT_CHARACTERS]
         if text != self.comment(session_id):
-            of_sessions.add_comment(self.store, session_id, text, self.get_initials())
+            session_records.add_comment(self.store, session_id, text, self.get_initials())
             self.audit_log.log_session("changed", session_id)
 
     def results(self, entry: SessionEntry) -> SessionResults:
         """Figures of a session with its choices, computed once."""
-        choices, order = of_sessions.read_choices(self.store, entry.session_id)[0], self.get_angle_order()
+        choices, order = session_records.read_choices(self.store, entry.session_id)[0], self.get_angle_order()
         known = self._results_cache.get(entry.path)
         if known is None or known[0] != choices or known[1].angle_order != order:
             session = with_angle_order(with_listed_exercise(read_session(entry.path), entry), order)
@@ -338,7 +338,7 @@ class Library:
     def register_output_files(self, paths: Sequence[Path], kind: OutputKind, session_ids: Iterable[str]) -> None:
         """Take down files that were made from sessions, so that they are named when one of these is erased."""
         known = [one for one in session_ids if one not in self.unlisted]
-        of_sessions.record_output_files(self.store, paths, kind, known)
+        session_records.record_output_files(self.store, paths, kind, known)
         for session_id in known:
             self.audit_log.log_session("reported" if kind == "report" else "exported", session_id, files=len(paths))
 

@@ -21,7 +21,7 @@ from typing import Literal, get_args
 
 from sqlalchemy import select
 
-from carpus.core.errors import CarpusFault, ServerUnavailable
+from carpus.core.model.errors import CarpusFault, ServerUnavailable
 from carpus.core.records.changes import PRACTICE, fingerprint, insert_row
 from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.store import Store, new_id

@@ -14,8 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.calibration.result import ALL_STRAIGHT
-from carpus.core.durable import make_private_folder, write_fault
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     ConcurrentChange,
     FolderMissing,
@@ -26,10 +25,11 @@ from carpus.core.errors import (
     SessionUnreadable,
     SpooledSessionErased,
 )
-from carpus.core.phrase import phrase
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.durable import make_private_folder, write_fault
 from carpus.core.records.changes import is_patient_id
 from carpus.core.records.erasure import delete_orphan_folders
-from carpus.core.records.kept_sets import save_setup
+from carpus.core.records.exercise_sets import save_setup
 from carpus.core.records.library import Library
 from carpus.core.records.log import is_patient_erased
 from carpus.core.records.recordings import (
@@ -40,7 +40,7 @@ from carpus.core.records.recordings import (
     spool_folder,
 )
 from carpus.core.records.session_list import SessionFileScanner, check_share, free_session_path
-from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
+from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import entry_from_outline, read_or_default
 from carpus.core.results.progress import INVALIDATING_FINDINGS
 from carpus.core.session.reader import read_outline, read_session

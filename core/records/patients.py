@@ -15,18 +15,18 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from sqlalchemy import ColumnElement, Row, select
 
-from carpus.core.dates import parse_day
-from carpus.core.hand.exercises import find_exercise
-from carpus.core.hand.forearm_rotation import from_clinical_targets_deg, to_clinical_targets_deg
-from carpus.core.measures.by_hand import MEASURES, ManualValue
-from carpus.core.names import fold_name
+from carpus.core.measures.manual_measurements import MEASURES, ManualValue
+from carpus.core.model.dates import parse_day
+from carpus.core.model.hand.exercises import find_exercise
+from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg, to_clinical_targets_deg
+from carpus.core.model.names import fold_name
+from carpus.core.model.types import Side
 from carpus.core.records.changes import PRACTICE, RowChange, delete_row, insert_row, update_row, upsert_row
 from carpus.core.records.log import AuditAction
 from carpus.core.records.schema import DIAGNOSIS, GOAL, HOME_PLAN, MANUAL_MEASUREMENT, PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient, parse_time, valid_choice
 from carpus.core.results.progress import Goals
-from carpus.core.types import Side
 
 WORDS = (
     "Acorn", "Alder", "Amber", "Apple", "Aspen", "Badger", "Barley", "Beaver", "Beech", "Birch", "Bramble", "Brook",

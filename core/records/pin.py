@@ -14,8 +14,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from carpus.core.durable import replace_text, write_fault
-from carpus.core.errors import PinUncheckable
+from carpus.core.model.errors import PinUncheckable
+from carpus.core.platform.durable import replace_text, write_fault
 
 PIN_FILE = "pin.json"
 MIN_CHARACTERS, MAX_CHARACTERS = 4, 64

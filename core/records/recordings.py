@@ -18,8 +18,7 @@ from pathlib import Path
 import platformdirs
 
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.durable import lock_file, make_private_folder, open_private, sync_folder, write_fault
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     OutputNotWritable,
     RecordingMissing,
@@ -28,11 +27,12 @@ from carpus.core.errors import (
     SpooledSessionErased,
     SpooledSessionMoved,
 )
-from carpus.core.phrase import phrase
-from carpus.core.records.set_up import MARKERS_SUFFIX
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.durable import lock_file, make_private_folder, open_private, sync_folder, write_fault
+from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.session import reader
-from carpus.core.session.disk import (
+from carpus.core.session.atomic_files import (
     STALE_AFTER_S,
     find_free_name,
     find_part_target,

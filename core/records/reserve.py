@@ -7,7 +7,7 @@ import os
 import shutil
 from pathlib import Path
 
-from carpus.core.durable import open_private
+from carpus.core.platform.durable import open_private
 
 RESERVE_FILE = ".reserve"
 RESERVE_BYTES = 2 << 20

@@ -18,8 +18,8 @@ from typing import Any
 
 from sqlalchemy import Select, insert, select, update
 
-from carpus.core.durable import make_private_folder, sync_folder, write_fault
-from carpus.core.errors import BackupMismatch, OutputExists, PatientListUnreadable
+from carpus.core.model.errors import BackupMismatch, OutputExists, PatientListUnreadable
+from carpus.core.platform.durable import make_private_folder, sync_folder, write_fault
 from carpus.core.records.backup import (
     BLOCK_BYTES,
     SESSIONS_PREFIX,

@@ -14,8 +14,8 @@ from typing import Any
 from sqlalchemy import Connection, create_engine, text
 from sqlalchemy.exc import ArgumentError, DBAPIError
 
-from carpus.core.errors import DiskFull, OutputNotWritable, PatientListBusy, ServerUnavailable, SettingsInvalid
-from carpus.core.phrase import phrase
+from carpus.core.model.errors import DiskFull, OutputNotWritable, PatientListBusy, ServerUnavailable, SettingsInvalid
+from carpus.core.model.phrase import phrase
 from carpus.core.records.database import migrate
 
 logging.getLogger("sqlalchemy.pool").addHandler(logging.NullHandler())  # what a broken line says is told as a fault

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from sqlalchemy import Connection, Delete, Insert, Row, Select, Update, insert, select
 
-from carpus.core.durable import lock_file, make_private_file, make_private_folder
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     DataFolderMissing,
     DiskFull,
@@ -26,12 +25,13 @@ from carpus.core.errors import (
     PatientListMissing,
     PatientListRebuilt,
 )
-from carpus.core.phrase import phrase
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.durable import lock_file, make_private_file, make_private_folder
 from carpus.core.records.changes import PRACTICE, ChangeSet, apply_changes, insert_row
 from carpus.core.records.database import STORE_FILE, Database, copy_to_memory, move_aside, rescue_rows
 from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import PATIENT, TABLES
-from carpus.core.session.disk import iter_paths
+from carpus.core.session.atomic_files import iter_paths
 
 if TYPE_CHECKING:
     from carpus.core.records.server import Server
@@ -96,7 +96,7 @@ class Store:
         _ensure_practice_patient(connection)
         if not self._path.is_file():
             return lambda: None
-        from carpus.core.records.hand_over import LocalStoreImport
+        from carpus.core.records.local_store_import import LocalStoreImport
 
         try:
             with _exclusive_lock(self._path), connection.begin_nested():

@@ -8,11 +8,11 @@ from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Literal, TypeVar, get_args
 
-from carpus.core.dates import is_moment
-from carpus.core.errors import CarpusFault, ServerUnavailable
-from carpus.core.names import normalize_name
+from carpus.core.model.dates import is_moment
+from carpus.core.model.errors import CarpusFault, ServerUnavailable
+from carpus.core.model.names import normalize_name
+from carpus.core.model.types import Side
 from carpus.core.session.values import SessionOutline
-from carpus.core.types import Side
 
 AffectedSide = Literal["both", "right", "left"]
 Dominance = Literal["unknown", "right", "left", "both"]

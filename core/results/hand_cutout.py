@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core import so3
-from carpus.core.hand.exercises import DEVIATION, FLEXION, Exercise
-from carpus.core.results.seen import motion_estimate
+from carpus.core.model import so3
+from carpus.core.model.hand.exercises import DEVIATION, FLEXION, Exercise
+from carpus.core.model.types import ByteImage, FloatArray, TrackStatus
+from carpus.core.results.valid_data import motion_estimate
 from carpus.core.session.values import Session
-from carpus.core.types import ByteImage, FloatArray, TrackStatus
 
 MARGIN_M = 0.03
 """So much around the hand stays."""

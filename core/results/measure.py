@@ -14,8 +14,8 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.motion_range import MIN_REPETITIONS_FOR_SD
+from carpus.core.model.hand.protocols import WRIST_ANGLES
 
 Group = Literal["range", "task", "share", "speed", "still"]
 """Ranges of motion; what an exercise has beside them; shares of usual totals; speed of single strokes; largest size of

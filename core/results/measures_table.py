@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.figures import SessionResults
+from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.results.measure import Measure, is_total_active_motion
 from carpus.core.results.norms import grade_share
+from carpus.core.results.session_results import SessionResults
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,16 +12,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.hand.clinical_angles import isb_from_rotation, zyz_with_sd
-from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.fingers import flexion_weights
-from carpus.core.measures.forearm import rotation_in_w0
+from carpus.core.measures.finger_range import flexion_weights
 from carpus.core.measures.signals import BoolArray, valid_wrist_angles
+from carpus.core.measures.wrist_centre import rotation_in_w0
+from carpus.core.model.hand.clinical_angles import isb_from_rotation, zyz_with_sd
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.types import FloatArray, Side, TrackStatus
 from carpus.core.results.measure import is_total_active_motion, wrist_angle_index
 from carpus.core.results.ranges import flexion_joints
-from carpus.core.results.seen import JointCurves, clinical_angles_rad, joint_curves, motion_estimate, palm_in_view
+from carpus.core.results.valid_data import (
+    JointCurves,
+    clinical_angles_rad,
+    joint_curves,
+    motion_estimate,
+    palm_in_view,
+)
 from carpus.core.session.values import Motion, Session
-from carpus.core.types import FloatArray, Side, TrackStatus
 
 
 @dataclass(frozen=True, slots=True)

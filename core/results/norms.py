@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from carpus.core.hand.exercises import DIRECTIONS, Exercise
-from carpus.core.phrase import phrase
+from carpus.core.model.hand.exercises import DIRECTIONS, Exercise
+from carpus.core.model.phrase import phrase
 from carpus.core.results.measure import Measure, is_total_active_motion
 
 Grade = Literal["excellent", "good", "fair", "poor"]
@@ -70,7 +70,7 @@ _WRIST_DEG: Mapping[str, tuple[float, float]] = {
 def wrist_norm(movement: str, angle: int, exercise: Exercise) -> Norm | None:
     """Of one direction, or the sum of both for an arc, where the exercise trains this angle.
 
-    >>> from carpus.core.hand.exercises import exercise_named
+    >>> from carpus.core.model.hand.exercises import exercise_named
     >>> found = wrist_norm("arc", 1, exercise_named("WRIST_FE"))
     >>> (found.low_deg, found.high_deg), wrist_norm("flexion", 1, exercise_named("WRIST_RU"))
     ((120.0, 150.0), None)

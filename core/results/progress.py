@@ -10,10 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.exercises import DIRECTIONS, PRONOSUPINATION, Exercise
-from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.measures.change import (
+from carpus.core.measures.change_limits import (
     ARC_LIMIT_FACTOR,
     DEFAULT_LIMITS,
     TOTAL_ACTIVE_MOTION,
@@ -21,11 +18,14 @@ from carpus.core.measures.change import (
     RetestStudy,
     change_limit_rad,
 )
+from carpus.core.measures.manual_measurements import ManualValue
 from carpus.core.measures.motion_range import MIN_REPETITIONS_FOR_SD
-from carpus.core.results.figures import SessionResults
+from carpus.core.model.hand.exercises import DIRECTIONS, PRONOSUPINATION, Exercise
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.rounding import round_half_away
+from carpus.core.model.types import Side
 from carpus.core.results.measure import Measure, MeasureKey, is_total_active_motion
-from carpus.core.rounding import round_half_away
-from carpus.core.types import Side
+from carpus.core.results.session_results import SessionResults
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
 IncomparableReason = Literal[

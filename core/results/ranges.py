@@ -12,20 +12,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core import so3
-from carpus.core.hand.clinical_angles import angle_rates_matrix, isb_from_rotation
-from carpus.core.hand.exercises import DIRECTIONS, PRONOSUPINATION, Exercise, Movement
-from carpus.core.hand.forearm_rotation import is_counted_from_thumb_up
-from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
-from carpus.core.measures.fingers import FINGERS, JointTrack, joint_range, total_active_motion
+from carpus.core.measures.finger_range import FINGERS, JointTrack, joint_range, total_active_motion
 from carpus.core.measures.motion_range import MotionRange, RangeStatistics, motion_range
 from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import Signal, low_pass
+from carpus.core.model import so3
+from carpus.core.model.hand.clinical_angles import angle_rates_matrix, isb_from_rotation
+from carpus.core.model.hand.exercises import DIRECTIONS, PRONOSUPINATION, Exercise, Movement
+from carpus.core.model.hand.forearm_rotation import is_counted_from_thumb_up
+from carpus.core.model.hand.protocols import WRIST_ANGLES, joint_angle_names
+from carpus.core.model.types import FloatArray, Side
 from carpus.core.results.measure import Measure, MeasureKey
-from carpus.core.results.seen import MeasurableSession
+from carpus.core.results.valid_data import MeasurableSession
 from carpus.core.session.values import AngleOrder, Motion, Session
-from carpus.core.types import FloatArray, Side
 
 _STEP_RAD = 1e-6
 

@@ -11,10 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.exercises import PRONOSUPINATION, get_exercise
-from carpus.core.hand.forearm_rotation import pronosupination_from_palm_down
-from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.measures.fingers import joint_range
+from carpus.core.measures.finger_range import joint_range
 from carpus.core.measures.motion_range import MIN_VALID_SHARE, MotionRange, motion_range
 from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import (
@@ -27,9 +24,12 @@ from carpus.core.measures.repetitions import (
 )
 from carpus.core.measures.signals import Signal, find_runs, low_pass
 from carpus.core.measures.speed import TURNING_BAND_SHARE, StrokeMeasures, measure_stroke
-from carpus.core.results.seen import MeasurableSession
+from carpus.core.model.hand.exercises import PRONOSUPINATION, get_exercise
+from carpus.core.model.hand.forearm_rotation import pronosupination_from_palm_down
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.types import TrackStatus
+from carpus.core.results.valid_data import MeasurableSession
 from carpus.core.session.values import RepetitionRow, Repetitions, Session
-from carpus.core.types import TrackStatus
 
 HOLD_SHARE = 0.98
 """Of the way out: who stays beyond it holds the peak, and which moment of a hold is the highest only noise says."""

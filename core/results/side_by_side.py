@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.results.figures import SessionResults
+from carpus.core.model.types import FloatArray, Side
 from carpus.core.results.measure import Measure, MeasureKey
 from carpus.core.results.progress import (
     Comparison,
@@ -24,7 +24,7 @@ from carpus.core.results.progress import (
     select_latest_versions,
 )
 from carpus.core.results.repetition_rows import RepetitionResult
-from carpus.core.types import FloatArray, Side
+from carpus.core.results.session_results import SessionResults
 
 Relation = Literal["hands", "dates"]
 

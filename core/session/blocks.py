@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from carpus.core.model.types import SurfaceSamples, TrackedFrame
 from carpus.core.session import schema
 from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.values import EncodedImages, Event, Motion
-from carpus.core.types import SurfaceSamples, TrackedFrame
 
 Blocks = dict[str, Any]
 """Rows to add to datasets, an array for the path of each. ``/detections/frame`` counts from the first frame of the

@@ -30,15 +30,15 @@ import h5py
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.durable import FileWriter, lock_file, open_private, sync_folder, write_fault
-from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, SessionUnreadable, TimesUnordered
-from carpus.core.phrase import phrase
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import CarpusFault, OutputExists, OutputNotWritable, SessionUnreadable, TimesUnordered
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import TrackedFrame
+from carpus.core.platform.durable import FileWriter, lock_file, open_private, sync_folder, write_fault
 from carpus.core.session.blocks import Blocks, build_event_blocks, build_frame_blocks, build_motion_blocks
-from carpus.core.session.new_file import build_empty_session
+from carpus.core.session.file_layout import build_empty_session
 from carpus.core.session.schema import TableLayout
 from carpus.core.session.values import Event, Motion, SessionHeader
-from carpus.core.types import TrackedFrame
 
 SUFFIX = ".journal"
 MAGIC = b"CARPUSRJ"

@@ -18,10 +18,10 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, cast
 
-from carpus.core import errors
-from carpus.core.child_process import ChildProcess
-from carpus.core.errors import CarpusFault, SessionMissing, SessionUnreadable
-from carpus.core.phrase import phrase
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault, SessionMissing, SessionUnreadable
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.child_process import ChildProcess
 from carpus.core.session.values import DetectionTable, EncodedImages, Session, SessionOutline, VerificationResult
 
 TIMEOUT_S, BYTES_PER_S = 20.0, 2e6
@@ -74,7 +74,7 @@ def read_raw_color(path: Path, row: int) -> bytes:
 
 
 def verify(path: Path) -> VerificationResult:
-    """Whether a session is whole and unchanged; as :func:`core.session.opened.verify`."""
+    """Whether a session is whole and unchanged; as :func:`core.session.session_file.verify`."""
     return cast(VerificationResult, _request("verify", path))
 
 

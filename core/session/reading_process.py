@@ -17,9 +17,9 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from carpus.core.errors import CarpusFault
-from carpus.core.phrase import phrase
-from carpus.core.session import opened, rewriting
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.phrase import phrase
+from carpus.core.session import rewriting, session_file
 
 log = logging.getLogger(__name__)
 
@@ -30,15 +30,15 @@ BASE_MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 10
 MAX_MEMORY_BYTES = 6_000_000_000
 
 QUESTIONS: dict[str, Callable[..., Any]] = {
-    "session": opened.read_session,
-    "outline": opened.read_outline,
-    "detections": opened.read_detections,
-    "has_raw": opened.has_raw,
-    "raw_depth_unit_m": opened.raw_depth_unit_m,
-    "raw_some": opened.read_raw_chunk,
-    "raw_color": opened.read_raw_color,
+    "session": session_file.read_session,
+    "outline": session_file.read_outline,
+    "detections": session_file.read_detections,
+    "has_raw": session_file.has_raw,
+    "raw_depth_unit_m": session_file.raw_depth_unit_m,
+    "raw_some": session_file.read_raw_chunk,
+    "raw_color": session_file.read_raw_color,
     "recover": rewriting.finish_part,
-    "verify": opened.verify,
+    "verify": session_file.verify,
     "write_anew": rewriting.rewrite_session,
 }
 Answer = tuple[str, Any]

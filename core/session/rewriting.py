@@ -11,15 +11,21 @@ from pathlib import Path
 
 import h5py
 
-from carpus.core.durable import write_fault
-from carpus.core.errors import SessionUnreadable
-from carpus.core.phrase import phrase
+from carpus.core.model.errors import SessionUnreadable
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.durable import write_fault
 from carpus.core.session import schema
-from carpus.core.session.disk import find_free_name, find_part_target, publish, repair_file_end, temporary_path
-from carpus.core.session.new_file import create_dataset
-from carpus.core.session.opened import layout_from_file, open_session, verify
+from carpus.core.session.atomic_files import (
+    find_free_name,
+    find_part_target,
+    publish,
+    repair_file_end,
+    temporary_path,
+)
+from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
+from carpus.core.session.file_layout import create_dataset
 from carpus.core.session.rows import RowCounts, count_readable_rows, count_whole_rows, find_growing_fields, read_rows
-from carpus.core.session.seal import CHECKSUM_ATTRIBUTE, compute_checksum
+from carpus.core.session.session_file import layout_from_file, open_session, verify
 
 
 def finish_part(part: Path, when: str) -> Path | None:

@@ -19,8 +19,8 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.errors import SessionUnreadable
-from carpus.core.phrase import phrase
+from carpus.core.model.errors import SessionUnreadable
+from carpus.core.model.phrase import phrase
 from carpus.core.session import schema
 from carpus.core.session.schema import Field
 

@@ -11,9 +11,9 @@ from typing import Any
 import h5py
 import numpy as np
 
-from carpus.core.hand.back_surface import TABLE_ROWS
-from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol, protocol_names
-from carpus.core.types import MAX_FINGER_READINGS, MAX_SURFACE_READINGS
+from carpus.core.model.hand.dorsal_surface import TABLE_ROWS
+from carpus.core.model.hand.protocols import WRIST_ANGLES, MarkerProtocol, protocol_names
+from carpus.core.model.types import MAX_FINGER_READINGS, MAX_SURFACE_READINGS
 
 FORMAT = "carpus-session"
 FORMAT_VERSION = 2

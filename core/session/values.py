@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.dates import is_moment
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.names import normalize_name
-from carpus.core.types import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.dates import is_moment
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.names import normalize_name
+from carpus.core.model.types import (
     SIMULATED,
     BoolArray,
     Detections,
@@ -29,7 +29,7 @@ from carpus.core.types import (
     SurfaceSamples,
     TrackedFrame,
 )
-from carpus.core.version import __version__
+from carpus.core.platform.version import __version__
 
 IntArray = NDArray[np.integer]
 

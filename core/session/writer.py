@@ -13,11 +13,13 @@ import h5py
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.durable import FileWriter, open_private, write_fault
-from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, TimesUnordered
-from carpus.core.phrase import phrase
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import CarpusFault, OutputExists, OutputNotWritable, TimesUnordered
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import TrackedFrame
+from carpus.core.platform.durable import FileWriter, open_private, write_fault
 from carpus.core.session import schema
+from carpus.core.session.atomic_files import publish, remove_leftovers, reserve_space, temporary_path
 from carpus.core.session.blocks import (
     Blocks,
     build_event_blocks,
@@ -25,12 +27,15 @@ from carpus.core.session.blocks import (
     build_image_blocks,
     build_motion_blocks,
 )
-from carpus.core.session.disk import publish, remove_leftovers, reserve_space, temporary_path
-from carpus.core.session.new_file import ROWS_AT_ONCE, build_empty_session, create_repetitions, create_smoother_datasets
-from carpus.core.session.opened import layout_from_file, session_from_file
-from carpus.core.session.seal import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
+from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
+from carpus.core.session.file_layout import (
+    ROWS_AT_ONCE,
+    build_empty_session,
+    create_repetitions,
+    create_smoother_datasets,
+)
+from carpus.core.session.session_file import layout_from_file, session_from_file
 from carpus.core.session.values import EncodedImages, Event, Motion, Repetitions, Session, SessionHeader
-from carpus.core.types import TrackedFrame
 
 _TIMES = schema.FRAME_FIELDS[0].path
 _INDEX_BYTES = 512 * 1024

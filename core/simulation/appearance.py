@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core.camera import Camera
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.trace import FloatImage
-from carpus.core.types import FloatArray
+from carpus.core.simulation.sphere_tracing import FloatImage
 
 # Skin of Fitzpatrick types I to VI, sRGB.
 SKIN_TONES_SRGB = np.array(

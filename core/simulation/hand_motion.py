@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.hand.kinematics import finger_angles
-from carpus.core.hand.protocols import SITES
+from carpus.core.model.hand.kinematics import finger_angles
+from carpus.core.model.hand.protocols import SITES
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.types import FloatArray
 
 
 def minimum_jerk(share: FloatArray) -> FloatArray:

@@ -12,11 +12,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.model.errors import SettingsInvalid
+from carpus.core.model.hand.protocols import joint_angle_names
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.hand_motion import STILL_S, HandMotion, StrokePathBuilder, sample_habits, sample_sway
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.types import FloatArray
 
 FLEXION_RAD, DEVIATION_RAD, SUPINATION_RAD = math.radians(50.0), math.radians(25.0), math.radians(35.0)
 REACH_M, REACH_S = 0.39, 1.05

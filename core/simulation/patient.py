@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
-from carpus.core.hand.clinical_angles import wrist_axes
-from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import PALM_SITES, SITES, MarkerProtocol
+from carpus.core.model.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.model.hand.clinical_angles import wrist_axes
+from carpus.core.model.hand.kinematics import disc_centres
+from carpus.core.model.hand.protocols import PALM_SITES, SITES, MarkerProtocol
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.types import FloatArray
 
 WRIST_JOINT_DEPTH_M = 0.015
 """Depth of the wrist's centre of rotation under the WRIST disc of a hand 180 mm long (reference 2)."""

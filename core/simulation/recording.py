@@ -22,15 +22,15 @@ from carpus.core.calibration.result import Clicks
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
 from carpus.core.capture.source import SourceInfo
-from carpus.core.durable import write_fault
-from carpus.core.errors import OutputExists, OutputNotWritable
+from carpus.core.model.errors import OutputExists, OutputNotWritable
+from carpus.core.model.types import SIMULATED, ByteImage, DepthImage, FloatArray, Frame
+from carpus.core.platform.durable import write_fault
+from carpus.core.simulation.disturbances import FrameTimes, sample_covered_markers, sample_frame_times
 from carpus.core.simulation.render import CleanImage, Renderer
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor, create_depth_sensor
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.trouble import FrameTimes, sample_covered_markers, sample_frame_times
 from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, compute_truth, write_truth
-from carpus.core.types import SIMULATED, ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
 _RECORDING_FILES = ("rgb", "depth", COLOR_LIST, DEPTH_LIST, CAMERA_FILE, CLICKS_FILE, TRUTH_FILE)

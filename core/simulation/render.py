@@ -9,16 +9,16 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
-from carpus.core.hand.kinematics import SEGMENTS
-from carpus.core.hand.protocols import PALM_SITES
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.kinematics import SEGMENTS
+from carpus.core.model.hand.protocols import PALM_SITES
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.appearance import Appearance, sample_appearance
+from carpus.core.simulation.disturbances import sample_false_blobs, sample_passing_rod
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.skin import Cones, Part
-from carpus.core.simulation.trace import Box, FloatImage, TracedSurface, bounding_box, trace_cones
-from carpus.core.simulation.trouble import sample_false_blobs, sample_passing_rod
+from carpus.core.simulation.sphere_tracing import Box, FloatImage, TracedSurface, bounding_box, trace_cones
 from carpus.core.simulation.truth import protocol_rows
-from carpus.core.types import FloatArray
 
 _EDGE_ON = 0.02
 _LARGEST_SAG_M, _HIDING_GAP_M = 0.004, 0.004

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core.camera import Camera
-from carpus.core.depth_sensor import SENSORS
-from carpus.core.hand.clinical_angles import rotation_from_angles, side_sign, wrist_axes
-from carpus.core.hand.kinematics import SegmentFrames, disc_centres, joint_centres, segment_frames
-from carpus.core.hand.protocols import PALM_SITES
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import SENSORS
+from carpus.core.model.hand.clinical_angles import rotation_from_angles, side_sign, wrist_axes
+from carpus.core.model.hand.kinematics import SegmentFrames, disc_centres, joint_centres, segment_frames
+from carpus.core.model.hand.protocols import PALM_SITES
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.hand_motion import HandMotion, TissueMovement, TissueState, sample_tissue
 from carpus.core.simulation.motions import create_motion
 from carpus.core.simulation.patient import SimulatedPatient, sample_patient, sample_wide_anatomy
 from carpus.core.simulation.skin import Cones, HandSkin, join_cones, project_to_surface
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.types import FloatArray
 
 _FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 """W0 seen by a camera that looks straight down, fingers up in the picture (reference 1.1)."""
@@ -111,7 +111,7 @@ class Scene:
         return np.asarray(normals @ pose.rotation_w2_w0.transpose(0, 2, 1))
 
     def bones_w(self, pose: HandPose) -> SegmentFrames:
-        """All bones in W, as :func:`core.hand.kinematics.segment_frames`, rays 4 and 5 cupped."""
+        """All bones in W, as :func:`core.model.hand.kinematics.segment_frames`, rays 4 and 5 cupped."""
         bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad)
         if self.tissue.is_rigid:
             return bones

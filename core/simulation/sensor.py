@@ -11,12 +11,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
-from carpus.core.depth_sensor import DepthSensor
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.types import ByteImage, DepthImage
 from carpus.core.simulation.appearance import READ_NOISE_ELECTRONS, Appearance
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.trace import FloatImage
-from carpus.core.types import ByteImage, DepthImage
+from carpus.core.simulation.sphere_tracing import FloatImage
 
 DISPARITY_PX_M = 575.0 * 0.075
 """Focal length of the depth camera in pixels times the baseline in metres."""

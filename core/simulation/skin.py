@@ -16,13 +16,13 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core import so3
-from carpus.core.hand.anatomy import anatomy_from_size
-from carpus.core.hand.kinematics import SEGMENTS, disc_centres, segment_frames
-from carpus.core.hand.protocols import PALM_SITES
+from carpus.core.model import so3
+from carpus.core.model.hand.anatomy import anatomy_from_size
+from carpus.core.model.hand.kinematics import SEGMENTS, disc_centres, segment_frames
+from carpus.core.model.hand.protocols import PALM_SITES
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.hand_motion import TissueState
 from carpus.core.simulation.patient import WRIST_JOINT_DEPTH_M, SimulatedPatient
-from carpus.core.types import FloatArray
 
 
 class Part(IntEnum):

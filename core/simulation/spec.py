@@ -11,11 +11,11 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.depth_sensor import SENSORS
-from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.protocols import MarkerProtocol, get_protocol
-from carpus.core.names import Limits, check_limits
-from carpus.core.types import Side
+from carpus.core.model.depth_sensor import SENSORS
+from carpus.core.model.errors import SettingsInvalid
+from carpus.core.model.hand.protocols import MarkerProtocol, get_protocol
+from carpus.core.model.names import Limits, check_limits
+from carpus.core.model.types import Side
 
 RENDERER_VERSION = 5
 """Part of the cache key: raise it whenever the same spec gives other pictures than before."""
@@ -99,7 +99,8 @@ class RecordingSpec:
     Trouble: ``false_blobs`` mean number in each frame; ``hidden_share`` of the time each disc is covered, for
     ``hidden_mean_s`` on average; ``dropped_share`` of the frames. ``click_error_px`` standard deviation per axis.
 
-    Sensor: ``sensor`` a name of :data:`core.depth_sensor.SENSORS`; ``depth_scale_error`` largest scale error of the
+    Sensor: ``sensor`` a name of :data:`core.model.depth_sensor.SENSORS`; ``depth_scale_error`` largest scale error of
+    the
     unit (the seed draws it between minus and plus this); ``depth_delay_s`` of the depth picture after the colour
     picture; ``exposure_s`` blurs moving things over that time, 0 not at all; ``sensor_noise=False`` gives clean
     pictures for tests.

@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
-from carpus.core.camera import Camera
-from carpus.core.hand.clinical_angles import angles_from_rotation, zyz_from_rotation
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.clinical_angles import angles_from_rotation, zyz_from_rotation
+from carpus.core.model.types import Detections, FloatArray, KinematicState, Side, TrackedFrame, TrackStatus
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.core.simulation.disturbances import FrameTimes, sample_frame_times
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trouble import FrameTimes, sample_frame_times
-from carpus.core.types import Detections, FloatArray, KinematicState, Side, TrackedFrame, TrackStatus
 
 RECORDING_EPOCH_S = 1_700_000_000.0
 """Time stamps of a recording start here, as of a real one: large numbers, not zero."""

@@ -12,27 +12,40 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core import so3
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.tracking.association import is_jointly_compatible
-from carpus.core.tracking.digit_naming import DigitFrame, DigitPosterior
-from carpus.core.tracking.digit_readout import base_from_estimate
-from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
-from carpus.core.tracking.fingers import FingerFilter
-from carpus.core.tracking.hand_geometry import N_DIGITS, JointState, palm_calibration
-from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, fading_factors, fading_matrix, find_unobserved_turns
-from carpus.core.tracking.operator_hints import LabelledBlob
-from carpus.core.tracking.palm_association import (
+from carpus.core.model import so3
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import BoolArray, Detections, FloatArray
+from carpus.core.tracking.association.association import is_jointly_compatible
+from carpus.core.tracking.association.operator_labels import LabelledBlob
+from carpus.core.tracking.association.palm_association import (
     Measurements,
     UpdatedPalm,
     associate_and_update,
     measurements_from_blobs,
     update_palm,
 )
-from carpus.core.tracking.palm_smoother import FilterStep
-from carpus.core.tracking.palm_state import (
+from carpus.core.tracking.association.reacquire import (
+    RATE_SD_RAD_S,
+    VELOCITY_SD_M_S,
+    FoundPalm,
+    TurnLimits,
+    find_palm,
+    is_other_hand,
+)
+from carpus.core.tracking.association.track_manager import COLLINEAR_RMS_M, MIN_PALM_MARKERS
+from carpus.core.tracking.digits.digit_readout import base_from_estimate
+from carpus.core.tracking.digits.digit_update import DigitFrame, DigitPosterior
+from carpus.core.tracking.filter.hand_geometry import N_DIGITS, JointState, palm_calibration
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.motion import (
+    RATE_MEMORY_S,
+    PalmMotion,
+    fading_factors,
+    fading_matrix,
+    find_unobserved_turns,
+)
+from carpus.core.tracking.filter.palm_state import (
     CALIBRATION_ERROR,
     POSE,
     RELIEF,
@@ -46,7 +59,7 @@ from carpus.core.tracking.palm_state import (
     initial_estimate,
     reset_error,
 )
-from carpus.core.tracking.predicted_measurement import (
+from carpus.core.tracking.filter.predicted_measurement import (
     MarkerOrder,
     PredictedMeasurement,
     adapt_noise_factor,
@@ -55,17 +68,9 @@ from carpus.core.tracking.predicted_measurement import (
     predict_measurement_ahead,
     shape_covariance,
 )
-from carpus.core.tracking.reacquire import (
-    RATE_SD_RAD_S,
-    VELOCITY_SD_M_S,
-    FoundPalm,
-    TurnLimits,
-    find_palm,
-    is_other_hand,
-)
-from carpus.core.tracking.readout import Readout
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import (
+from carpus.core.tracking.filter.readout import Readout
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.soft_tissue import (
     ZERO_SPEEDS,
     DigitSpeeds,
     joint_driven_modes,
@@ -73,9 +78,10 @@ from carpus.core.tracking.soft_tissue import (
     single_moving_mode,
     stationary_covariance,
 )
-from carpus.core.tracking.surface_fit import reset_and_surface_update, surface_calibration_covariance
-from carpus.core.tracking.track_manager import COLLINEAR_RMS_M, MIN_PALM_MARKERS
-from carpus.core.types import BoolArray, Detections, FloatArray
+from carpus.core.tracking.filter.surface_fit import reset_and_surface_update, surface_calibration_covariance
+from carpus.core.tracking.finger_filter import FingerFilter
+from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep
+from carpus.core.tracking.smoother.palm_smoother import FilterStep
 
 _REREAD_NOISE_FACTOR = 2.0
 """The picture is read once more right after: half of its weight now, half then."""

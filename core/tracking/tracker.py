@@ -15,20 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.tracking.consistency import ConsistencyTest, find_unused_markers
-from carpus.core.tracking.finger_model import FingerModel
-from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan, undistort_detections
-from carpus.core.tracking.hand_geometry import JointState, palm_calibration
-from carpus.core.tracking.operator_hints import LabelledDetections, OperatorLabels
-from carpus.core.tracking.palm_smoother import FilterStep
-from carpus.core.tracking.predicted_measurement import MarkerOrder, PredictedMeasurement
-from carpus.core.tracking.reacquire import MIN_FOUND_MARKERS
-from carpus.core.tracking.readout import Readout, build_lost_frame, nan_kinematics
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.smoother_record import FilterSteps, SmootherModel, SmootherRecord
-from carpus.core.tracking.track_manager import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
+from carpus.core.tracking.association.consistency import ConsistencyTest, find_unused_markers
+from carpus.core.tracking.association.operator_labels import LabelledDetections, OperatorLabels
+from carpus.core.tracking.association.reacquire import MIN_FOUND_MARKERS
+from carpus.core.tracking.association.track_manager import (
     DIRECT_SHARE_WINDOW_S,
     MAX_TRUSTED_SD_RAD,
     MIN_PALM_MARKERS,
@@ -36,7 +29,14 @@ from carpus.core.tracking.track_manager import (
     TrackManager,
     angle_between_rad,
 )
-from carpus.core.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
+from carpus.core.tracking.digits.finger_model import FingerModel
+from carpus.core.tracking.filter.hand_geometry import JointState, palm_calibration
+from carpus.core.tracking.filter.predicted_measurement import MarkerOrder, PredictedMeasurement
+from carpus.core.tracking.filter.readout import Readout, build_lost_frame, nan_kinematics
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan, undistort_detections
+from carpus.core.tracking.smoother.palm_smoother import FilterStep
+from carpus.core.tracking.smoother.smoother_record import FilterSteps, SmootherModel, SmootherRecord
 
 _SAME_AXIS = np.eye(2)
 

@@ -131,9 +131,8 @@ def draw_icons(python: Path, places: dict[int, Path]) -> None:
     """The program's icon as pixels, by its size; the ending says in which form."""
     for path in places.values():
         path.parent.mkdir(parents=True, exist_ok=True)
-    draw = (
-        "import sys; from carpus.ui.icons import program_icon; assert program_icon(int(sys.argv[1])).save(sys.argv[2])"
-    )
+    draw = "import sys; from carpus.ui.kit.icons import program_icon\n"
+    draw += "assert program_icon(int(sys.argv[1])).save(sys.argv[2])"
     for size_px, path in places.items():
         run(python, "-P", "-c", draw, str(size_px), path)
 

@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from carpus.core.about import BundledPart, licence_texts, list_bundled_parts
+from carpus.core.platform.about import BundledPart, licence_texts, list_bundled_parts
 
 COMMON = Path("/usr/share/common-licenses")
 

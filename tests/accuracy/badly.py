@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.pipeline.track import TrackSettings, noise_from_json, track_recording
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
-from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy.jobs import PICTURE_SECONDS
 from tests.accuracy.pages import ruled
 from tests.accuracy.runs import degrees_between

@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.camera.board import BOARDS, Pattern, create_board_sheet
+from carpus.core.calibration.camera.board_views import WANTED_VIEWS, ViewCollector
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
-from carpus.core.calibration.camera.views import WANTED_VIEWS, ViewCollector
 from carpus.core.calibration.card.card import CardReading
 from carpus.core.calibration.card.measure import measure_card
-from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.calibrated import compute_correction_table
+from carpus.core.capture.calibrated_source import compute_correction_table
 from carpus.core.capture.camera_info import StoredCalibration
-from carpus.core.depth_sensor import AZURE_KINECT, D435
-from carpus.core.errors import BoardViewsTooSimilar
+from carpus.core.model.camera import DEFAULT_CAMERA, Camera
+from carpus.core.model.depth_sensor import AZURE_KINECT, D435
+from carpus.core.model.errors import BoardViewsTooSimilar
+from carpus.core.model.types import FloatArray, Frame
 from carpus.core.simulation.sensor import depth_scale
-from carpus.core.types import FloatArray, Frame
 from tests.accuracy.pages import aligned, ruled
 from tests.studio import LENS, Studio, card_scene, poses, texture_of
 

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.calibrate import MeasuredHand, capture_neutral_pose, measure_hand
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.errors import CalibrationImpossible
+from carpus.core.model.errors import CalibrationImpossible
+from carpus.core.model.types import Detections, FloatArray, TrackedFrame, TrackStatus
 from carpus.core.pipeline.track import (
     HandTracker,
     TrackSettings,
@@ -27,9 +28,8 @@ from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import Motion, Session, stack_states
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached, sample_clicks
 from carpus.core.simulation.truth import Truth
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
 from tests.accuracy.readings import reading_of
 from tests.accuracy.runs import CARPUS, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario

@@ -10,7 +10,7 @@ import numpy as np
 
 from carpus.core.calibration.card.card import CHECK_S, CardReading
 from carpus.core.calibration.card.measure import SEARCH_INTERVAL_S, measure_card
-from carpus.core.depth_sensor import SENSORS
+from carpus.core.model.depth_sensor import SENSORS
 from tests.accuracy.cameras import OFF_SHARE, most_of
 from tests.accuracy.pages import aligned, ruled
 from tests.studio import LENS, Studio, card_scene

@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.model.hand.kinematics import DIP_PER_PIP
+from carpus.core.model.hand.protocols import HAND21, joint_angle_names
+from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.recording import render_cached
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.types import FloatArray, TrackStatus
+from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.accuracy.carpus import detected_sequence, learnt_tracker, measured_session, stepped
 from tests.accuracy.readings import Reading, reading_of
 from tests.accuracy.runs import Mode, degrees_between, longest_s

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.accuracy import readings_table
 from tests.accuracy.hand21 import (
     ANGLES,

@@ -12,16 +12,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core.hand import clinical_angles
-from carpus.core.tracking.kernel import ModeMixture, mix_modes, propagate_mixture
-from carpus.core.tracking.motion import RATE_MEMORY_S, PalmMotion, fading_factors, palm_transition
-from carpus.core.tracking.palm_association import Measurements, update_palm
-from carpus.core.tracking.palm_smoother import FilterStep, smooth_palm
-from carpus.core.tracking.palm_state import SIZE, TURN, PalmEstimate, PalmView, initial_estimate, reset_error
-from carpus.core.tracking.predicted_measurement import predict_measurement
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import single_moving_mode
-from carpus.core.types import FloatArray, Side, TrackStatus
+from carpus.core.model.hand import clinical_angles
+from carpus.core.model.types import FloatArray, Side, TrackStatus
+from carpus.core.tracking.association.palm_association import Measurements, update_palm
+from carpus.core.tracking.filter.mixture_filter import ModeMixture, mix_modes, propagate_mixture
+from carpus.core.tracking.filter.motion import RATE_MEMORY_S, PalmMotion, fading_factors, palm_transition
+from carpus.core.tracking.filter.palm_state import SIZE, TURN, PalmEstimate, PalmView, initial_estimate, reset_error
+from carpus.core.tracking.filter.predicted_measurement import predict_measurement
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.soft_tissue import single_moving_mode
+from carpus.core.tracking.smoother.palm_smoother import FilterStep, smooth_palm
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import LEAST_DISCS, measured_and_errors, scored_frames

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.research.papers.chain import PalmModel, PaperSettings, calibrate_as_written
+from carpus.core.model.types import FloatArray, TrackStatus
+from carpus.core.research.papers.hand_model import PalmModel, PaperSettings, calibrate_as_written
 from carpus.core.research.papers.tracker import PaperTracker
 from carpus.core.session.values import stack_states
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy.carpus import measured_hand, stepped
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, HandScenario, clickable_sequence, seen_joints, with_end_joints
 from tests.accuracy.hand21 import ROWS as HAND

@@ -9,9 +9,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.motions import create_motion
 from carpus.core.simulation.truth import Truth
-from carpus.core.types import FloatArray
 
 INSIDE_SD, OUTSIDE_SD = 2.0, 3.0
 AT_NEUTRAL_RAD = np.radians(3.0)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.accuracy.runs import CARPUS, INFORMED, Run
 from tests.accuracy.scenarios import REACHING, SLOW, TROUBLE, Scenario
 from tests.accuracy.scores import Score, score

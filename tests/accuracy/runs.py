@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray, TrackStatus
+from carpus.core.model.types import FloatArray, TrackStatus
 from tests.accuracy.readings import Reading, longest_each_s
 from tests.accuracy.speeds import StrokeSpeeds
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.types import FloatArray, TrackStatus
+from carpus.core.model.types import FloatArray, TrackStatus
 from tests.accuracy.runs import Estimate, Run
 
 INSIDE_SD = 2.0

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from carpus.core.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy import readings_table
 from tests.accuracy.carpus import measured_session
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, readable, seen_joints, with_end_joints

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import Detections, FloatArray
 from carpus.core.simulation.truth import Truth
-from carpus.core.types import Detections, FloatArray
 from tests.simulation.measurements import MeasurementSequence
 
 OWN_PX = 6.0

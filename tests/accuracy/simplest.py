@@ -15,12 +15,12 @@ import cv2
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from carpus.core.camera import Camera
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.hand.clinical_angles import angles_from_rotation, wrist_axes
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.clinical_angles import angles_from_rotation, wrist_axes
+from carpus.core.model.so3 import project_to_rotation
+from carpus.core.model.types import FloatArray, Frame, TrackStatus
 from carpus.core.simulation.recording import sample_clicks
-from carpus.core.so3 import project_to_rotation
-from carpus.core.types import FloatArray, Frame, TrackStatus
 from tests.accuracy.runs import SIMPLEST, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import OWN_PX, longest_untracked_s, scored_frames

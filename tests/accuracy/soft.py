@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from carpus.core.depth_sensor import SENSORS
+from carpus.core.model.depth_sensor import SENSORS
 from tests.accuracy.hand21 import EXERCISES, TROUBLE, HandScenario
 from tests.accuracy.scenarios import USUAL_TROUBLE, Scenario
 

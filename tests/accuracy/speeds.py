@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.model.types import FloatArray
 from carpus.core.session.values import Motion
 from carpus.core.simulation.truth import Truth
-from carpus.core.types import FloatArray
 
 _MOVING_SHARE = 0.2
 """A stroke lasts while the speed is above this share of the recording's highest."""

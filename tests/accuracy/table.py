@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.accuracy.pages import ruled
 from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, UNTROUBLED, Mode, Run

@@ -15,7 +15,7 @@ from pathlib import Path
 import h5py
 import pytest
 
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     PatientListMissing,
     PatientListRebuilt,

@@ -12,8 +12,8 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
 from carpus.core.records.log import read_log
-from tests.agreement.test_retest import written
 from tests.records.samples import LINDEN, kept
+from tests.research.agreement.test_retest import written
 
 NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
 EARLIER = NOW - timedelta(days=7)

@@ -14,19 +14,19 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop import care_cameras
+from carpus.app.desktop import maintenance_cameras
 from carpus.app.desktop.window import Desktop
-from carpus.core.calibration.camera import views
+from carpus.core.calibration.camera import board_views
 from carpus.core.calibration.camera.board import CHESSBOARD
 from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.checks import add_check, checks_path, read_checks
-from carpus.core.camera import Camera
-from carpus.core.capture.calibrated import load_stored_calibration
+from carpus.core.capture.calibrated_source import load_stored_calibration
 from carpus.core.capture.source import FrameSource, NoticeHandler
-from carpus.core.errors import CameraLost
-from carpus.ui.camera_calibration import flow
-from carpus.ui.messages.messages import MessageDialog
-from carpus.ui.settings.camera_card import CameraCard
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import CameraLost
+from carpus.ui.screens.camera_calibration import flow
+from carpus.ui.screens.settings.camera_card import CameraCard
+from carpus.ui.shell.messages import MessageDialog
 from tests import studio
 from tests.ui.camera_fakes import board_result, checked
 
@@ -53,7 +53,7 @@ def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(studio, "_STILL_FRAMES", 1)
     monkeypatch.setattr(studio, "_MOST_PICTURES", 6)
     monkeypatch.setattr(studio, "_between", lambda one, other: other)
-    monkeypatch.setitem(views.WANTED_VIEWS, "chessboard", FEW)
+    monkeypatch.setitem(board_views.WANTED_VIEWS, "chessboard", FEW)
     monkeypatch.setattr(measure, "CHECK_S", 6.0)
     monkeypatch.setattr(measure, "_MAX_GAP_S", 1e9)
     monkeypatch.setattr(measure, "MIN_FRAMES", 2)
@@ -70,7 +70,7 @@ def test_from_the_settings_over_the_board_to_the_card(
 ) -> None:
     journey, board = desktop.controller, desktop.controller.board.screen
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "board.pdf"), ""))
-    monkeypatch.setattr(care_cameras, "open_camera", lambda *_, **__: studio.board_camera(CHESSBOARD, 20.0))
+    monkeypatch.setattr(maintenance_cameras, "open_camera", lambda *_, **__: studio.board_camera(CHESSBOARD, 20.0))
     journey.navigator.open_screen("settings")
     desktop.shell.findChild(CameraCard).calibrate_button.click()
     assert journey.place == "board"
@@ -122,7 +122,7 @@ def card_camera(desktop: Desktop, monkeypatch: pytest.MonkeyPatch) -> list[Notic
         made.info = replace(made.info, name="Xtion", settings={})
         return made
 
-    monkeypatch.setattr(care_cameras, "open_camera", opened)
+    monkeypatch.setattr(maintenance_cameras, "open_camera", opened)
     monkeypatch.setattr(desktop.controller.context.cameras, "name", lambda: "Xtion PRO LIVE")
     desktop.controller.camera_state.check_connection()
     return heard
@@ -135,9 +135,11 @@ def test_settings_of_a_camera_that_was_out_say_so_with_the_date(qtbot: QtBot, de
     add_check(checks_path(data, "77"), replace(last, serial="77", when=when))
     journey.navigator.open_screen("settings")
     card = desktop.shell.findChild(CameraCard)
-    disk, answers = care_cameras.find_camera_serials, threading.Event()
+    disk, answers = maintenance_cameras.find_camera_serials, threading.Event()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(care_cameras, "find_camera_serials", lambda folder: disk(folder) if answers.wait(600) else set())
+        patch.setattr(
+            maintenance_cameras, "find_camera_serials", lambda folder: disk(folder) if answers.wait(600) else set()
+        )
         card.check_button.click()
         assert journey.place == "card", "a disk that hangs does not hold the window"
         assert "not been checked" in journey.card.screen.instruction.text()

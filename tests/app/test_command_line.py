@@ -25,14 +25,14 @@ from tqdm import tqdm
 from carpus.app import command_line
 from carpus.core.capture.camera_info import CAMERA_FILE
 from carpus.core.capture.files.tum import COLOR_LIST, TumFolder, TumWriter
-from carpus.core.errors import DiskFull
-from carpus.core.hand.protocols import WRIST6
+from carpus.core.model.errors import DiskFull
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import Frame
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import Frame
 from tests.capture.oni_writer import in_millimetres, write_oni
 from tests.commands import Command
 from tests.rendered import FLEXION, Rendered
@@ -134,7 +134,7 @@ def test_closed_streams_are_no_trouble(recording: Path, tmp_path: Path) -> None:
 NOT_LOADED = {
     "demo": ("h5py", "yaml", "threadpoolctl", "sqlalchemy", "carpus.core.detection", "carpus.core.measures"),
     "info": ("h5py", "threadpoolctl", "sqlalchemy", "carpus.core.detection", "carpus.core.compiled"),
-    "track": ("yaml", "threadpoolctl", "sqlalchemy", "carpus.core.measures", "carpus.core.results.figures"),
+    "track": ("yaml", "threadpoolctl", "sqlalchemy", "carpus.core.measures", "carpus.core.results.session_results"),
 }
 """By commands that only tell what they take: a tenth of a second each, for whoever types one."""
 

@@ -19,7 +19,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     ConcurrentChange,
     DiskFull,
     FolderMissing,
@@ -32,27 +32,27 @@ from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
 from carpus.core.records.backup import collect_sources
 from carpus.core.records.changes import delete_row
 from carpus.core.records.corrections import Corrections, PendingResult, _match_exclusions, compare_results
-from carpus.core.records.keeping import RecordRetention
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover_sessions
+from carpus.core.records.retention import RecordRetention
 from carpus.core.records.schema import SESSION
-from carpus.core.records.set_up import MARKERS_SUFFIX
+from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
-from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
-from carpus.core.session.disk import publish
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.session.atomic_files import publish
 from carpus.core.session.reader import read_session
 from carpus.core.session.rewriting import rewrite_session
 from carpus.core.session.values import RepetitionRow, Repetitions
-from carpus.ui.background import Background
-from carpus.ui.correct.flow import CorrectionFlow
-from carpus.ui.flow import ScreenContext
-from carpus.ui.now_open import CurrentSelection
-from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.sessions.stored import SessionStore
-from carpus.ui.shell import MainWindow
-from carpus.ui.theme import Theme
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.correct.flow import CorrectionFlow
+from carpus.ui.screens.review.flow import ReviewFlow
+from carpus.ui.screens.sessions.session_store import SessionStore
+from carpus.ui.shell.current_selection import CurrentSelection
+from carpus.ui.shell.flow import ScreenContext
+from carpus.ui.shell.main_window import MainWindow
 from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, wrongly_tracked
 from tests.ui.contexts import Told, a_context
 
@@ -167,7 +167,7 @@ def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
             refused()
         return replace_real(path, target)
 
-    monkeypatch.setattr("carpus.core.session.disk.os.link", refused)
+    monkeypatch.setattr("carpus.core.session.atomic_files.os.link", refused)
     monkeypatch.setattr(Path, "replace", replaced)
 
 
@@ -232,7 +232,7 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
         return True
 
     again: list[str] = []
-    monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
+    monkeypatch.setattr("carpus.ui.screens.correct.flow.correct_in_process", beside)
     told = Told("settings", behind="correct")  # what comes of it comes behind them
     flow, context = correcting(told)
     sheet, said = flow.dialog, list[tuple[int, int]]()
@@ -514,7 +514,7 @@ def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
         written.set()
         return ends.wait(30.0)
 
-    monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
+    monkeypatch.setattr("carpus.ui.screens.correct.flow.correct_in_process", beside)
     flow, _ = correcting(Told("review"))
     flow.start(kept.session_id, (put_right(stored),))
     if is_answered == "before the end":

@@ -9,10 +9,10 @@ import pytest
 from PySide6.QtWidgets import QAbstractButton, QLabel
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.care_cameras import MaintenanceCameras
+from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.window import Desktop
 from carpus.core.records.library import Library
-from carpus.ui.settings.camera_card import CameraCard
+from carpus.ui.screens.settings.camera_card import CameraCard
 from tests.records.samples import HERON, LINDEN, T0, record
 
 

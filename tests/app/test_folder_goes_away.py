@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     DiskFull,
     FolderMissing,

@@ -16,11 +16,11 @@ from pathlib import Path
 import pytest
 
 from carpus.core.capture.devices.cameras import CAMERAS, load_camera_kind, parse_kind
-from carpus.core.formats.formats import FORMATS
-from carpus.core.hand.exercises import EXERCISES, exercises_for_protocol, get_exercise
-from carpus.core.hand.protocols import PALM_MARKERS, PROTOCOLS, MarkerProtocol, protocol_names
+from carpus.core.formats.export import FORMATS
+from carpus.core.model.hand.exercises import EXERCISES, exercises_for_protocol, get_exercise
+from carpus.core.model.hand.protocols import PALM_MARKERS, PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.simulation.motions import MOTIONS
-from carpus.ui.export.sheet import FORMAT_NAMES
+from carpus.ui.screens.export.dialog import FORMAT_NAMES
 from tests.sources import ROOT, nodes
 
 GIVEN = {"uri", "camera", "patience_s", "notice"}
@@ -36,9 +36,9 @@ from pathlib import Path
 import carpus
 import numpy as np
 from carpus.app.__main__ import main
-from carpus.core.hand.protocols import protocol_named
-from carpus.core.hand.exercises import exercises_of
-from carpus.ui.terms import protocol_name
+from carpus.core.model.hand.protocols import protocol_named
+from carpus.core.model.hand.exercises import exercises_of
+from carpus.ui.words.terms import protocol_name
 
 
 def done(*arguments):
@@ -146,7 +146,7 @@ REACHED_OTHERWISE = {
     "app.commands": "by the name of a command",
     "core.session.reading_process": "in a process of its own",
     "core.records.migrations": "by Alembic",
-    "core.tracking.state_model": "the whole state in one place, for readers, which its test holds",
+    "core.tracking.filter.state_model": "the whole state in one place, for readers, which its test holds",
 }
 
 

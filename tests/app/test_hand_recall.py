@@ -8,13 +8,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from carpus.app.unattended import format_results
-from carpus.core.hand.exercises import get_exercise
+from carpus.app.demo_driver import format_results
+from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.records.library import Library
-from carpus.core.records.set_up import MARKERS_SUFFIX
+from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.records.values import Patient
-from carpus.core.results.figures import compute_session_results
-from carpus.ui.patients.stored import _compare_results
+from carpus.core.results.session_results import compute_session_results
+from carpus.ui.screens.patients.patient_store import _compare_results
 from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 

@@ -15,21 +15,21 @@ import h5py
 import pytest
 
 import carpus
-from carpus.app.of_file import read_choices, read_comment
+from carpus.app.session_commands import read_choices, read_comment
 from carpus.app.settings import settings_folder
-from carpus.core.errors import OutputNotWritable
+from carpus.core.model.errors import OutputNotWritable
 from carpus.core.records.changes import update_row
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.keeping import RecordRetention
-from carpus.core.records.kept_sets import read_last_setup
+from carpus.core.records.exercise_sets import read_last_setup
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
+from carpus.core.records.retention import RecordRetention
 from carpus.core.records.schema import PATIENT, SESSION
-from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.sessions.stored import SessionStore
+from carpus.ui.screens.sessions.session_store import SessionStore
 from tests.app.test_library import set_up, store
 from tests.commands import Command
 from tests.formats.takes import stored
@@ -185,7 +185,7 @@ def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_re
         raise OutputNotWritable(folder, "Read-only file system")
 
     monkeypatch.setenv("CARPUS_DATA", str(library.folder))
-    monkeypatch.setattr("carpus.app.of_file.sessions_folder", lambda _: share)
+    monkeypatch.setattr("carpus.app.session_commands.sessions_folder", lambda _: share)
     if is_read_only:
         monkeypatch.setattr("carpus.core.records.store.make_private_folder", refuses)
     done = command("progress", "linden 42")

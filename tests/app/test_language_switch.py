@@ -10,8 +10,8 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import ScreenSettings, Settings, load_settings
-from carpus.ui import language
-from carpus.ui.controls.text import Text
+from carpus.ui.kit import language
+from carpus.ui.kit.text import Text
 
 
 @pytest.fixture

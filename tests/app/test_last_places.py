@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.errors import DiskFull
-from carpus.core.records import of_clinic
-from carpus.ui import last_places
-from carpus.ui.last_places import RecentLocations
+from carpus.core.model.errors import DiskFull
+from carpus.core.records import clinic_records
+from carpus.ui.shell import recent_locations
+from carpus.ui.shell.recent_locations import RecentLocations
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def data(tmp_path: Path) -> Path:
 
 def test_the_first_time_it_is_documents_or_home(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     papers = tmp_path / "papers"
-    monkeypatch.setattr(last_places, "documents_folder", lambda: str(papers))
+    monkeypatch.setattr(recent_locations, "documents_folder", lambda: str(papers))
     assert RecentLocations(data).folder("reports") == str(Path.home()), "the folder for papers is not there"
     papers.mkdir()
     assert RecentLocations(data).folder("reports") == str(papers)
@@ -43,6 +43,6 @@ def test_a_folder_that_cannot_be_written_is_no_fault(data: Path, monkeypatch: py
     def full(*_: object) -> None:
         raise DiskFull("disk")
 
-    monkeypatch.setattr(of_clinic, "replace_text", full)
+    monkeypatch.setattr(clinic_records, "replace_text", full)
     RecentLocations(data).save_folder("reports", str(data))
     assert Path(RecentLocations(data).folder("reports")).is_dir()

@@ -14,22 +14,22 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.errors import SessionUnreadable
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.records import of_sessions
-from carpus.core.records.keeping import RecordRetention
-from carpus.core.records.kept_sets import read_last_setup
+from carpus.core.model.errors import SessionUnreadable
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.records import session_records
+from carpus.core.records.exercise_sets import read_last_setup
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
-from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
+from carpus.core.records.retention import RecordRetention
+from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.patients.stored import PatientStore
-from carpus.ui.sessions.listing import remark
-from carpus.ui.sessions.stored import SessionStore
+from carpus.ui.screens.patients.patient_store import PatientStore
+from carpus.ui.screens.sessions.session_list import remark
+from carpus.ui.screens.sessions.session_store import SessionStore
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 
@@ -139,7 +139,7 @@ def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
     library.save_choices(session_id, choices)
     for text in ("First.", "Second,\nwith a line.", "Second,\nwith a line.\n", ""):
         library.save_comment(session_id, text)
-    assert [one.text for one in of_sessions.read_comments(library.store, session_id)] == [
+    assert [one.text for one in session_records.read_comments(library.store, session_id)] == [
         "First.",
         "Second,\nwith a line.",
         "",

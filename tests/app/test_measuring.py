@@ -13,12 +13,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.errors import RecordingEmpty
-from carpus.core.pipeline import looking_back
+from carpus.core.model.errors import RecordingEmpty
+from carpus.core.model.types import OPERATOR_LABEL, Detections, Frame, MarkerLabel, Region, TrackedFrame
+from carpus.core.pipeline import smoothing
 from carpus.core.pipeline.correction import correct, load_task
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.pipeline.looking_back import CHUNK_S, SmoothingProcess, TrackedHand
-from carpus.core.pipeline.measuring import LivePipeline, RecordedSession
+from carpus.core.pipeline.measurement import LivePipeline, RecordedSession
+from carpus.core.pipeline.smoothing import CHUNK_S, SmoothingProcess, TrackedHand
 from carpus.core.pipeline.track import (
     SMOOTHING_FAILED,
     FramePipeline,
@@ -30,10 +31,9 @@ from carpus.core.pipeline.track import (
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session, new_header
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.smoother_record import FilterSteps
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.smoother.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import OPERATOR_LABEL, Detections, Frame, MarkerLabel, Region, TrackedFrame
 from tests.pipeline.live_fakes import HeldSource, wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
@@ -46,7 +46,7 @@ NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
 def patience() -> Iterator[None]:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
     with pytest.MonkeyPatch.context() as patient:
-        patient.setattr(looking_back, "FINISH_TIMEOUT_S", 150.0)
+        patient.setattr(smoothing, "FINISH_TIMEOUT_S", 150.0)
         yield
 
 

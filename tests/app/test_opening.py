@@ -12,20 +12,20 @@ import pytest
 
 from carpus.app.desktop.practice import PracticeRenderer, practice_spec, render_practice_start
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.capture.paced import PracticeSource
+from carpus.core.capture.playback_sources import PracticeSource
 from carpus.core.capture.source import is_simulated
-from carpus.core.errors import CarpusFault, DiskFull
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import HAND21
 from carpus.core.measures.reach import find_reaches
 from carpus.core.measures.signals import low_pass, resample_evenly
-from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
+from carpus.core.model.errors import CarpusFault, DiskFull
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.types import Side
+from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
 from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
-from carpus.core.types import Side
-from carpus.ui.opening import OpeningCancelledError, Progress
+from carpus.ui.shell.source_opener import OpeningCancelledError, Progress
 from tests.accuracy.carpus import measured_hand
 from tests.capture.test_practice import Take
 from tests.pipeline.live_fakes import wait_until

@@ -12,15 +12,15 @@ import pytest
 
 from carpus.app.desktop.log import RedactingFormatter
 from carpus.app.settings import load_valid_settings
-from carpus.core.camera import Camera
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import RecordingUnreadable, SettingsInvalid
-from carpus.core.formats.new_output import TableDialect, escape_formula, write_new_table
+from carpus.core.formats.output_files import TableDialect, escape_formula, write_new_table
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import RecordingUnreadable, SettingsInvalid
 from carpus.core.records.library import Library
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.controls.text import plain_tooltip
+from carpus.ui.kit.text import plain_tooltip
 from tests.commands import Command
 from tests.formats.takes import stored
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, stored_journal
@@ -101,14 +101,14 @@ WRITES = """
 import os, sys
 from pathlib import Path
 from carpus.core.calibration.result import Clicks
-from carpus.core.calibration.clicks import write_clicks
-from carpus.core.camera import Camera
+from carpus.core.calibration.clicks_file import write_clicks
+from carpus.core.model.camera import Camera
 from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.durable import replace_file
-from carpus.core.formats.new_output import new_text
-from carpus.core.hand.protocols import WRIST6
+from carpus.core.platform.durable import replace_file
+from carpus.core.formats.output_files import new_text
+from carpus.core.model.hand.protocols import WRIST6
 import numpy as np
 camera = Camera(500, 500, 320, 240)
 for umask in ("000", "022", "277"):

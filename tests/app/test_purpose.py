@@ -11,9 +11,9 @@ import yaml
 from pytestqt.qtbot import QtBot
 
 from carpus.app.__main__ import build_parser, main
-from carpus.core.purpose import PURPOSE
-from carpus.ui.theme import Theme
-from carpus.ui.welcome.panel import WelcomePanel
+from carpus.core.model.purpose import PURPOSE
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.welcome.panel import WelcomePanel
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

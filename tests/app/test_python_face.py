@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 import carpus
-from carpus.app.python_face import HandFrame, ProposedClicks
-from carpus.core.errors import CalibrationImpossible, SettingsInvalid
-from carpus.core.hand.protocols import get_protocol
+from carpus.app.python_api import HandFrame, ProposedClicks
+from carpus.core.model.errors import CalibrationImpossible, SettingsInvalid
+from carpus.core.model.hand.protocols import get_protocol
 from carpus.core.session.reader import read_session
 from tests.rendered import FLEXION, REPEATED_FLEXION, Rendered
 

@@ -18,14 +18,14 @@ import numpy as np
 import pytest
 from pyarrow import parquet
 
-from carpus.app import python_face
+from carpus.app import python_api
 from carpus.core.formats.measures_files import MEASURES_HEADER
-from carpus.core.records.of_sessions import add_comment, save_choices
+from carpus.core.model.types import TrackedFrame, TrackStatus
+from carpus.core.records.session_records import add_comment, save_choices
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import TrackedFrame, TrackStatus
 from tests.commands import Command
 from tests.formats.takes import stored
 from tests.moments import with_moment
@@ -118,14 +118,14 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path, 
         for row in range(20 * 30):
             there = with_moment(frame(row), **still)
             writer.append(replace(there, status=TrackStatus.TRACKED, dropped_before=0))
-    whole = {row.measure: row.count for row in python_face.open_session(path).measures()}
+    whole = {row.measure: row.count for row in python_api.open_session(path).measures()}
     with opened(tmp_path / "data") as house:
         house.files.scan()
         save_choices(house.store, header.session_id, RepetitionChoices({0: "pain", 1: "pain"}), 0)
     assert command("report", path, "--output", tmp_path / "day.pdf").code == 0
     left = whole["arc"] - 2
     assert f"mean of {left} repetitions; number 1 left out: pain" in words(tmp_path / "day.pdf")
-    assert {row.measure: row.count for row in python_face.open_session(path).measures()}["arc"] == left
+    assert {row.measure: row.count for row in python_api.open_session(path).measures()}["arc"] == left
     export = ("export", path, "--format", "json")
     assert command(*export, "--output", tmp_path / "out").code == 0
     (made,) = (tmp_path / "out").rglob("*.measures.json")

@@ -29,8 +29,8 @@ from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.restoring import activate_restored
 from carpus.core.records.values import BackupSettings, Patient
-from carpus.ui.collector import GarbageCollector
-from carpus.ui.messages.messages import NoticeStrip
+from carpus.ui.kit.garbage_collection import GarbageCollector
+from carpus.ui.shell.messages import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
 
@@ -349,7 +349,7 @@ def test_back_up_now_without_a_folder_asks_for_one_and_backs_up(
     facts = backing._facts()
     assert (facts.state, facts.folder_state) == ("warn", "warn"), "the same disk is no safe place"
     assert "same disk" in facts.folder_text
-    monkeypatch.setattr("carpus.ui.records.backing_up.is_same_disk", lambda *_: False)
+    monkeypatch.setattr("carpus.ui.screens.records.backup.is_same_disk", lambda *_: False)
     facts = backing._facts()
     assert (facts.state, facts.folder_state) == ("good", "good")
 
@@ -361,7 +361,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk), hour=12)))
     backing = desktop.data_protection.backing_up
     today = datetime.now().astimezone().replace(hour=13)
-    monkeypatch.setattr("carpus.ui.records.backing_up._now", lambda: today)
+    monkeypatch.setattr("carpus.ui.screens.records.backup._now", lambda: today)
     backing.run_if_due()
     assert not backing._is_running, "the disk is not there"
     disk.mkdir()
@@ -373,7 +373,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
     qtbot.waitUntil(lambda: backing.last_backup is not None and not backing._is_running)
     backing.run_if_due()
     assert not backing._is_running, "once a day"
-    monkeypatch.setattr("carpus.ui.records.backing_up._now", lambda: today + timedelta(days=1))
+    monkeypatch.setattr("carpus.ui.screens.records.backup._now", lambda: today + timedelta(days=1))
     backing.run_if_due()
     assert backing._is_running
     qtbot.waitUntil(lambda: not backing._is_running)

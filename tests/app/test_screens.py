@@ -20,9 +20,9 @@ from pytestqt.qtbot import QtBot
 from carpus.app.desktop import window
 from carpus.app.desktop.screens import PLACES, SLOW_CORE_MODULES, load_core, load_screens
 from carpus.app.desktop.window import Desktop
-from carpus.ui.flow import OVERLAYS, PATIENT_TABS, SETUP_STEPS
-from carpus.ui.help import guide
-from carpus.ui.now_open import SourceChoice
+from carpus.ui.screens.help import guide
+from carpus.ui.shell.current_selection import SourceChoice
+from carpus.ui.shell.flow import OVERLAYS, PATIENT_TABS, SETUP_STEPS
 from tests.ui.fakes import FakeFeed
 from tests.ui.gallery import STATES
 

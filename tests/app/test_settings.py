@@ -28,11 +28,11 @@ from carpus.app.settings import (
     settings_folder,
     with_data_folder,
 )
-from carpus.core.errors import SettingsInvalid
+from carpus.core.model.errors import SettingsInvalid
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.setting_values import settable_names
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.results.report_form import ReportSettings
-from carpus.core.typed_value import settable_names
-from carpus.core.words import format_fault_line
 
 DEFAULTS = Path(__file__).parents[2] / "resources" / "defaults.toml"
 

@@ -20,13 +20,13 @@ from carpus import __version__
 from carpus.app.commands import track
 from carpus.app.settings import StreamSettings, load_settings, save_preferences, settings_folder
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.pipeline.track import NeutralNoise, TrackSettings, format_parameters
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.filter.finger_settings import FingerSettings
+from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.commands import Command
 from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration

@@ -19,7 +19,7 @@ from carpus.app.__main__ import build_parser
 from carpus.app.command_line import CommandParser
 from carpus.app.commands import COMMANDS
 from carpus.core.capture.devices import cameras
-from carpus.core.hand.exercises import EXERCISES
+from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.values import Patient
 from tests.commands import Command

@@ -6,7 +6,7 @@ import os
 import signal
 import time
 
-from carpus.app.batch.work import TrackingOutcome, TrackingTask, fault_outcome
+from carpus.app.batch.tracking_task import TrackingOutcome, TrackingTask, fault_outcome
 
 
 def deadly(task: TrackingTask) -> TrackingOutcome:

@@ -20,11 +20,11 @@ from distributed import Client
 from pyarrow import parquet
 
 from carpus.app.__main__ import main
-from carpus.app.batch.processes import run_tasks_on_scheduler
-from carpus.app.batch.work import TrackingOutcome, TrackingTask
+from carpus.app.batch.tracking_task import TrackingOutcome, TrackingTask
+from carpus.app.batch.worker_pool import run_tasks_on_scheduler
 from carpus.app.commands.track_many import OUTCOMES_FILE
 from carpus.app.sources import CLICKS_FILE, plan_inputs
-from carpus.core.errors import SchedulerUnreachable
+from carpus.core.model.errors import SchedulerUnreachable
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_session
 from tests.rendered import FLEXION, Rendered
@@ -155,7 +155,7 @@ def test_a_client_that_is_killed_begins_again(made_in_python: str, recordings: P
 def test_a_scheduler_that_is_not_there_is_told(
     recordings: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("carpus.app.batch.processes.PATIENCE_S", 1.0)
+    monkeypatch.setattr("carpus.app.batch.worker_pool.PATIENCE_S", 1.0)
     with pytest.raises(SchedulerUnreachable):
         list(run_tasks_on_scheduler("tcp://127.0.0.1:9", []))
     words = ["track", str(recordings), "--output", str(tmp_path / "out"), "--scheduler", "nonsense://"]

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.batch import work
-from carpus.app.batch.processes import DIED_TEXT, count_cores, run_tasks
-from carpus.app.batch.work import TrackingTask
+from carpus.app.batch import tracking_task
+from carpus.app.batch.tracking_task import TrackingTask
+from carpus.app.batch.worker_pool import DIED_TEXT, count_cores, run_tasks
 from carpus.app.sources import TrackingInput
-from carpus.core.errors import OutputExists
+from carpus.core.model.errors import OutputExists
 from carpus.core.pipeline.track import TrackSettings
 from tests.batch.deadly import deadly
 from tests.records.samples import record
@@ -53,13 +53,13 @@ def test_what_another_run_finished_meanwhile_was_done_before(tmp_path: Path, mon
         record(output, "", datetime(2026, 11, 1, tzinfo=UTC))
         raise OutputExists(output)
 
-    monkeypatch.setattr(work, "retrack_session", slower)
-    outcome = work.execute_task(task(tmp_path, "r0"))
+    monkeypatch.setattr(tracking_task, "retrack_session", slower)
+    outcome = tracking_task.execute_task(task(tmp_path, "r0"))
     assert (outcome.result, outcome.frames > 0) == ("kept", True)
 
 
 def test_a_worker_with_another_version_tracks_nothing(tmp_path: Path) -> None:
-    outcome = work.execute_task(replace(task(tmp_path, "r0"), software_version="0.0.1"))
+    outcome = tracking_task.execute_task(replace(task(tmp_path, "r0"), software_version="0.0.1"))
     assert outcome.result == "fault"
     assert "0.0.1" in outcome.messages[0]
 

@@ -16,8 +16,8 @@ from pyarrow import parquet
 
 from carpus.app.commands.track_many import MEASURES_FILE, OUTCOMES_FILE
 from carpus.core.formats import measures_files
-from carpus.core.results.figures import compute_session_results
 from carpus.core.results.measures_table import MeasureRow
+from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE
 from tests.commands import Command

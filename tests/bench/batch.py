@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
-from carpus.app.batch.processes import count_cores, run_tasks
-from carpus.app.batch.work import TrackingTask
+from carpus.app.batch.tracking_task import TrackingTask
+from carpus.app.batch.worker_pool import count_cores, run_tasks
 from carpus.app.sources import TrackingInput
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.result import Clicks
 from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.files.tum import TumFolder

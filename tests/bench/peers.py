@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.hand.protocols import HAND21
 from carpus.core.simulation.render import Renderer
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor

@@ -21,12 +21,12 @@ from pathlib import Path
 import psycopg
 from sqlalchemy import insert
 
-from carpus.core.names import fold_name
+from carpus.core.model.names import fold_name
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.of_sessions import read_comments
 from carpus.core.records.patients import WORDS, Patients
 from carpus.core.records.schema import COMMENT, PATIENT, SESSION
 from carpus.core.records.session_list import SessionList
+from carpus.core.records.session_records import read_comments
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from tests.records.postgres import Cluster

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 STATE, NOISE, MARKERS = 26, 23, 21
 FOCAL_PX, CENTRE_PX, DISTANCE_M = 525.0, np.array([319.5, 239.5]), 0.7

@@ -21,8 +21,8 @@ import gc
 gc.disable()  # as the command does
 from pathlib import Path
 from carpus.app import compose
-from carpus.app.desktop.alone import Alone
-from carpus.app.desktop.looks import application
+from carpus.app.desktop.single_instance import Alone
+from carpus.app.desktop.appearance import application
 from carpus.app.settings import load_sound_settings, with_data_folder
 loaded, told = load_sound_settings()
 settings = with_data_folder(loaded, Path(sys.argv[1]))

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carpus.core.model.types import Detections, Frame, Region
 from carpus.core.pipeline.track import FramePipeline
 from carpus.core.tracking import hand_filter
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, Frame, Region
 from tests.bench import reference
 from tests.bench.timing import HEAD, line
 from tests.bench.tracking import spied

@@ -12,14 +12,15 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.calibration.calibrate import calibrate_hand
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.capture.files.tum import TumFolder
+from carpus.core.model.types import Frame, TrackStatus
 from carpus.core.pipeline import track
 from carpus.core.pipeline.track import FramePipeline, TrackSettings, build_pipeline, noise_from_neutral
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking import hand_filter, palm_association
-from carpus.core.types import Frame, TrackStatus
+from carpus.core.tracking import hand_filter
+from carpus.core.tracking.association import palm_association
 from tests.bench import reference
 from tests.bench.timing import HEAD, Spy, Times, line
 

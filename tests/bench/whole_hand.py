@@ -9,7 +9,8 @@ import numpy as np
 from carpus.core.pipeline import track
 from carpus.core.simulation.recording import render_cached
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking import digit_association, hand_filter
+from carpus.core.tracking import hand_filter
+from carpus.core.tracking.digits import digit_association
 from tests.bench.timing import HEAD, line
 from tests.bench.tracking import Costs, measure
 

@@ -18,21 +18,21 @@ import numpy as np
 from PySide6.QtCore import QEvent, QEventLoop, QObject, Qt, QTimer
 
 from carpus.app import compose
-from carpus.app.desktop.journey import MainController
-from carpus.app.desktop.looks import create_application
+from carpus.app.demo_driver import DemoDriver
+from carpus.app.desktop.appearance import create_application
+from carpus.app.desktop.main_controller import MainController
 from carpus.app.desktop.practice import practice_spec
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from carpus.app.unattended import DemoDriver
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.ui.live.screen import LiveScreen
+from carpus.ui.screens.live.screen import LiveScreen
 
 SIZE_PX = (1920, 1080)
 FPS = 30.0

@@ -11,12 +11,12 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from carpus.app.desktop.looks import create_application
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.results.seen import JointCurves, WristCurves
-from carpus.ui.figures import FINGER_ANGLES
-from carpus.ui.plot.session import HandPlot, SessionChart, SessionPlot
-from carpus.ui.theme import Theme
+from carpus.app.desktop.appearance import create_application
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.results.valid_data import JointCurves, WristCurves
+from carpus.ui.charts.session import HandPlot, SessionChart, SessionPlot
+from carpus.ui.kit.theme import Theme
+from carpus.ui.words.finger_angles import FINGER_ANGLES
 
 SECONDS, RATE_HZ, STEPS = 1200.0, 30.0, 40
 WANTED_MS = 50.0

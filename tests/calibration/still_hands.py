@@ -13,8 +13,8 @@ from carpus.core.calibration.result import Clicks
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import disc_mask
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.hand.protocols import WRIST6
-from carpus.core.types import FloatArray, Frame, Side
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import FloatArray, Frame, Side
 from tests.detection.pictures import CAMERA, Extra, Look, depth_picture, frame, picture
 from tests.tracking.hands import FROM_ABOVE, palm
 

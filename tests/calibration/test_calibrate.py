@@ -18,11 +18,11 @@ from carpus.core.calibration.calibrate import (
 )
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.errors import ClickOnNoMarker, MarkerWithoutDepth
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.types import FloatArray, Side
+from carpus.core.model.depth_sensor import PRIMESENSE
+from carpus.core.model.errors import ClickOnNoMarker, MarkerWithoutDepth
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of, outcome_of, still
 from tests.detection.pictures import CAMERA, PALM_PX
 from tests.tracking.hands import palm

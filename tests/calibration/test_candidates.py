@@ -10,14 +10,14 @@ import pytest
 
 from carpus.core.calibration.calibrate import calibrate_hand
 from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, nearest_blob
-from carpus.core.calibration.naming import propose_labels
+from carpus.core.calibration.label_proposal import propose_labels
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.camera import Camera
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.types import FloatArray, Frame, Side
 from carpus.core.simulation.recording import SimulatedRecording, sample_clicks
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import FloatArray, Frame, Side
 from tests.suites import few
 
 SETTINGS = DetectionSettings()

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.calibration.clicks import check_clicks_inside, read_clicks, write_clicks
+from carpus.core.calibration.clicks_file import check_clicks_inside, read_clicks, write_clicks
 from carpus.core.calibration.result import Clicks
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     ClickOutsideImage,
     ClicksUnreadable,
@@ -19,7 +19,7 @@ from carpus.core.errors import (
     OutputNotWritable,
     ProtocolUnknown,
 )
-from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.model.hand.protocols import HAND21, WRIST6
 
 MARKERS = {
     "MCP5": [260.5, 200],

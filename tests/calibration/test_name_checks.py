@@ -9,19 +9,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.calibration.name_checks import (
-    find_label_fault,
-    find_shifted_labels,
-    is_other_side,
-    plan_view,
-)
-from carpus.core.hand.anatomy import anatomy_from_size
-from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21, PALM_MARKERS, WRIST6, joint_angle_names
+from carpus.core.calibration.label_checks import find_label_fault, find_shifted_labels, is_other_side, plan_view
+from carpus.core.model.hand.anatomy import anatomy_from_size
+from carpus.core.model.hand.kinematics import disc_centres
+from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS, WRIST6, joint_angle_names
+from carpus.core.model.types import FloatArray, Side
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import compute_truth
-from carpus.core.types import FloatArray, Side
 
 SIDES: tuple[Side, Side] = ("right", "left")
 PROTOCOLS = {"wrist6": WRIST6, "hand21": HAND21}

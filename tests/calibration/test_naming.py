@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from carpus.core.calibration.naming import LabelProposal, propose_labels
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.calibration.label_proposal import LabelProposal, propose_labels
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.hand.protocols import HAND21, WRIST6
+from carpus.core.model.types import Detections, FloatArray, Side
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import Detections, FloatArray, Side
 from tests.simulation.measurements import measurement_sequence
 
 IntArray = NDArray[np.int64]

@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from carpus.core.calibration.neutral_pose import estimate_neutral_pose
-from carpus.core.camera import Camera
-from carpus.core.types import FloatArray
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray
 from tests.tracking.hands import FROM_ABOVE
 from tests.tracking.hands import RIGHT_PALM_M as PALM_M
 

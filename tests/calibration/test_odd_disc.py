@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand
-from carpus.core.calibration.name_checks import average_palm, find_odd_marker
+from carpus.core.calibration.label_checks import average_palm, find_odd_marker
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.hand.protocols import PALM_MARKERS
-from carpus.core.types import FloatArray, Side
+from carpus.core.model.hand.protocols import PALM_MARKERS
+from carpus.core.model.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of
 from tests.detection.pictures import CAMERA, PAPERS, SKIN, Extra
 

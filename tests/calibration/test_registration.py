@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import calibrate_hand
+from carpus.core.calibration.neutral_depth import estimate_depth_offset_px
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.calibration.still_depth import estimate_depth_offset_px
 from carpus.core.detection.appearance import learn_appearance
 from carpus.core.detection.settings import DetectionSettings
+from carpus.core.model.types import FloatArray, Frame
 from carpus.core.simulation.recording import SimulatedRecording, sample_clicks
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import FloatArray, Frame
 
 DETECTION = DetectionSettings()
 SEEDS = (1, 2, 5, 11)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from carpus.core.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault
 
 
 @pytest.fixture

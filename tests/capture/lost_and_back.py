@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.errors import CameraLost, CameraReturned, CarpusFault
-from carpus.core.types import Frame
+from carpus.core.model.errors import CameraLost, CameraReturned, CarpusFault
+from carpus.core.model.types import Frame
 
 
 def assert_comes_back(

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.camera import Camera
 from carpus.core.capture.files.oni_format import RecordType
-from carpus.core.types import ByteImage, DepthImage
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import ByteImage, DepthImage
 from tests.capture.oni_writer import ColorCodec, DepthCodec, OniWriter
 
 WIDTH, HEIGHT = 64, 48

@@ -15,17 +15,17 @@ from typing import BinaryIO, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import sidecar_path, write_camera_info
 from carpus.core.capture.files import oni_format as oni
+from carpus.core.capture.files.image_codec import encode_color
 from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
-from carpus.core.capture.files.pictures import encode_color
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
-from carpus.core.durable import FileWriter
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import ByteImage, DepthImage, Frame
+from carpus.core.platform.durable import FileWriter
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import ByteImage, DepthImage, Frame
 
 ColorCodec = Literal["jpeg", "raw"]
 DepthCodec = Literal["table", "raw"]

@@ -12,7 +12,7 @@ from carpus.core.capture.files.realsense_recording import FilePlayer
 from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, StreamLayout
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.types import Frame
+from carpus.core.model.types import Frame
 from tests.capture.oni_samples import CAMERA, HEIGHT, WIDTH, color_picture
 
 MODES = {Sensor.COLOR: VideoMode(PixelFormat.RGB888, WIDTH, HEIGHT, 30)}

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import yaml
 
-from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.camera_info import StoredCalibration, read_camera_info, rescale_camera, write_camera_info
-from carpus.core.depth_sensor import D435, PRIMESENSE
-from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+from carpus.core.model.camera import DEFAULT_CAMERA, Camera
+from carpus.core.model.depth_sensor import D435, PRIMESENSE
+from carpus.core.model.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 
 CAMERA = Camera(570.3, 571.9, 314.2, 235.1, 640, 480, (0.041, -0.12, 1e-5, -3e-4, 0.07), origin="file")
 

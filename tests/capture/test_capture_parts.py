@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import rescale_camera
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.devices.capture_child import DeviceOpened, Heartbeat, ImageArrived, camera_unlisted_error
@@ -28,7 +27,8 @@ from carpus.core.capture.frame_assembly import (
     camera_from_field_of_view,
 )
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
 
 PERIOD_US = 33_333
 

@@ -9,16 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture import doctor
 from carpus.core.capture.devices import openni2_camera, realsense
 from carpus.core.capture.devices.cameras import CameraKind, load_camera_kind
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import examine
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import CameraBusy, DriverMissing
-from carpus.core.installing import Finding
-from carpus.core.types import Frame
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.errors import CameraBusy, DriverMissing
+from carpus.core.model.installation import Finding
+from carpus.core.model.types import Frame
 
 
 def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Path) -> None:

@@ -18,8 +18,8 @@ import pytest
 from carpus.core.capture.devices import capture_process
 from carpus.core.capture.files import realsense_recording
 from carpus.core.capture.files.realsense_recording import FilePlayer
-from carpus.core.errors import DriverFailed
-from carpus.core.types import Frame
+from carpus.core.model.errors import DriverFailed
+from carpus.core.model.types import Frame
 from tests.capture.oni_samples import color_picture
 from tests.capture.played import PlayedSource
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.calibrated import save_camera_name, with_given_name
+from carpus.core.capture.calibrated_source import save_camera_name, with_given_name
 from carpus.core.capture.source import SERIAL, SourceInfo
-from carpus.core.errors import OutputNotWritable
-from carpus.core.types import Frame
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.errors import OutputNotWritable
+from carpus.core.model.types import Frame
 
 
 class Camera:

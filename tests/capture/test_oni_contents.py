@@ -13,7 +13,7 @@ from carpus.core.capture.files import oni_format as oni
 from carpus.core.capture.files.oni_format import NodeType, RecordType
 from carpus.core.capture.files.oni_source import read_contents
 from carpus.core.capture.video_mode import PixelFormat
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     RecordingDamaged,
     RecordingEmpty,

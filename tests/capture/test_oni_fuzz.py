@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.files.oni_source import OniSource
-from carpus.core.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 from tests.torture.mutations import cut, flip, noise, remove, repeat, zeros
 

@@ -13,7 +13,7 @@ import pytest
 from carpus.core.capture.camera_info import sidecar_path, write_camera_info
 from carpus.core.capture.files.oni_format import RecordType
 from carpus.core.capture.files.oni_source import OniSource
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DamagedFramesExcluded,
@@ -23,7 +23,7 @@ from carpus.core.errors import (
     RecordingUnsupported,
     RegistrationAssumed,
 )
-from carpus.core.types import Frame
+from carpus.core.model.types import Frame
 from tests.capture.oni_samples import (
     CAMERA,
     HEIGHT,

@@ -12,8 +12,8 @@ import pytest
 from carpus.core.capture.camera_info import read_camera_info, sidecar_path
 from carpus.core.capture.files.oni_source import OniSource, read_contents
 from carpus.core.capture.source import is_simulated
-from carpus.core.errors import RecordingDamaged
-from carpus.core.types import Frame
+from carpus.core.model.errors import RecordingDamaged
+from carpus.core.model.types import Frame
 from tests.capture.oni_samples import CAMERA, PERIOD_S, color_picture, depth_picture, write_sample
 from tests.capture.oni_writer import OniWriter, write_oni
 

@@ -14,7 +14,7 @@ import pytest
 from carpus.core.capture.devices import openni2
 from carpus.core.capture.devices.openni2 import load_library
 from carpus.core.capture.video_mode import PixelFormat, VideoMode
-from carpus.core.errors import DriverMissing
+from carpus.core.model.errors import DriverMissing
 from tests.capture.oni_samples import HEIGHT, WIDTH, write_sample
 
 ROOT = Path(__file__).parents[2]

@@ -12,11 +12,11 @@ from itertools import islice, pairwise
 
 import pytest
 
-from carpus.core.camera import Camera
 from carpus.core.capture.devices.capture_child import CameraConfig
 from carpus.core.capture.devices.openni2_camera import open_openni2
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.errors import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import (
     CameraFileUnreadable,
     CameraLost,
     CameraMissing,
@@ -27,7 +27,7 @@ from carpus.core.errors import (
     DriverMissing,
     ExposureUnstable,
 )
-from carpus.core.types import Frame
+from carpus.core.model.types import Frame
 
 PERIOD_S = 0.033
 

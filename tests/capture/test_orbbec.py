@@ -30,8 +30,8 @@ from carpus.core.capture.devices.orbbec import (
 )
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.capture.doctor import check_open_camera, check_udev_rules
-from carpus.core.depth_sensor import AZURE_KINECT
-from carpus.core.errors import (
+from carpus.core.model.depth_sensor import AZURE_KINECT
+from carpus.core.model.errors import (
     CameraBusy,
     CameraMismatch,
     CameraMissing,
@@ -39,8 +39,8 @@ from carpus.core.errors import (
     CarpusFault,
     DriverMissing,
 )
-from carpus.core.installing import Finding
-from carpus.core.words import format_fault_line
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.installation import Finding
 from tests.capture import orbbec_stand_in
 from tests.capture.lost_and_back import assert_comes_back
 from tests.capture.orbbec_stand_in import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, StandInList

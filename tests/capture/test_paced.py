@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.paced import PacedSource
+from carpus.core.capture.playback_sources import PacedSource
 from carpus.core.capture.source import SourceInfo
-from carpus.core.types import Frame
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.types import Frame
 from tests.pipeline.live_fakes import frame, wait_until
 
 

@@ -7,10 +7,10 @@ from itertools import islice
 
 import numpy as np
 
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.paced import PracticeSource
+from carpus.core.capture.playback_sources import PracticeSource
 from carpus.core.capture.source import SourceInfo
-from carpus.core.types import Frame
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.types import Frame
 
 STILL, TOTAL = 6, 15
 

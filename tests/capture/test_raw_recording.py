@@ -15,12 +15,12 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.camera import Camera
-from carpus.core.capture.files.pictures import decode_color, decode_depth, encode_color, encode_depth
+from carpus.core.capture.files.image_codec import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.files.raw import MAX_FRAMES, RawRecording, RawWriter, _pack_record, is_raw_recording
 from carpus.core.capture.source import SourceInfo
-from carpus.core.depth_sensor import D435
-from carpus.core.errors import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import D435
+from carpus.core.model.errors import (
     CarpusFault,
     DamagedFramesExcluded,
     FrameSizeChanged,
@@ -31,7 +31,7 @@ from carpus.core.errors import (
     RecordingMissing,
     RecordingUnreadable,
 )
-from carpus.core.types import Frame
+from carpus.core.model.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 
 ROOT = Path(__file__).parents[2]
@@ -331,7 +331,7 @@ def test_a_full_disk_ends_the_recording_and_keeps_it(tmp_path: Path) -> None:
     program = """
 import resource, signal, sys
 from pathlib import Path
-from carpus.core.errors import DiskFull
+from carpus.core.model.errors import DiskFull
 from tests.capture.test_raw_recording import INFO, RawWriter, frames
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))

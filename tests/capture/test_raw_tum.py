@@ -10,12 +10,12 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.files.tum import TumFolder, TumWriter, to_tum_depth
 from carpus.core.capture.source import SourceInfo, is_simulated
-from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
-from carpus.core.types import Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.model.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 
 CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, origin="file")

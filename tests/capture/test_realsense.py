@@ -27,7 +27,7 @@ from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import check_open_camera
 from carpus.core.capture.files.realsense_recording import RealSenseRecording
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CameraBusy,
     CameraLost,
     CameraMismatch,
@@ -39,7 +39,7 @@ from carpus.core.errors import (
     ExtraMissing,
     RecordingDamaged,
 )
-from carpus.core.words import format_fault_line
+from carpus.core.model.fault_text import format_fault_line
 from tests.capture import realsense_stand_in
 from tests.capture.lost_and_back import assert_comes_back
 from tests.capture.realsense_stand_in import DEPTH_FX, EDGE_PX, FX, HEIGHT, NEAR_MM, SHIFT_M, WIDTH

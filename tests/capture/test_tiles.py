@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.files.pictures import (
+from carpus.core.capture.files.image_codec import (
     TILE_PX,
     TiledImage,
     decode_color,
@@ -17,8 +17,8 @@ from carpus.core.capture.files.pictures import (
     encode_depth,
     pack_tiles,
 )
-from carpus.core.errors import RecordingUnreadable
-from carpus.core.types import ByteImage, Region
+from carpus.core.model.errors import RecordingUnreadable
+from carpus.core.model.types import ByteImage, Region
 
 WIDTH, HEIGHT = 250, 130
 COLOR, DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)

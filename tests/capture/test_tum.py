@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.capture.files.tum import SIMULATED_REMARK, TumFolder, count_dropped_frames, pair_by_time
 from carpus.core.capture.source import FrameSource
-from carpus.core.errors import (
+from carpus.core.model.camera import DEFAULT_CAMERA, Camera
+from carpus.core.model.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DamagedFramesExcluded,
@@ -31,7 +31,7 @@ from carpus.core.errors import (
     TimesUnordered,
     UnitAssumed,
 )
-from carpus.core.types import SIMULATED
+from carpus.core.model.types import SIMULATED
 
 WIDTH, HEIGHT = 64, 48
 TIMES_S = [1305031102.175304 + 0.033 * k for k in (0, 1, 2, 5, 6)]

@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.calibration.calibrate import calibrate_hand
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.capture.files.tum import TumFolder
+from carpus.core.model.types import FloatArray, Frame
 from carpus.core.pipeline.track import TrackSettings, build_pipeline, noise_from_neutral
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import FloatArray, Frame
 from tests.rendered import LEFT_DEVIATION, WHOLE_HAND
 
 PLACE = Path(__file__).with_name("golden_tracks.npz")

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from carpus.core.compiled import association as compiled
-from carpus.core.tracking.association import (
+from carpus.core.tracking.association.association import (
     DEPTH_OUTLIER_PROBABILITY,
     LOG_IMPOSSIBLE,
-    AssociationSettings,
     log_densities,
 )
+from carpus.core.tracking.filter.settings import AssociationSettings
 from tests.compiled.comparing import LAYOUTS, assert_same
 from tests.compiled.oracle import association as oracle
 from tests.compiled.test_mixture import covariances

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 
 from carpus.core.compiled import blobs as compiled
 from carpus.core.compiled.blobs import BlobWindows
-from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.detection.components import Components, find_components
 from carpus.core.detection.detector import ColorTable
 from carpus.core.detection.stencil import Stencil, get_stencil
-from carpus.core.types import ByteImage, DepthImage
+from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
+from carpus.core.model.types import ByteImage, DepthImage
 from tests.compiled.comparing import LAYOUTS, assert_same
 from tests.compiled.oracle import blobs as oracle
 

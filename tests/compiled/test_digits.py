@@ -13,10 +13,13 @@ import pytest
 from carpus.core.calibration.result import Calibration
 from carpus.core.compiled import digit_images
 from carpus.core.compiled import digits as compiled
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.association import DEPTH_OUTLIER_PROBABILITY, LOG_IMPOSSIBLE, log_densities
-from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
-from carpus.core.tracking.digit_filter import (
+from carpus.core.tracking.association.association import DEPTH_OUTLIER_PROBABILITY, LOG_IMPOSSIBLE, log_densities
+from carpus.core.tracking.association.palm_association import Measurements
+from carpus.core.tracking.digits.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
+from carpus.core.tracking.digits.digit_readout import DigitBase, base_from_estimate
+from carpus.core.tracking.filter.digit_filter import (
     OBSERVED,
     DigitLinearisation,
     DigitSigmaPoints,
@@ -24,17 +27,14 @@ from carpus.core.tracking.digit_filter import (
     draw_sigma_points,
     linearise_digits,
 )
-from carpus.core.tracking.digit_readout import DigitBase, base_from_estimate
-from carpus.core.tracking.fingers import FingerFilter
+from carpus.core.tracking.filter.hand_geometry import palm_calibration
+from carpus.core.tracking.filter.joint_limits import _DIRECTION, LIMIT_GATE_SD, LIMIT_SD_RAD, slot_limits_rad
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.readout import Readout
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.unscented import UnscentedParameters
+from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.hand_geometry import palm_calibration
-from carpus.core.tracking.joint_limits import _DIRECTION, LIMIT_GATE_SD, LIMIT_SD_RAD, slot_limits_rad
-from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.palm_association import Measurements
-from carpus.core.tracking.readout import Readout
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.unscented import UnscentedParameters
-from carpus.core.types import FloatArray
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import digit_images as seen_oracle
 from tests.compiled.oracle import digits as oracle

@@ -13,7 +13,7 @@ import pytest
 from carpus.core import compiled
 from carpus.core.capture import doctor
 from carpus.core.compiled import find_uncompiled, mixture
-from carpus.core.errors import CompiledPartMissing
+from carpus.core.model.errors import CompiledPartMissing
 
 
 def test_modules_run_compiled() -> None:

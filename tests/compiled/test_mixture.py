@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from carpus.core.compiled import mixture as compiled
-from carpus.core.tracking.kernel import (
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,
     Transition,
@@ -20,7 +21,6 @@ from carpus.core.tracking.kernel import (
     propagate_mixture,
     update_mixture,
 )
-from carpus.core.types import FloatArray
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import mixture as oracle
 

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core import so3
 from carpus.core.compiled import palm as compiled
-from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.motion import MotionNoise, PalmMotion
-from carpus.core.tracking.palm_state import SIZE, PalmEstimate, PalmView
-from carpus.core.tracking.soft_tissue import (
+from carpus.core.model import so3
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.motion import MotionNoise, PalmMotion
+from carpus.core.tracking.filter.palm_state import SIZE, PalmEstimate, PalmView
+from carpus.core.tracking.filter.soft_tissue import (
     DigitSpeeds,
     SoftTissue,
     TissueModes,
@@ -21,7 +21,7 @@ from carpus.core.tracking.soft_tissue import (
     resting_and_moving_modes,
     single_moving_mode,
 )
-from carpus.core.tracking.unscented import UnscentedParameters, compute_weights
+from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import palm as oracle
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M

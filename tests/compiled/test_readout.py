@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core import so3
 from carpus.core.compiled import readout as compiled
-from carpus.core.hand.clinical_angles import ZYZ_MIN_BETA_RAD, side_sign, wrist_axes_sensitivity
-from carpus.core.tracking.palm_state import SIZE, PalmEstimate
-from carpus.core.tracking.readout import METACARPAL_M, WristAxes
-from carpus.core.types import FloatArray, Side
+from carpus.core.model import so3
+from carpus.core.model.hand.clinical_angles import ZYZ_MIN_BETA_RAD, side_sign, wrist_axes_sensitivity
+from carpus.core.model.types import FloatArray, Side
+from carpus.core.tracking.filter.palm_state import SIZE, PalmEstimate
+from carpus.core.tracking.filter.readout import METACARPAL_M, WristAxes
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import readout as oracle
 from tests.compiled.test_palm import view_of

@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core import so3
 from carpus.core.compiled import surface as compiled
-from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.hand.back_surface import DorsalSurface
-from carpus.core.tracking.palm_state import RELIEF, SIZE, SURFACE, PalmEstimate, PalmView
-from carpus.core.tracking.predicted_measurement import shape_partial_update
-from carpus.core.tracking.surface_fit import SurfaceSettings, reset_and_surface_update
-from carpus.core.types import FloatArray, SurfaceSamples
+from carpus.core.model import so3
+from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
+from carpus.core.model.hand.dorsal_surface import DorsalSurface
+from carpus.core.model.types import FloatArray, SurfaceSamples
+from carpus.core.tracking.filter.palm_state import RELIEF, SIZE, SURFACE, PalmEstimate, PalmView
+from carpus.core.tracking.filter.predicted_measurement import shape_partial_update
+from carpus.core.tracking.filter.surface_fit import SurfaceSettings, reset_and_surface_update
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import surface as oracle
 from tests.compiled.test_palm import mixture_about

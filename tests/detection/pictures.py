@@ -9,8 +9,8 @@ from functools import lru_cache
 import cv2
 import numpy as np
 
-from carpus.core.camera import Camera
-from carpus.core.types import ByteImage, FloatArray, Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import ByteImage, FloatArray, Frame
 
 CAMERA = Camera(525.0, 525.0, 159.5, 119.5, width_px=320, height_px=240)
 DISTANCE_M = 0.7

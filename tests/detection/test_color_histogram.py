@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from carpus.core.detection import appearance as ch
-from carpus.core.types import ByteImage
+from carpus.core.model.types import ByteImage
 
 
 def random_hsv(seed: int, hue: tuple[int, int] = (0, 180)) -> ByteImage:

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
 from carpus.core.detection.appearance import (
     MarkerAppearance,
     build_paper_mask,
@@ -22,7 +21,8 @@ from carpus.core.detection.appearance import (
 from carpus.core.detection.components import find_components
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.types import Detections, FloatArray, Frame, Region
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import Detections, FloatArray, Frame, Region
 from tests.detection.pictures import (
     CAMERA,
     DARK_SKIN,

@@ -7,7 +7,7 @@ import pytest
 
 from carpus.core.detection import surface_samples as surface_samples_module
 from carpus.core.detection.surface_samples import SURFACE_SAMPLE_STEP_PX, sample_fingers, sample_surface
-from carpus.core.types import FINGER_SAMPLE_STEP_PX, Frame
+from carpus.core.model.types import FINGER_SAMPLE_STEP_PX, Frame
 
 FULL = Frame(0, 0.0, np.zeros((480, 640, 3), np.uint8), np.full((480, 640), 700, np.uint16), 1e-3)
 

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.provenance import build_provenance
-from carpus.core.formats.take import ExportItem
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.results.figures import compute_session_results
+from carpus.core.formats.export_item import ExportItem
+from carpus.core.formats.export_provenance import build_provenance
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.results.repetition_rows import compute_repetitions
+from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
-from carpus.core.types import FloatArray, TrackStatus
 from tests.measures.ways import way
 from tests.moments import with_moment
 from tests.session.samples import begun, make_calibration, make_frame, make_header, time_of, written_once

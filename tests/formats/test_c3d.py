@@ -12,13 +12,13 @@ import ezc3d
 import numpy as np
 import pytest
 
-from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats import c3d_write
 from carpus.core.formats.c3d_read import read_c3d
-from carpus.core.formats.take import ExportItem, joint_centres_cam_m
+from carpus.core.formats.export_item import ExportItem, joint_centres_cam_m
+from carpus.core.model.errors import ReferenceUnreadable
+from carpus.core.model.types import TrackStatus
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
-from carpus.core.types import TrackStatus
 from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take
 
 pytestmark = pytest.mark.filterwarnings("ignore:No analog data found in file")

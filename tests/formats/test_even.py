@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.core.formats.take import uniform_times
+from carpus.core.formats.export_item import uniform_times
 
 
 def test_even_times_are_the_rows_themselves() -> None:

@@ -10,19 +10,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.camera import Camera
-from carpus.core.errors import OutputExists, OutputNotWritable, SessionUnreadable
-from carpus.core.formats import formats
-from carpus.core.formats.formats import FORMATS, ExportRequest
-from carpus.core.formats.provenance import Deidentifier, reproject_pixels
-from carpus.core.hand.protocols import HAND21
-from carpus.core.results.figures import compute_session_results
+from carpus.core.formats import export
+from carpus.core.formats.export import FORMATS, ExportRequest
+from carpus.core.formats.export_provenance import Deidentifier, reproject_pixels
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import OutputExists, OutputNotWritable, SessionUnreadable
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.writer import SessionWriter
 from tests.formats.takes import stored
 from tests.session.samples import begun, make_header
 
-export_sessions = formats.export_sessions
+export_sessions = export.export_sessions
 
 
 @pytest.mark.parametrize("deidentified", [False, True])

@@ -11,11 +11,11 @@ import pytest
 from PySide6.QtCore import QLocale
 
 from carpus.core.formats.csv_tables import write
-from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
 from carpus.core.formats.table_read import read_table
-from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.model.hand.protocols import HAND21, WRIST6
 from carpus.core.session.reader import read_session
-from carpus.ui.saved_table import OFFERED_REGIONS, regional_table_form, save_table, user_region
+from carpus.ui.kit.table_file import OFFERED_REGIONS, regional_table_form, save_table, user_region
 from tests.commands import Command
 from tests.formats.takes import stored, take_of
 
@@ -116,7 +116,7 @@ def test_the_command_writes_in_the_form_of_a_region(tmp_path: Path, command: Com
 
 
 def test_a_table_saved_in_the_window_is_in_the_persons_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("carpus.ui.saved_table.user_region", lambda: "it_IT")
+    monkeypatch.setattr("carpus.ui.kit.table_file.user_region", lambda: "it_IT")
     save_table(tmp_path / "t.csv", ("angle", "mean_deg"), [("flexion", -1.5), ("=1+1", 91.947)])
     assert (tmp_path / "t.csv").read_text(encoding="utf-8-sig").split() == [
         "angle;mean_deg", "flexion;-1,5", "'=1+1;91,947",

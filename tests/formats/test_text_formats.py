@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.errors import OutputExists
 from carpus.core.formats import bids_motion, csv_tables, json_measures, mot, trc
-from carpus.core.formats.formats import ExportRequest, export_sessions
-from carpus.core.hand.protocols import HAND21, WRIST_ANGLES
+from carpus.core.formats.export import ExportRequest, export_sessions
+from carpus.core.model.errors import OutputExists
+from carpus.core.model.hand.protocols import HAND21, WRIST_ANGLES
+from carpus.core.model.types import TrackStatus
 from carpus.core.session.reader import read_session
-from carpus.core.types import TrackStatus
 from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take
 from tests.ui.fakes import session as flexing
 

@@ -23,9 +23,9 @@ import pytest
 
 from carpus import __version__
 from carpus.app.commands import COMMANDS
-from carpus.core.about import licence_texts, list_bundled_parts
-from carpus.core.installing import CAMERAS_EXTRA
-from carpus.ui.icons import program_icon_image
+from carpus.core.model.installation import CAMERAS_EXTRA
+from carpus.core.platform.about import licence_texts, list_bundled_parts
+from carpus.ui.kit.icons import program_icon_image
 
 ROOT = Path(__file__).parents[2]
 HERE = ROOT / "installer" / "package"

@@ -13,7 +13,7 @@ from types import ModuleType
 import pytest
 
 from carpus import __version__
-from carpus.core.about import find_latest_version, is_newer
+from carpus.core.platform.about import find_latest_version, is_newer
 
 ROOT = Path(__file__).parents[2]
 GOOD = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-11-22\n\n### Added\n- Something.\n\n"
@@ -60,7 +60,9 @@ def test_the_real_changelog_can_become_this_release_by_its_heading_alone(release
         assert release.changes_of(dated, __version__).startswith("### ")
 
 
-@pytest.mark.parametrize(("status", "tags"), [(" M core/so3.py\n", ""), ("?? new.py\n", ""), ("", "v1.1.0\nv1.2.0\n")])
+@pytest.mark.parametrize(
+    ("status", "tags"), [(" M core/model/so3.py\n", ""), ("?? new.py\n", ""), ("", "v1.1.0\nv1.2.0\n")]
+)
 def test_a_dirty_tree_or_an_old_version_is_refused(release: ModuleType, status: str, tags: str) -> None:
     with pytest.raises(release.NotReleasableError):
         release.check_tree(status, tags, "1.2.0")

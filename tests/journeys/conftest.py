@@ -12,13 +12,13 @@ from typing import Any
 
 import pytest
 
-from carpus.app.desktop.looks import create_application
+from carpus.app.desktop.appearance import create_application
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from carpus.core.pipeline import looking_back
-from carpus.ui.live import recording as live_recording
-from carpus.ui.live import screen as live_screen
-from carpus.ui.markers import screen as markers_screen
+from carpus.core.pipeline import smoothing
+from carpus.ui.screens.live import recording as live_recording
+from carpus.ui.screens.live import screen as live_screen
+from carpus.ui.screens.markers import screen as markers_screen
 from tests.journeys.takes import SPEC, SPEED, take_of
 from tests.rendered import Rendered
 
@@ -37,7 +37,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested. Nor is how
     smoothly it is drawn: a core that draws thirty times a second is one less for all that is waited for."""
-    monkeypatch.setattr(looking_back, "FINISH_TIMEOUT_S", 150.0)
+    monkeypatch.setattr(smoothing, "FINISH_TIMEOUT_S", 150.0)
     monkeypatch.setattr(live_recording, "HASTY_S", 0.0)  # a take is over in a few seconds
     monkeypatch.setattr(live_screen, "MIN_DRAW_INTERVAL_MS", DRAWN_EVERY_MS)
     monkeypatch.setattr(live_screen, "MAX_TICK_INTERVAL_MS", DRAWN_EVERY_MS)

@@ -6,14 +6,14 @@ from collections.abc import Callable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.records.set_up import SessionSetup
+from carpus.core.model.types import FloatArray, Frame
+from carpus.core.records.session_setup import SessionSetup
 from carpus.core.simulation.motions import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import FloatArray, Frame
 
 Take = Callable[[SessionSetup, Callable[[int, int], None]], tuple[FrameSource, float]]
 

@@ -8,12 +8,12 @@ import pytest
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop import welcoming
+from carpus.app.desktop import first_start
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import load_settings
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
-from carpus.core.errors import OutputNotWritable
+from carpus.core.model.errors import OutputNotWritable
 from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import at, click, click_discs, still_hand
@@ -107,7 +107,7 @@ def test_another_folder_is_looked_at_typing_goes_to_the_search_and_escape_says_n
     panel, search = desktop.welcome.panel, desktop.controller.patients.screen.search
     qtbot.waitUntil(lambda: bool(panel.check_rows))
     other = tmp_path / "elsewhere" / "Carpus"
-    monkeypatch.setattr("carpus.ui.settings.screen.QFileDialog.getExistingDirectory", lambda *_: str(other))
+    monkeypatch.setattr("carpus.ui.screens.settings.screen.QFileDialog.getExistingDirectory", lambda *_: str(other))
     panel.show_checks([])
     click(qtbot, panel.folder_button)
     assert panel.folder_label.text() == str(other)
@@ -129,7 +129,7 @@ def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
     def fails(folder: Path) -> list[object]:
         raise OutputNotWritable(folder, "gone")
 
-    monkeypatch.setattr(welcoming, "examine_at_start", fails)
+    monkeypatch.setattr(first_start, "examine_at_start", fails)
     desktop = open_desktop()
     qtbot.waitUntil(lambda: desktop.controller.messages.is_busy)
     panel = desktop.welcome.panel

@@ -16,21 +16,21 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.care_cameras import MaintenanceCameras
-from carpus.app.desktop.journey import MainController
-from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.desktop.main_controller import MainController
+from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
+from carpus.app.desktop.source_factory import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.capture.devices import openni2_camera
-from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
-from carpus.core.pipeline import measuring
-from carpus.core.pipeline.looking_back import SmoothingProcess
+from carpus.core.model.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
+from carpus.core.pipeline import measurement
+from carpus.core.pipeline.smoothing import SmoothingProcess
 from carpus.core.records.recordings import spool_folder
-from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT
+from carpus.core.records.session_setup import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_session
-from carpus.ui.messages.messages import MessageDialog, NoticeStrip
-from carpus.ui.now_open import SourceChoice
+from carpus.ui.shell.current_selection import SourceChoice
+from carpus.ui.shell.messages import MessageDialog, NoticeStrip
 from tests.journeys.conftest import Open
 from tests.journeys.takes import RANGE_DEG, SPEED, clicks_of
 from tests.session.samples import journal_of, make_calibration, make_header
@@ -268,7 +268,7 @@ def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_sto
     assert source is not None
     usage = shutil.disk_usage(folder)
     with monkeypatch.context() as full:
-        full.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
+        full.setattr(measurement.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
         journey.live.screen.recording.toggle()
         wait(qtbot, card.isVisible)
     assert "20 MB free" in card.details.full_text()
@@ -289,7 +289,7 @@ def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_sto
     journey.live.screen.recording.stop()
     assert journey.live.screen.recording.is_storing
     desktop.shell.close_without_prompt()
-    assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measuring"]
+    assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measurement"]
     assert kept
     assert kept[0] is None, "while it is waited for no more comes to be looked back at"
     assert len(open_desktop().library.sessions(PRACTICE_PATIENT)) == 1
@@ -339,7 +339,7 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     goes_on(Qt.Key.Key_Space)  # "Go on measuring"
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)  # leaves no recording either
     goes_on(Qt.Key.Key_Escape)  # the answer that loses nothing
-    monkeypatch.setattr("carpus.ui.live.recording.HASTY_S", 3600.0)
+    monkeypatch.setattr("carpus.ui.screens.live.recording.HASTY_S", 3600.0)
     recording.toggle()
     goes_on(Qt.Key.Key_Return)
     feed.handle_notice(CameraLost("Xtion", "unplugged"))

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
-from carpus.core.errors import DiskFull
-from carpus.ui.controls.sheet import Dialog
-from carpus.ui.messages.messages import MessageDialog
+from carpus.core.model.errors import DiskFull
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.shell.messages import MessageDialog
 from tests.journeys.conftest import Open
 
 

@@ -14,19 +14,25 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.commands import desktop
-from carpus.app.desktop import log, no_folder, window
-from carpus.app.desktop.alone import SingleInstance
-from carpus.app.desktop.no_folder import FolderWindow
+from carpus.app.desktop import folder_window, log, window
+from carpus.app.desktop.folder_window import FolderWindow
+from carpus.app.desktop.single_instance import SingleInstance
 from carpus.app.settings import load_settings, settings_folder
-from carpus.core.errors import CarpusFault, DataFolderChanged
-from carpus.core.words import MessageText
-from carpus.ui import language
-from carpus.ui.controls.text import Text
-from carpus.ui.theme import Theme
+from carpus.core.model.errors import CarpusFault, DataFolderChanged
+from carpus.core.model.fault_text import MessageText
+from carpus.ui.kit import language
+from carpus.ui.kit.text import Text
+from carpus.ui.kit.theme import Theme
 
 ROOT = Path(__file__).parents[2]
-CALL = "import sys; from pathlib import Path; from carpus.app.desktop.alone import Alone; a = Alone(Path(sys.argv[1]));"
-CALL += "print(a.take(), a.call_first(Path(sys.argv[2]) if sys.argv[2:] else None))"
+CALL = """
+import sys
+from pathlib import Path
+from carpus.app.desktop.single_instance import SingleInstance
+
+instance = SingleInstance(Path(sys.argv[1]))
+print(instance.acquire(), instance.notify_running_instance(Path(sys.argv[2]) if sys.argv[2:] else None))
+"""
 
 
 @pytest.mark.parametrize("handed", [(), ("/tmp/Grüße in einem/langen Ordner/сессия.h5",)], ids=["alone", "a file"])
@@ -97,7 +103,9 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
     monkeypatch.setenv("CARPUS_DATA", str(blocked))
     monkeypatch.setattr(QApplication, "exec", lambda *_: 0)
     asked: list[str] = []
-    monkeypatch.setattr(no_folder, "choose_data_folder", lambda *given: asked.append(type(given[-1]).__name__) or good)
+    monkeypatch.setattr(
+        folder_window, "choose_data_folder", lambda *given: asked.append(type(given[-1]).__name__) or good
+    )
     assert desktop.open_window(None, is_demo=False) == 0
     assert asked == ["OutputNotWritable"]
     assert "blocked" in capsys.readouterr().err
@@ -129,7 +137,7 @@ def test_nobody_chooses_and_it_ends_with_a_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "blocked").write_text("")
-    monkeypatch.setattr(no_folder, "choose_data_folder", lambda *_: None)
+    monkeypatch.setattr(folder_window, "choose_data_folder", lambda *_: None)
     assert desktop.open_window(tmp_path / "blocked", is_demo=False) == 1
     assert capsys.readouterr().err.count("\n") == 1
 

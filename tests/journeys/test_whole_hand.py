@@ -11,9 +11,9 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.app.settings import Settings
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.model.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.track import retrack_session
-from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE
 from tests.journeys.conftest import Open

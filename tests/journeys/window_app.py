@@ -13,8 +13,8 @@ from pathlib import Path
 from PySide6.QtCore import QPoint, QTimer
 
 from carpus.app import compose
-from carpus.app.desktop.looks import create_application
-from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.desktop.appearance import create_application
+from carpus.app.desktop.source_factory import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop, close_on_signals
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from tests.journeys.takes import SPEED, clicks_of, take_of

@@ -12,8 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sqlalchemy import update
 
-from carpus.core.errors import ConcurrentChange
-from carpus.core.measures.by_hand import (
+from carpus.core.measures.manual_measurements import (
     MEASURES,
     ManualValue,
     compute_change,
@@ -25,6 +24,7 @@ from carpus.core.measures.by_hand import (
     value_history,
     value_on_day,
 )
+from carpus.core.model.errors import ConcurrentChange
 from carpus.core.records.patients import add_manual_measurements, read_manual_measurements
 from carpus.core.records.schema import MANUAL_MEASUREMENT
 from tests.records.samples import HERON, LINDEN, opened

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
-from carpus.core.measures.change import MeasuredLimit, RetestStudy, change_limit_rad
+from carpus.core.measures.change_limits import MeasuredLimit, RetestStudy, change_limit_rad
+from carpus.core.model.hand.protocols import WRIST_ANGLES, joint_angle_names
 
 
 def test_every_angle_has_a_limit() -> None:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.measures.together import Coherence, digit_coherence
-from carpus.core.types import FloatArray
+from carpus.core.measures.coordination import Coherence, digit_coherence
+from carpus.core.model.types import FloatArray
 
 NAMES = ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion")
 COUNT = 90

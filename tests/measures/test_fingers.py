@@ -7,9 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.measures.fingers import (
+from carpus.core.measures.finger_range import (
     JointTrack,
     joint_range,
     joint_track,
@@ -18,6 +16,8 @@ from carpus.core.measures.fingers import (
     visible_joints,
 )
 from carpus.core.measures.repetitions import Repetition
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import HAND21, joint_angle_names
 from carpus.core.results.ranges import flexion_joints, measure_joint_ranges
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core import so3
-from carpus.core.measures.forearm import estimate_wrist_centre
-from carpus.core.types import FloatArray
+from carpus.core.measures.wrist_centre import estimate_wrist_centre
+from carpus.core.model import so3
+from carpus.core.model.types import FloatArray
 
 CENTRE_M = np.array([0.004, -0.002, -0.018])
 

@@ -11,7 +11,7 @@ from carpus.core.measures.noise import Noise
 from carpus.core.measures.reach import WRIST_NOISE, find_reaches, measure_path
 from carpus.core.measures.signals import Signal, resample_evenly
 from carpus.core.measures.speed import count_speed_peaks
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.measures.tracked import ONE_PROCESS, tracked
 from tests.suites import few
 

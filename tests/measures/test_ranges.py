@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.hand.clinical_angles import rotation_from_angles
 from carpus.core.measures.motion_range import MotionRange, motion_range
 from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import find_repetitions
@@ -18,7 +17,8 @@ from carpus.core.measures.signals import (
     valid_wrist_angles,
     view_tilt_rad,
 )
-from carpus.core.types import FloatArray
+from carpus.core.model.hand.clinical_angles import rotation_from_angles
+from carpus.core.model.types import FloatArray
 
 RATE = 30.0
 LOOKING_DOWN = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])

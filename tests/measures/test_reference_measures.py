@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles, zyz_with_sd
+from carpus.core.measures.coordination import co_flexion, enslaving_share, measure_tremor, synergy_share
 from carpus.core.measures.reach import find_reaches
 from carpus.core.measures.signals import low_pass, resample_evenly
-from carpus.core.measures.together import co_flexion, enslaving_share, measure_tremor, synergy_share
+from carpus.core.model.hand.clinical_angles import isb_from_rotation, rotation_from_angles, zyz_with_sd
+from carpus.core.model.types import FloatArray
 from carpus.core.results.norms import total_grade, total_share
-from carpus.core.types import FloatArray
 from tests.measures.tracked import ONE_PROCESS, tracked
 
 pytestmark = ONE_PROCESS

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from carpus.core.measures.repetitions import _find_turning_points, explain_no_repetitions, find_repetitions
 from carpus.core.measures.signals import Signal, resample_evenly
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 RATE = 30.0
 

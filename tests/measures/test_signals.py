@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from scipy import signal as sps
 
-from carpus.core import so3
 from carpus.core.measures.signals import (
     exclude_view_edges,
     find_runs,
@@ -18,6 +17,7 @@ from carpus.core.measures.signals import (
     valid_angle,
     valid_view,
 )
+from carpus.core.model import so3
 
 RATE = 30.0
 

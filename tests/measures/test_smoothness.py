@@ -9,7 +9,7 @@ import pytest
 
 from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import count_speed_peaks, log_dimensionless_jerk, sparc
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 
 def min_jerk_speed(duration_s: float, rate_hz: float) -> FloatArray:

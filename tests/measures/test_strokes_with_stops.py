@@ -14,7 +14,7 @@ from carpus.core.measures.noise import SMOOTHER_CORRELATION_S, Noise
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures, log_dimensionless_jerk, measure_stroke, sparc
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.measures.test_noise import angle_of
 from tests.measures.tracked import ONE_PROCESS, tracked
 from tests.measures.ways import RATE, Part, way

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import noise_from_neutral, restart_at_neutral
 from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import measurement_sequence
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 RATE = 30.0
 Part = tuple[float, float]

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.source import SourceInfo
-from carpus.core.types import Detections, Frame, KinematicState, TrackedFrame, TrackStatus
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.types import Detections, Frame, KinematicState, TrackedFrame, TrackStatus
 
 PATIENCE_S = 60.0
 """How long a test waits for what must happen; only a failing test ever waits that long."""

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.files.pictures import encode_color, encode_depth
+from carpus.core.capture.files.image_codec import encode_color, encode_depth
 from carpus.core.capture.files.raw import BYTES_PER_FRAME, RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.hand.protocols import WRIST6
-from carpus.core.pipeline.around_hand import HandCropWriter, HandRegions, compute_hand_region, mask_outside
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import Frame, TrackedFrame, TrackStatus
+from carpus.core.pipeline.hand_crop import HandCropWriter, HandRegions, compute_hand_region, mask_outside
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Frame, TrackedFrame, TrackStatus
 from tests.tracking.hands import CAMERA, RIGID, blobs, calibration, swing
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from carpus.core.pipeline.channels import BlockingQueue, BoundedQueue, Mailbox, QueueClosedError, QueueFullError
+from carpus.core.pipeline.queues import BlockingQueue, BoundedQueue, Mailbox, QueueClosedError, QueueFullError
 
 
 def in_thread(work: Callable[[], None]) -> threading.Thread:

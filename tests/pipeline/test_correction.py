@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.errors import MarkersNotCorrectable, OutputExists
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.errors import MarkersNotCorrectable, OutputExists
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.correction import (
     CorrectionTask,
     correct,
@@ -33,7 +34,7 @@ from carpus.core.pipeline.track import (
     restart_at_neutral,
 )
 from carpus.core.records.corrections import compare_results
-from carpus.core.session.marker_doubts import (
+from carpus.core.session.label_checks import (
     CORRECTED,
     Correction,
     find_label_doubt,
@@ -46,7 +47,6 @@ from carpus.core.session.values import Session, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, blobs, calibration, discs_cam_m, swing

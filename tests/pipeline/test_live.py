@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.errors import CameraLost, CameraReturned, DiskTooSlow, FrameDamaged, OutputExists
+from carpus.core.model.errors import CameraLost, CameraReturned, DiskTooSlow, FrameDamaged, OutputExists
+from carpus.core.model.types import Frame, TrackedFrame
 from carpus.core.pipeline import backlog
 from carpus.core.pipeline.backlog import MAX_PREVIEW_WAITING
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
-from carpus.core.types import Frame, TrackedFrame
 from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, frame, held_by, tracked, wait_until
 
 OUT = Path("session.h5")

@@ -8,10 +8,10 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import DiskFull, OutputExists
-from carpus.core.pipeline import measuring
+from carpus.core.model.errors import DiskFull, OutputExists
+from carpus.core.pipeline import measurement
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.pipeline.measuring import RecordedSession
+from carpus.core.pipeline.measurement import RecordedSession
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_outline
 from tests.pipeline.live_fakes import HeldSource, tracked, wait_until
@@ -60,10 +60,10 @@ def test_session_file_without_room_is_tried_again_at_the_end_alone(
         tries.append(tmp_path)
         raise DiskFull(tmp_path)
 
-    monkeypatch.setattr(measuring, "ROWS_AT_ONCE", 5)
+    monkeypatch.setattr(measurement, "ROWS_AT_ONCE", 5)
     recording = begin(tmp_path / "session.journal")
     with monkeypatch.context() as full:
-        full.setattr(measuring.SessionDraft, "read", fill)
+        full.setattr(measurement.SessionDraft, "read", fill)
         for row in range(20):
             recording.append(make_frame(row))
     recording.close()

@@ -15,15 +15,15 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.child_process import NICENESS, ChildProcess
-from carpus.core.errors import SmoothingFailed
-from carpus.core.pipeline import looking_back
-from carpus.core.pipeline.looking_back import ChunkedSmoother, SmoothingProcess, TrackedHand, run_smoother
+from carpus.core.model.errors import SmoothingFailed
+from carpus.core.pipeline import smoothing
+from carpus.core.pipeline.smoothing import ChunkedSmoother, SmoothingProcess, TrackedHand, run_smoother
 from carpus.core.pipeline.track import noise_from_neutral, restart_at_neutral
+from carpus.core.platform.child_process import NICENESS, ChildProcess
 from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.smoother_record import FilterSteps
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.smoother.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
 from tests.accuracy.carpus import measured_hand
 from tests.pipeline.live_fakes import wait_until
@@ -38,7 +38,7 @@ BEGIN = 40
 @pytest.fixture(autouse=True)
 def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
-    monkeypatch.setattr(looking_back, "FINISH_TIMEOUT_S", 150.0)
+    monkeypatch.setattr(smoothing, "FINISH_TIMEOUT_S", 150.0)
 
 
 @lru_cache(maxsize=1)
@@ -190,13 +190,13 @@ def test_a_process_that_dies_or_hangs_holds_nobody_up_and_is_told_at_the_end(
     blow: signal.Signals, limit: dict[str, float], said: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in limit.items():
-        monkeypatch.setattr(looking_back, name, value)
+        monkeypatch.setattr(smoothing, name, value)
     with begun() as running:
         assert running.pid is not None
         os.kill(running.pid, blow)
         for kept in steps():
             running.add_steps(kept)
-        assert len(running._waiting) <= looking_back.MAX_WAITING
+        assert len(running._waiting) <= smoothing.MAX_WAITING
         assert not running._waiting or "MOST_WAITING" not in limit, "nothing is kept for it any more"
         with pytest.raises(SmoothingFailed, match=said):
             running.finish(times_s())

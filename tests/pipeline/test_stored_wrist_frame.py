@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import SoftTissue
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.soft_tissue import SoftTissue
 from tests.rendered import LEFT_DEVIATION, REPEATED_FLEXION, Rendered
 
 # Discs that glide over the bones leave the axis of W2 by what they glided: only on stiff skin does the axis run through

@@ -13,8 +13,8 @@ import pylsl
 import pytest
 
 from carpus.core.calibration.result import Clicks
-from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.pipeline.stream import SampleStream, build_sample, list_channels
+from carpus.core.model.hand.protocols import HAND21, joint_angle_names
+from carpus.core.pipeline.lsl_stream import SampleStream, build_sample, list_channels
 from tests.session.samples import make_frame, time_of
 
 SETTINGS = "[lab]\nKnownPeers = {127.0.0.1}\n[multicast]\nResolveScope = machine\n"
@@ -42,7 +42,7 @@ def test_a_second_process_reads_what_was_sent(tmp_path: Path, monkeypatch: pytes
     settings.write_text(SETTINGS, encoding="utf-8")
     monkeypatch.setenv("LSLAPICFG", str(settings))
     source = f"carpus-{uuid.uuid4()}"
-    monkeypatch.setattr("carpus.core.pipeline.stream.LIVE_ID", source)
+    monkeypatch.setattr("carpus.core.pipeline.lsl_stream.LIVE_ID", source)
     names = joint_angle_names()
     begun_s = pylsl.local_clock()
     offset_s = begun_s - time_of(0)

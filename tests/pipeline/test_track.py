@@ -13,14 +13,14 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.capture.files.pictures import encode_color, encode_depth
+from carpus.core.capture.files.image_codec import encode_color, encode_depth
 from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.files.tum import DEPTH_UNIT_M, TumFolder
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     ClickOnNoMarker,
     DiskFull,
     FrameDamaged,
@@ -28,15 +28,15 @@ from carpus.core.errors import (
     RecordingEmpty,
     SessionUnreadable,
 )
+from carpus.core.model.types import FloatArray, Frame
 from carpus.core.pipeline.track import TrackReport, TrackSettings, restart_at_neutral, retrack_session, track_recording
+from carpus.core.platform.version import __version__
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import EncodedImages
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.truth import Truth
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.types import FloatArray, Frame
-from carpus.core.version import __version__
+from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.rendered import LEFT_DEVIATION, Rendered, truth_in
 from tests.session.samples import make_frame
 

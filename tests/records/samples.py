@@ -14,22 +14,22 @@ from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from carpus.core.errors import CarpusFault
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import WRIST6
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.records import of_clinic, of_sessions, patients
-from carpus.core.records.kept_sets import save_setup
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import SIMULATED
+from carpus.core.records import clinic_records, patients, session_records
+from carpus.core.records.exercise_sets import save_setup
 from carpus.core.records.library import Library
 from carpus.core.records.log import AuditLogWriter
 from carpus.core.records.patients import Patients
 from carpus.core.records.session_list import SessionFileScanner, SessionList
-from carpus.core.records.set_up import SessionSetup
+from carpus.core.records.session_setup import SessionSetup
 from carpus.core.records.store import Store
 from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import new_header
-from carpus.core.types import SIMULATED
 from tests.session.samples import begun
 
 LONG_S = 120.0
@@ -130,9 +130,9 @@ def fill(house: House, patient_id: str) -> list[str]:
     sessions = [measure(house, patient_id, T0 + timedelta(days=day)) for day in range(3)]
     entry = house.patients.get(patient_id)
     for session_id in sessions:
-        of_sessions.add_comment(house.store, session_id, f"{entry.pseudonym} is well", "AB")
-        of_sessions.save_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
-        of_sessions.record_output_files(house.store, [house.index.get(session_id).path], "export", [session_id])
+        session_records.add_comment(house.store, session_id, f"{entry.pseudonym} is well", "AB")
+        session_records.save_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
+        session_records.record_output_files(house.store, [house.index.get(session_id).path], "export", [session_id])
     value = ManualValue("WRIST_ROUND", "", "right", date(2026, 10, 9), (17.0,), entry.pseudonym)
     patients.add_manual_measurements(house.store, patient_id, [value])
     save_setup(
@@ -140,8 +140,8 @@ def fill(house: House, patient_id: str) -> list[str]:
     )
     plan = HomePlan(("WRIST_FE",), 10, 3, T0.date(), date(2026, 10, 16), "11:30", f"{entry.pseudonym} brings it", "it")
     patients.save_home_plan(house.store, patient_id, plan)
-    of_clinic.save_place(house.store.folder, entry.pseudonym[:2], f"/papers/{entry.name}")
-    of_clinic.save_recipient(house.store, f"{entry.name}\nOak Street 1")
+    clinic_records.save_place(house.store.folder, entry.pseudonym[:2], f"/papers/{entry.name}")
+    clinic_records.save_recipient(house.store, f"{entry.name}\nOak Street 1")
     house.patients.set_diagnosis_listed(f"as {entry.name}", is_listed=True)
     house.log.write_entry("opened", "patient", patient_id)
     return sessions

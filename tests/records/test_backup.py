@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     BackupFolderUnsuited,
     BackupIncomplete,
     BackupMismatch,

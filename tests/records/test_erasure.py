@@ -19,7 +19,7 @@ import h5py
 import pytest
 from sqlalchemy import select, update
 
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     ConcurrentChange,
     DiskFull,
     ErasureBlockedByLink,
@@ -28,13 +28,19 @@ from carpus.core.errors import (
     OutputNotWritable,
     SessionChanged,
 )
-from carpus.core.records import database, erasure, of_clinic, of_sessions, reserve
+from carpus.core.records import (
+    clinic_records,
+    database,
+    erasure,
+    reserve,
+    session_records,
+)
 from carpus.core.records import store as store_module
 from carpus.core.records.backup import create_backup
 from carpus.core.records.changes import insert_row
-from carpus.core.records.keeping import find_due_patients, retention_end
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
+from carpus.core.records.retention import find_due_patients, retention_end
 from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_outline, read_session, verify
@@ -143,10 +149,12 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         assert house.names() == ["Heron 17"]
         (other,) = house.patients.search()
         assert (written(other), other.session_count) == (HERON, 3)
-        kept = [of_sessions.read_comments(house.store, one.session_id) for one in house.index.patient_sessions(heron)]
+        kept = [
+            session_records.read_comments(house.store, one.session_id) for one in house.index.patient_sessions(heron)
+        ]
         assert [len(comments) for comments in kept] == [1, 1, 1]
-        assert of_clinic.read_last_place(folder, "He") == f"/papers/{HERON.name}"
-        assert of_clinic.read_recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
+        assert clinic_records.read_last_place(folder, "He") == f"/papers/{HERON.name}"
+        assert clinic_records.read_recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
         assert house.patients.diagnoses() == [f"as {HERON.name}"], "what names nobody stays"
     assert traces(folder, *NAMES, linden, *sessions) == []
 
@@ -201,7 +209,7 @@ def test_files_made_elsewhere_are_named_and_never_touched(tmp_path: Path, folder
     paths = {name: out / name for name in ("report.pdf", "edited.csv", "gone.csv")}
     for name, path in paths.items():
         path.write_text(name)
-    of_sessions.record_output_files(house.store, paths.values(), "export", [mine])
+    session_records.record_output_files(house.store, paths.values(), "export", [mine])
     paths["edited.csv"].write_text("with the therapist's own notes")
     paths["gone.csv"].unlink()
     plan = erasure.plan_session(house.store, mine)
@@ -480,9 +488,9 @@ def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_
     house.patients.set_diagnosis_listed("Flexor tendon, zone 2", is_listed=True)
     for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
         for address in (*kept, "Family Li\nAsh Street 3"):
-            of_clinic.save_recipient(house.store, address)
+            clinic_records.save_recipient(house.store, address)
         erase_patient(house, house.patients.add(Patient(pseudonym, "right", name="Li")))
-        assert set(of_clinic.read_recipients(house.store)) == set(kept), pseudonym
+        assert set(clinic_records.read_recipients(house.store)) == set(kept), pseudonym
         assert house.patients.diagnoses() == ["Flexor tendon, zone 2"]
 
 

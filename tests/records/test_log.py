@@ -11,7 +11,7 @@ import pytest
 from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
-from carpus.core.errors import LogProtectionRestored, OutputNotWritable, ServerUnavailable
+from carpus.core.model.errors import LogProtectionRestored, OutputNotWritable, ServerUnavailable
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library

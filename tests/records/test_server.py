@@ -22,7 +22,7 @@ from sqlalchemy import Engine, create_engine, inspect, select, text
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import NullPool
 
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CarpusFault,
     ConcurrentChange,
     OutputNotWritable,
@@ -33,7 +33,13 @@ from carpus.core.errors import (
     SettingsInvalid,
     SpooledSessionErased,
 )
-from carpus.core.records import erasure, hand_over, of_sessions, schema, server
+from carpus.core.records import (
+    erasure,
+    local_store_import,
+    schema,
+    server,
+    session_records,
+)
 from carpus.core.records.backup import create_backup, list_backups
 from carpus.core.records.changes import PRACTICE, fingerprint
 from carpus.core.records.database import STORE_FILE
@@ -100,7 +106,7 @@ def test_what_one_computer_enters_the_other_has_at_once(tmp_path: Path, cluster:
 RACING = """
 import sys
 from pathlib import Path
-from carpus.core.errors import ChangedMeanwhile, PseudonymTaken
+from carpus.core.model.errors import ChangedMeanwhile, PseudonymTaken
 from carpus.core.records.values import Patient
 from tests.records.samples import T0, measure, opened
 from dataclasses import replace
@@ -208,12 +214,12 @@ def test_a_server_that_falls_silent_is_left_after_seconds(
         session_id = measure(house, linden, T0)
         wire.answers_come = False
         with pytest.raises(ServerUnavailable):
-            of_sessions.add_comment(house.store, session_id, "not kept", "AB")
+            session_records.add_comment(house.store, session_id, "not kept", "AB")
         wire.cut()
         wire.answers_come = True
         house.store.server.ping()  # type: ignore[union-attr]
-        of_sessions.add_comment(house.store, session_id, "kept", "AB")
-        assert [one.text for one in of_sessions.read_comments(house.store, session_id)] == ["kept"]
+        session_records.add_comment(house.store, session_id, "kept", "AB")
+        assert [one.text for one in session_records.read_comments(house.store, session_id)] == ["kept"]
         wire.cut()
         assert house.names() == ["Linden 42"], "a line that was cut since then is made anew, and nobody hears of it"
 
@@ -341,7 +347,7 @@ def copy_of(folder: Path, url: str, *waiting: list[list[object]]) -> None:
     folder.mkdir()
     shutil.copyfile(GOLDEN, folder / STORE_FILE)
     with engine_of(url).connect() as connection:
-        known = str(connection.execute(hand_over._SERVER_ID_QUERY).scalar())
+        known = str(connection.execute(local_store_import._SERVER_ID_QUERY).scalar())
     with closing(sqlite3.connect(folder / STORE_FILE)) as copy, copy:
         copy.execute("INSERT OR REPLACE INTO own VALUES ('server', ?)", [known])
         for number, change in enumerate(waiting):
@@ -373,7 +379,7 @@ def test_what_waited_in_a_copy_of_the_first_version_arrives_once(tmp_path: Path,
         assert a.patients.get(heron).pseudonym == "Heron 17 (2)"
         assert (a.patients.get(linden).note, a.patients.get(linden).session_count) == ("typed while away", 1)
         assert a.patients.get(other).note == ""
-        assert [one.text for one in of_sessions.read_comments(a.store, "s")] == ["Less swelling."]
+        assert [one.text for one in session_records.read_comments(a.store, "s")] == ["Less swelling."]
     assert [type(one) for one in told] == [ConcurrentChange, PseudonymNumbered, ConcurrentChange, ConcurrentChange]
     assert list((tmp_path / "a").glob("records*.sqlite3*")) == [], "it would keep the names of who is erased elsewhere"
     assert count(url, "diagnosis") == 1
@@ -389,7 +395,7 @@ def test_a_store_that_a_computer_had_alone_goes_to_the_server_but_for_who_was_er
     with opened(tmp_path / "a") as a:
         linden, heron = a.patients.add(LINDEN), a.patients.add(HERON)
         fill(a, linden)
-        of_sessions.add_comment(a.store, measure(a, heron, T0), "gone", "AB")
+        session_records.add_comment(a.store, measure(a, heron, T0), "gone", "AB")
         measure(a, PRACTICE, T0 + timedelta(days=1))
         wanted = a.patients.get(linden)
     with opened(tmp_path / "b", there) as b:

@@ -20,7 +20,8 @@ from pathlib import Path
 import pytest
 from sqlalchemy import select, update
 
-from carpus.core.errors import (
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.errors import (
     CarpusFault,
     ConcurrentChange,
     NameUnsuited,
@@ -32,15 +33,14 @@ from carpus.core.errors import (
     PseudonymTaken,
     SessionUnreadable,
 )
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.names import normalize_name
-from carpus.core.records import of_clinic, of_sessions, patients, schema
+from carpus.core.model.names import normalize_name
+from carpus.core.records import clinic_records, patients, schema, session_records
 from carpus.core.records.changes import PRACTICE, insert_row
 from carpus.core.records.database import STORE_FILE, Database, move_aside
-from carpus.core.records.keeping import find_due_patients
-from carpus.core.records.kept_sets import read_sets
+from carpus.core.records.exercise_sets import read_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import WORDS, patient_columns, suggest_pseudonym
+from carpus.core.records.retention import find_due_patients
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -146,7 +146,7 @@ def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tm
     with opened(tmp_path) as house:
         linden, folder = house.patients.add(LINDEN), house.store.sessions_folder
         away = house.index.get(measure(house, linden, T0))
-        of_sessions.add_comment(house.store, away.session_id, "still written", "AB")
+        session_records.add_comment(house.store, away.session_id, "still written", "AB")
         away.path.rename(folder / "moved.h5")
         record(folder / "from elsewhere" / "a.h5", "linden 42", T0 + timedelta(days=1))
         record(folder / "b.h5", "Wren 33", T0, "left")
@@ -166,14 +166,14 @@ def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tm
         again = house.files.scan()
         assert (again.session_count, again.faults, len(house.names())) == (0, (), 2)
         assert house.index.get(away.session_id).path == folder / "moved.h5", "opening it tells that its file is away"
-        assert [one.text for one in of_sessions.read_comments(house.store, away.session_id)] == ["still written"]
+        assert [one.text for one in session_records.read_comments(house.store, away.session_id)] == ["still written"]
 
 
 @pytest.mark.parametrize("how", ["exchanged", "moved over", "copied over", "another's"])
 def test_a_file_in_another_s_place_is_listed_as_what_it_is(tmp_path: Path, how: str) -> None:
     with opened(tmp_path) as house:
         ids = [measure(house, house.patients.add(entry), T0) for entry in (LINDEN, HERON)]
-        of_sessions.add_comment(house.store, ids[0], "mine", "AB")
+        session_records.add_comment(house.store, ids[0], "mine", "AB")
         mine, other = (house.index.get(one).path for one in ids)
         if how == "exchanged":
             mine.rename(tmp_path / "aside")
@@ -195,7 +195,7 @@ def test_a_file_in_another_s_place_is_listed_as_what_it_is(tmp_path: Path, how: 
                 path = house.index.get(session_id).path
                 assert not path.exists() or read_outline(path).header.session_id == session_id
             assert house.index.get(ids[1]).path.exists()
-            assert [one.text for one in of_sessions.read_comments(house.store, ids[0])] == ["mine"]
+            assert [one.text for one in session_records.read_comments(house.store, ids[0])] == ["mine"]
         assert house.names("Wren") == (["Wren 12"] if how == "another's" else [])
 
 
@@ -203,8 +203,8 @@ def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden = house.patients.add(LINDEN, T0)
         session_id = measure(house, linden, T0)
-        of_sessions.add_comment(house.store, session_id, "well", "AB")
-        of_clinic.save_backup_record(house.store, T0, "place", 1, 1)
+        session_records.add_comment(house.store, session_id, "well", "AB")
+        clinic_records.save_backup_record(house.store, T0, "place", 1, 1)
         house.store.apply([insert_row(schema.AUDIT_LOG, "0", at="soon", at_ns=0, facts="{}")])
         house.index.archive(session_id)
         house.patients.archive(linden)
@@ -216,8 +216,8 @@ def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
             house.store.execute_local(update(table).where(table.c.id != PRACTICE).values(unzoned))
         assert [(one.session_id, when) for one, _, when in house.index.list_archived()] == [(session_id, T0)]
         assert house.patients.archive_times() == {linden: T0}
-        assert [one.text for one in of_sessions.read_comments(house.store, session_id)] == ["well"]
-        last = of_clinic.read_last_backup(house.store)
+        assert [one.text for one in session_records.read_comments(house.store, session_id)] == ["well"]
+        last = clinic_records.read_last_backup(house.store)
         assert last.later_sessions == 1, "nobody knows since when"
         assert [one.patient_id for one in find_due_patients(house.store, 10, date(2050, 1, 1))] == [linden]
         assert len(read_log(house.store)) == 1
@@ -333,18 +333,18 @@ def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, url:
             other.patients.change(replace(read, note="yours"))
         assert other.patients.get(linden).note == "mine"
         for mine, yours in (({0: "pain"}, {1: ""}), ({2: ""}, {3: ""})):
-            _, version = of_sessions.read_choices(other.store, session_id)
-            of_sessions.save_choices(one.store, session_id, RepetitionChoices(mine), version)
+            _, version = session_records.read_choices(other.store, session_id)
+            session_records.save_choices(one.store, session_id, RepetitionChoices(mine), version)
             with pytest.raises(ConcurrentChange):
-                of_sessions.save_choices(other.store, session_id, RepetitionChoices(yours), version)
-            assert of_sessions.read_choices(other.store, session_id)[0].excluded == mine
+                session_records.save_choices(other.store, session_id, RepetitionChoices(yours), version)
+            assert session_records.read_choices(other.store, session_id)[0].excluded == mine
 
 
 def test_programs_comment_on_one_session_and_log_it_at_once_and_nothing_is_lost(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         session_id = measure(house, house.patients.add(LINDEN), T0)
         code = (
-            "import sys; from pathlib import Path; from carpus.core.records.of_sessions import add_comment\n"
+            "import sys; from pathlib import Path; from carpus.core.records.session_records import add_comment\n"
             "from carpus.core.records.log import Log; from carpus.core.records.store import Store\n"
             "with Store(Path(sys.argv[1])) as store:\n"
             "    for number in range(20):\n"
@@ -355,7 +355,7 @@ def test_programs_comment_on_one_session_and_log_it_at_once_and_nothing_is_lost(
             subprocess.Popen([sys.executable, "-c", code, str(tmp_path), session_id, name]) for name in ("one", "other")
         ]
         assert [one.wait(120) for one in running] == [0, 0]
-        texts = [one.text for one in of_sessions.read_comments(house.store, session_id)]
+        texts = [one.text for one in session_records.read_comments(house.store, session_id)]
         assert sorted(texts) == sorted(f"{name} {number}" for name in ("one", "other") for number in range(20))
         assert [text for text in texts if text.startswith("one")] == [f"one {number}" for number in range(20)]
         assert len(read_log(house.store)) == 40
@@ -418,7 +418,7 @@ def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
         house.store.apply(people)
         ends = [measure(house, people[place].id, T0) for place in (0, 100, -1)]
         for session_id in ends:
-            of_sessions.add_comment(house.store, session_id, "Less swelling.", "AB")
+            session_records.add_comment(house.store, session_id, "Less swelling.", "AB")
         house.log.write_entry("locked", "program")
     content = bytearray((tmp_path / STORE_FILE).read_bytes())
     page = content.index(b"oak 100Oak 100") // 4096 * 4096
@@ -432,7 +432,7 @@ def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
         assert 180 < len(found & {one.id for one in people}) < 200
         for place, session_id in zip((0, -1), (ends[0], ends[-1]), strict=True):
             assert house.index.owner_id(session_id) == people[place].id
-            assert [one.text for one in of_sessions.read_comments(house.store, session_id)] == ["Less swelling."]
+            assert [one.text for one in session_records.read_comments(house.store, session_id)] == ["Less swelling."]
         assert house.patients.get(house.index.owner_id(ends[1])).pseudonym == "Oak 100"
         assert [one.action for one in read_log(house.store)] == ["locked"]
 
@@ -458,7 +458,9 @@ def test_the_first_version_is_read(tmp_path: Path) -> None:
         (linden,) = house.patients.search("muster")
         (session,) = house.index.patient_sessions(linden.patient_id)
         assert (written(linden), session.exercise) == (LINDEN, "WRIST_FE")
-        assert [one.text for one in of_sessions.read_comments(house.store, session.session_id)] == ["Less swelling."]
+        assert [one.text for one in session_records.read_comments(house.store, session.session_id)] == [
+            "Less swelling."
+        ]
 
 
 def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_path: Path) -> None:
@@ -534,7 +536,7 @@ def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
     with opened(tmp_path, tell=told.append) as house:
         linden = house.patients.add(LINDEN)
         session_id = measure(house, linden, T0)
-        of_sessions.save_choices(house.store, session_id, RepetitionChoices({0: "pain"}), 0)
+        session_records.save_choices(house.store, session_id, RepetitionChoices({0: "pain"}), 0)
         for day in (9, 10, 11):
             value = ManualValue("WRIST_ROUND", "", "right", date(2026, 10, day), (17.0,), "")
             patients.add_manual_measurements(house.store, linden, [value])
@@ -549,7 +551,7 @@ def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
         house.store.apply([insert_row(schema.EXERCISE_SET, "s", name="s", discs="wrist6", parts="[")])
         for _ in range(2):
             assert [one.day.day for one in patients.read_manual_measurements(house.store, linden)] == [11]
-            assert of_sessions.read_choices(house.store, session_id)[0] == RepetitionChoices()
+            assert session_records.read_choices(house.store, session_id)[0] == RepetitionChoices()
             assert read_sets(house.store) == ()
     assert [type(one) for one in told] == [PatientListDamaged] * 4
 

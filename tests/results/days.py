@@ -7,8 +7,8 @@ from dataclasses import replace
 from datetime import timedelta
 from typing import Any
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.measure import Measure
+from carpus.core.results.session_results import SessionResults
 from tests.ui.fakes import NOW
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles
+from carpus.core.model.hand.clinical_angles import isb_from_rotation, rotation_from_angles
 from carpus.core.results.motion_curves import motion_columns
 from carpus.core.results.progress import compare_ranges
 from carpus.core.results.ranges import isb_sd_rad, with_angle_order

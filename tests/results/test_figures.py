@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.hand.exercises import Movement, get_exercise
-from carpus.core.results.figures import SessionResults, compute_data_digest, compute_session_results
+from carpus.core.model.hand.exercises import Movement, get_exercise
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import (
     compare_ranges,
@@ -23,8 +22,9 @@ from carpus.core.results.progress import (
     incomparable_reasons,
 )
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.session_results import SessionResults, compute_data_digest, compute_session_results
 from carpus.core.session.values import Event
-from carpus.ui.words.further import measure_name, value_words
+from carpus.ui.words.task_measures import measure_name, value_words
 from tests.results.days import days_ago, with_ranges
 from tests.ui.fakes import NOW, figures_once, session
 

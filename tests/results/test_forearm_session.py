@@ -9,15 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.measures.by_hand import find_manual_measure
-from carpus.core.results.figures import compute_session_results
+from carpus.core.measures.manual_measurements import find_manual_measure
+from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.motion_curves import visible_angle_deg
 from carpus.core.results.norms import wrist_norm
 from carpus.core.results.ranges import LARGEST_SIZE
 from carpus.core.results.repetition_rows import compute_repetitions
-from carpus.core.results.seen import wrist_curves
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.valid_data import wrist_curves
 from carpus.core.session.values import Session
 from tests.ui.fakes import figures_once, session
 

@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionResults
-from carpus.core.results.further_measures import _thumb_distance_sd_m, find_session_reaches
 from carpus.core.results.measure import Measure, summarise_values
 from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.norms import SHARE_OF_OTHER, compute_total_shares, grade_share
-from carpus.ui.words.further import measure_name, short_task_summary, task_summary, task_table
+from carpus.core.results.session_results import SessionResults
+from carpus.core.results.task_measures import _thumb_distance_sd_m, find_session_reaches
+from carpus.ui.kit.cells import cell_text
 from carpus.ui.words.ranges import range_table
 from carpus.ui.words.session import method_words
-from carpus.ui.words.table import cell_text
+from carpus.ui.words.task_measures import measure_name, short_task_summary, task_summary, task_table
 from tests.ui.fakes import figures_once, session
 from tests.ui.hand_fakes import hand_session
 

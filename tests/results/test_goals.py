@@ -9,10 +9,10 @@ from functools import cache
 
 import pytest
 
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.results.figures import SessionResults
+from carpus.core.measures.change_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.results.progress import propose_goals
+from carpus.core.results.session_results import SessionResults
 from tests.results.days import with_ranges
 from tests.ui.fakes import NOW, figures_once, session
 

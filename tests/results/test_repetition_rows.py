@@ -16,7 +16,6 @@ from numpy.lib.recfunctions import repack_fields
 from carpus.core.measures.motion_range import motion_range
 from carpus.core.measures.repetitions import Repetition, RepetitionAnalysis, Stroke, find_repetitions
 from carpus.core.measures.signals import resample_evenly
-from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import (
     HIDDEN,
     RepetitionChoices,
@@ -25,7 +24,8 @@ from carpus.core.results.repetition_rows import (
     measure_repetitions,
     with_time_offset,
 )
-from carpus.core.results.session_lines import repetition_lines
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.session_summary import repetition_lines
 from carpus.core.session.reader import read_session, verify
 from carpus.core.session.values import RepetitionRow, Session
 from tests.formats.takes import stopping

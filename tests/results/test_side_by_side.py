@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.motion_curves import visible_angle_deg
 from carpus.core.results.ranges import finger_measure_keys
 from carpus.core.results.repetition_rows import RepetitionChoices, RepetitionResult
+from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import (
     align_playback,
     compare_pair,

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.camera import Camera
-from carpus.core.types import FloatArray
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray
 from tests.second_patient.skeleton import about_x, about_y, about_z
 
 _DOWN = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.second_patient.flesh import Skin
 from tests.second_patient.person import Person
 from tests.second_patient.skeleton import Bone, Posture, placed_bones, rest_posture

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.second_patient.person import Person
 from tests.second_patient.skeleton import BONES, Bone, Placed, bone_length_m, placed_bones, rest_posture
 

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.second_patient.camera import Hung
 from tests.second_patient.discs import NAMES
 from tests.second_patient.patient import Body, Patient

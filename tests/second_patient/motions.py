@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.second_patient.skeleton import Posture
 
 STILL_S = 0.9

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from carpus.core.types import FloatArray, Side
+from carpus.core.model.types import FloatArray, Side
 from tests.second_patient.discs import (
     NAMES,
     StuckDiscs,

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 # Buryanov & Kotiuk 2010 by reference 3.3: metacarpal, proximal, middle, distal phalanx with the soft tip; mm.
 _THUMB_MM = (46.2, 31.6, 21.7 + 5.7)

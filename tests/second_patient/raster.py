@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)

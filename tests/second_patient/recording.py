@@ -15,7 +15,7 @@ import platformdirs
 
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, SIMULATED_REMARK
-from carpus.core.types import FloatArray, Side
+from carpus.core.model.types import FloatArray, Side
 from tests.second_patient.camera import Hung, hung_camera
 from tests.second_patient.discs import NAMES
 from tests.second_patient.look import color_of, depth_of, look_of

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core.types import ByteImage, DepthImage, FloatArray
+from carpus.core.model.types import ByteImage, DepthImage, FloatArray
 from tests.second_patient.look import FloatImage
 
 DISPARITY_PX_M = 568.0 * 0.0748

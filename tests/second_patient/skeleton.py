@@ -12,7 +12,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.second_patient.person import Person
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 from tests.second_patient.skeleton import BONES, Bone, Placed
 
 _PARENT = [1, 2, 2, 2, 2, 2, 5, 6, 2, 8, 9, 2, 11, 12, 3, 14, 15, 4, 17, 18]

@@ -11,10 +11,10 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.hand.clinical_angles import wrist_axes
-from carpus.core.hand.protocols import HAND21, PALM_MARKERS
+from carpus.core.model.hand.clinical_angles import wrist_axes
+from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
 from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.session.reader import read_session
 from tests.second_patient import recording

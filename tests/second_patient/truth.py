@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
-from carpus.core.camera import Camera
-from carpus.core.hand.protocols import MarkerProtocol, get_protocol
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import MarkerProtocol, get_protocol
+from carpus.core.model.types import Detections, FloatArray, KinematicState, Side, TrackedFrame, TrackStatus
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import Detections, FloatArray, KinematicState, Side, TrackedFrame, TrackStatus
 from tests.second_patient.camera import Hung
 from tests.second_patient.discs import NAMES
 from tests.second_patient.motions import Motion, Row

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from carpus.core.session import schema
+from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE
 from carpus.core.session.schema import Field
-from carpus.core.session.seal import CHECKSUM_ATTRIBUTE
 
 _HEAD = f"""\
 # Session file

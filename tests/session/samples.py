@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
-from carpus.core.camera import Camera
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.types import Detections, KinematicState, TrackedFrame, TrackStatus
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.values import EncodedImages, SessionHeader, new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import Detections, KinematicState, TrackedFrame, TrackStatus
 
 CAMERA = Camera(570.25, 571.5, 314.0, 235.5, 640, 480, (0.04, -0.12, 0.001, -0.0003, 0.07), origin="file")
 SESSION_ID = uuid.UUID("12345678-1234-5678-1234-567812345678")

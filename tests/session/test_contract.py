@@ -12,9 +12,9 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.platform.version import __version__
 from carpus.core.session.values import stack_states
-from carpus.core.version import __version__
 from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once
 
 N = 40

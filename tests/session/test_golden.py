@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session import schema
 from carpus.core.session.reader import read_detections, read_raw, read_session, verify
 from carpus.core.session.values import EncodedImages

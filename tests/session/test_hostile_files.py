@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import SessionUnreadable
+from carpus.core.model.errors import SessionUnreadable
 from carpus.core.session import reader, reading_process
 from carpus.core.session.reader import ReadingProcess, read_detections, read_outline, read_raw, read_session
 from carpus.core.session.values import EncodedImages, Session

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
+from carpus.core.model.hand.protocols import HAND21
 from carpus.core.session.blocks import Blocks, build_frame_blocks
 from carpus.core.session.journal import JournalReader, unpack_arrays
 from carpus.core.session.schema import TableLayout
@@ -129,8 +129,8 @@ def test_write_that_fails_is_a_typed_fault(
 BOUNDED = """
 import resource, sys
 from pathlib import Path
-from carpus.core.errors import DiskFull
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.errors import DiskFull
+from carpus.core.model.hand.protocols import HAND21
 from tests.session.samples import journal_of, make_frame
 resource.setrlimit(resource.RLIMIT_FSIZE, (3_000_000, 3_000_000))
 journal = journal_of(Path(sys.argv[1]), protocol=HAND21)

@@ -10,9 +10,9 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.depth_sensor import D455
-from carpus.core.errors import SessionUnreadable
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.depth_sensor import D455
+from carpus.core.model.errors import SessionUnreadable
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.reader import has_raw, read_detections, read_session
 from carpus.core.session.values import Event, Motion, new_header, stack_states
 from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once

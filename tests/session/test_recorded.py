@@ -9,8 +9,8 @@ from pathlib import Path
 import h5py
 import pytest
 
-from carpus.core.dates import moment_from_timestamp, to_iso
-from carpus.core.hand.protocols import WRIST6
+from carpus.core.model.dates import moment_from_timestamp, to_iso
+from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.records.values import Patient, select_latest_versions
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import new_header

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import RecordingMissing, SessionUnreadable
+from carpus.core.model.errors import RecordingMissing, SessionUnreadable
 from carpus.core.records.recordings import (
     RecoveryResult,
     SessionDraft,

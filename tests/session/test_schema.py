@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 from importlib import resources
 
+from carpus.core.model.types import KinematicState, TrackedFrame
 from carpus.core.session import schema
-from carpus.core.types import KinematicState, TrackedFrame
 from tests.session.format_page import format_page
 
 

@@ -10,11 +10,11 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import SessionChanged, SessionUnfinished, SessionUnreadable
+from carpus.core.model.errors import SessionChanged, SessionUnfinished, SessionUnreadable
 from carpus.core.records.recordings import write_session
-from carpus.core.session import opened
+from carpus.core.session import session_file
+from carpus.core.session.checksum import compute_checksum
 from carpus.core.session.reader import verify
-from carpus.core.session.seal import compute_checksum
 from carpus.core.session.values import EncodedImages, VerificationResult, stack_states
 from carpus.core.session.writer import SessionWriter
 from tests.commands import Command
@@ -114,7 +114,9 @@ def test_flipped_bits(tmp_path: Path) -> None:
         other.write_bytes(flipped)
         is_picture = name == "/raw/color"
         with pytest.raises((SessionUnreadable, SessionChanged) if is_picture else SessionUnreadable):
-            (opened.verify if is_picture else opened.read_session)(other)  # known to end: here it is quicker
+            (session_file.verify if is_picture else session_file.read_session)(
+                other
+            )  # known to end: here it is quicker
     assert len(used) == 16
 
 

@@ -15,9 +15,9 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
-from carpus.core.hand.protocols import HAND21
-from carpus.core.session import disk, writer
+from carpus.core.model.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.session import atomic_files, writer
 from carpus.core.session.blocks import build_motion_blocks
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_raw, read_session, verify
 from carpus.core.session.values import EncodedImages, Motion, stack_states
@@ -165,8 +165,8 @@ def test_pictures_come_back_byte_for_byte(tmp_path: Path) -> None:
 BOUNDED = """
 import resource, sys
 from pathlib import Path
-from carpus.core.errors import DiskFull
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.errors import DiskFull
+from carpus.core.model.hand.protocols import HAND21
 from tests.session.samples import begun, make_frame, make_header
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), int(sys.argv[2])))
 try:
@@ -193,8 +193,8 @@ def test_a_disk_that_cannot_reserve_is_asked_how_much_is_free(tmp_path: Path, mo
     monkeypatch.setattr(os, "posix_fallocate", unknown)
     session = begun(tmp_path / "s.h5", rows=1)
     session.flush()
-    usage = disk.shutil.disk_usage(tmp_path)._replace(free=1000)
-    monkeypatch.setattr(disk.shutil, "disk_usage", lambda _: usage)
+    usage = atomic_files.shutil.disk_usage(tmp_path)._replace(free=1000)
+    monkeypatch.setattr(atomic_files.shutil, "disk_usage", lambda _: usage)
     session.append(make_frame(1))
     with pytest.raises(DiskFull):
         session.close()

@@ -13,19 +13,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.depth_sensor import DepthSensor, NoiseModel
+from carpus.core.model.depth_sensor import DepthSensor, NoiseModel
+from carpus.core.model.types import Detections, FloatArray
 from carpus.core.simulation.appearance import room_light
-from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import depth_scale
-from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.trouble import (
+from carpus.core.simulation.disturbances import (
     sample_covered_markers,
     sample_false_blobs,
     sample_frame_times,
     sample_passing_rod,
 )
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.sensor import depth_scale
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.truth import Truth, compute_truth, protocol_rows
-from carpus.core.types import Detections, FloatArray
 from tests.simulation.visibility import coarse_visibility
 
 LEAST_FOUND_M = 0.0021

@@ -8,11 +8,11 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.types import FloatArray
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.skin import skin_distance
-from carpus.core.types import FloatArray
 
 
 def gaps_m(scene: Scene, time_s: FloatArray, rows: Sequence[int]) -> FloatArray:

@@ -7,8 +7,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.protocols import HAND21, PALM_MARKERS
+from carpus.core.model.errors import SettingsInvalid
+from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
 from carpus.core.simulation.hand_motion import STILL_S, StrokePath
 from carpus.core.simulation.motions import MOTIONS, create_motion
 from carpus.core.simulation.scene import Scene

@@ -6,13 +6,13 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.render import ambient_occlusion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trace import Box, TracedSurface, trace_cones
-from carpus.core.types import ByteImage, FloatArray
+from carpus.core.simulation.sphere_tracing import Box, TracedSurface, trace_cones
 from tests.simulation.skin_shown import discs_found_on_the_surface, gaps_m
 from tests.suites import few
 

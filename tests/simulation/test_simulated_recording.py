@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.errors import OutputExists
+from carpus.core.model.errors import OutputExists
+from carpus.core.simulation.disturbances import sample_covered_markers, sample_false_blobs, sample_frame_times
 from carpus.core.simulation.recording import (
     TRUTH_FILE,
     _create_worker_pool,
@@ -24,7 +25,6 @@ from carpus.core.simulation.recording import (
 )
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trouble import sample_covered_markers, sample_false_blobs, sample_frame_times
 from carpus.core.simulation.truth import compute_truth
 from tests.rendered import truth_in
 from tests.simulation.measurements import measurement_sequence

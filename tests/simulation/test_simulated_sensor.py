@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.depth_sensor import D455
+from carpus.core.model.depth_sensor import D455
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import SimulatedRecording, simulate
 from carpus.core.simulation.scene import Scene

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.errors import SettingsInvalid
+from carpus.core.model.hand.protocols import HAND21
 from carpus.core.simulation.hand_motion import FULL_CUP_RAD, TissueState, apply_lag, apply_play, sample_tissue
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene

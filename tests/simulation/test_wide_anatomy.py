@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.clinical_angles import angles_from_rotation, wrist_axes
-from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.errors import SettingsInvalid
+from carpus.core.model.hand.clinical_angles import angles_from_rotation, wrist_axes
+from carpus.core.model.hand.kinematics import disc_centres
+from carpus.core.model.hand.protocols import HAND21
 from carpus.core.simulation.patient import MAX_PLACEMENT_ERROR_M
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene

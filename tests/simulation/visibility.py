@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from carpus.core.hand.kinematics import SEGMENTS
-from carpus.core.hand.protocols import SITES
+from carpus.core.model.hand.kinematics import SEGMENTS
+from carpus.core.model.hand.protocols import SITES
+from carpus.core.model.types import FloatArray
+from carpus.core.simulation.disturbances import PassingRod
 from carpus.core.simulation.scene import HandPose, Scene
-from carpus.core.simulation.trouble import PassingRod
-from carpus.core.types import FloatArray
 
 LARGEST_TILT_RAD = math.radians(75.0)
 

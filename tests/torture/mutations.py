@@ -14,16 +14,16 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from carpus.core.calibration.clicks import Clicks, write_clicks
+from carpus.core.calibration.clicks_file import Clicks, write_clicks
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.hand.protocols import WRIST6
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import Frame
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.values import Patient
 from carpus.core.session.values import EncodedImages
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import Frame
 from tests.capture.oni_samples import CAMERA as SMALL
 from tests.capture.oni_samples import color_picture, depth_picture, write_sample
 from tests.records.samples import opened

@@ -68,7 +68,7 @@ class Reader:
 
 
 def _serve(link: Connection, kind: str) -> None:
-    from carpus.core.errors import CarpusFault
+    from carpus.core.model.errors import CarpusFault
     from carpus.core.session.reader import READING_PROCESS
 
     READING_PROCESS.start()
@@ -133,7 +133,7 @@ def _read(kind: str, path: Path) -> None:
         finally:
             source.close()
     elif kind == "clicks":
-        from carpus.core.calibration.clicks import read_clicks
+        from carpus.core.calibration.clicks_file import read_clicks
 
         read_clicks(path, 640, 480)
     elif kind == "settings":

@@ -21,16 +21,16 @@ from threading import Event
 import numpy as np
 
 from carpus.core.capture.files.raw import RawWriter
-from carpus.core.capture.paced import PacedSource
+from carpus.core.capture.playback_sources import PacedSource
 from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.model.types import Detections, Frame, Region, TrackedFrame
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.pipeline.looking_back import SmoothingProcess, TrackedHand
-from carpus.core.pipeline.measuring import LivePipeline, RecordedSession
+from carpus.core.pipeline.measurement import LivePipeline, RecordedSession
+from carpus.core.pipeline.smoothing import SmoothingProcess, TrackedHand
 from carpus.core.pipeline.track import FramePipeline
 from carpus.core.session.journal import RecordingJournal
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, Frame, Region, TrackedFrame
 from tests.capture.oni_samples import color_picture
 from tests.capture.played import PlayedSource
 from tests.pipeline.live_fakes import tracked

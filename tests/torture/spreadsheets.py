@@ -16,11 +16,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.core.formats.csv_tables import write
-from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
-from carpus.core.formats.take import ExportItem
-from carpus.core.hand.protocols import HAND21
+from carpus.core.formats.export_item import ExportItem
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
+from carpus.core.model.hand.protocols import HAND21
 from carpus.core.session.reader import read_session
-from carpus.ui.saved_table import regional_table_form
+from carpus.ui.kit.table_file import regional_table_form
 from tests.formats.takes import stored, take_of
 
 LANGUAGES = {"de_DE": 1031, "it_IT": 1040, "en_GB": 2057}

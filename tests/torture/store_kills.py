@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.records import erasure, of_sessions
+from carpus.core.records import erasure, session_records
 from carpus.core.records.library import Library
 from tests.records.postgres import Cluster
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
@@ -81,10 +81,10 @@ def _kill(kind: str, number: int, folder: Path, cluster: Cluster | None) -> bool
 
 def _check_written(house: House, kind: str, session_id: str, said: list[int]) -> None:
     if kind == "correction":
-        choices, _ = of_sessions.read_choices(house.store, session_id)
+        choices, _ = session_records.read_choices(house.store, session_id)
         assert not said or int(choices.excluded[0]) in (said[-1], said[-1] + 1)
     else:
-        there = [int(one.text) for one in of_sessions.read_comments(house.store, session_id)]
+        there = [int(one.text) for one in session_records.read_comments(house.store, session_id)]
         assert there == list(range(len(there)))
         assert len(there) - len(said) in (0, 1)
 

@@ -21,9 +21,9 @@ from pathlib import Path
 from sqlalchemy import create_engine, select
 from sqlalchemy.pool import NullPool
 
-from carpus.core.errors import ConcurrentChange, PatientListBusy, PseudonymTaken, ServerUnavailable
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.records import of_sessions, patients
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.errors import ConcurrentChange, PatientListBusy, PseudonymTaken, ServerUnavailable
+from carpus.core.records import patients, session_records
 from carpus.core.records.schema import COMMENT, CORRECTION, MANUAL_MEASUREMENT, PATIENT, SESSION
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -79,7 +79,7 @@ def _do(house: House, kind: str, mark: str, number: int, chance: random.Random) 
     patient_id = house.patients.id_of_pseudonym(f"Shared {shared}")
     session_id = house.index.patient_sessions(patient_id)[-1].session_id
     if kind == "comment":
-        of_sessions.add_comment(store, session_id, mark, "AB")
+        session_records.add_comment(store, session_id, mark, "AB")
     elif kind == "by hand":
         value = ManualValue("WRIST_ROUND", "", "right", T0.date(), (16.0,), mark)
         patients.add_manual_measurements(store, patient_id, [value])
@@ -88,10 +88,10 @@ def _do(house: House, kind: str, mark: str, number: int, chance: random.Random) 
         time.sleep(chance.uniform(0.0, 0.05))  # somebody types
         house.patients.change(replace(read, note=f"{read.note} {mark}"))
     elif kind == "correction":
-        before, version = of_sessions.read_choices(store, session_id)
+        before, version = session_records.read_choices(store, session_id)
         time.sleep(chance.uniform(0.0, 0.05))
         kept = RepetitionChoices({0: mark}, {}, True, f"{before.session_exclusion_reason} {mark}")
-        of_sessions.save_choices(store, session_id, kept, version)
+        session_records.save_choices(store, session_id, kept, version)
     elif kind == "patient":
         return house.patients.add(Patient(mark if number % 2 else f"Both {number // 20}", "left"))
     else:

@@ -27,12 +27,12 @@ import numpy as np
 
 from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.pipeline.measuring import RecordedSession
+from carpus.core.model.types import Frame
+from carpus.core.pipeline.measurement import RecordedSession
 from carpus.core.records.recordings import publish_session, recover_recordings
-from carpus.core.session.opened import read_session, verify
 from carpus.core.session.reader import READING_PROCESS
+from carpus.core.session.session_file import read_session, verify
 from carpus.core.session.values import stack_states
-from carpus.core.types import Frame
 from tests.session.samples import CAMERA, journal_of, make_frame, time_of
 
 ROOT = Path(__file__).parents[2]

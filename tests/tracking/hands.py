@@ -9,12 +9,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
-from carpus.core.camera import Camera
-from carpus.core.hand.protocols import WRIST6
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import SoftTissue
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import Detections, FloatArray, Side, TrackedFrame
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.soft_tissue import SoftTissue
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, FloatArray, Side, TrackedFrame
 
 CAMERA = Camera(525.0, 525.0, 319.5, 239.5)
 RIGHT_PALM_M = np.array(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import MeasurementSequence

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.tracking.digit_naming import update_disc_areas
-from carpus.core.tracking.palm_association import measurements_from_blobs
-from carpus.core.tracking.predicted_measurement import adapt_noise_factor
-from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
-from carpus.core.types import Detections, FloatArray
+from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
+from carpus.core.model.types import Detections, FloatArray
+from carpus.core.tracking.association.palm_association import measurements_from_blobs
+from carpus.core.tracking.digits.digit_update import update_disc_areas
+from carpus.core.tracking.filter.predicted_measurement import adapt_noise_factor
+from carpus.core.tracking.filter.settings import MeasurementNoise, TrackerSettings
 
 NOISE = MeasurementNoise()
 DT_S = 1.0 / 30.0

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.stats import chi2, multivariate_normal
 
-from carpus.core.tracking.association import (
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.association.association import (
     LOG_IMPOSSIBLE,
-    AssociationSettings,
     assign_blobs,
     associate_jointly,
     association_posterior,
@@ -21,7 +21,7 @@ from carpus.core.tracking.association import (
     is_jointly_compatible,
     log_odds,
 )
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.settings import AssociationSettings
 
 RES_PX2 = 640.0 * 480.0
 OUTLIER = 1e-3

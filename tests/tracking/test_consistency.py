@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.tracking.consistency import ConsistencyTest, find_unused_markers
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.model.types import Detections, MarkerLabel, TrackedFrame
+from carpus.core.tracking.association.consistency import ConsistencyTest, find_unused_markers
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, MarkerLabel, TrackedFrame
 from tests.tracking.hands import CAMERA, MCP3, angles_deg, blobs, calibration, discs_cam_m, swing, truth_deg
 
 DT_S = 1.0 / 30.0

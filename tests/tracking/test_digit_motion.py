@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitMotion
-from carpus.core.tracking.hand_geometry import N_CONSTANTS, N_DIGITS, N_SLOTS
-from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.filter.digit_filter import DIGIT_SIZE, DigitMotion
+from carpus.core.tracking.filter.hand_geometry import N_CONSTANTS, N_DIGITS, N_SLOTS
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
 
 STRAYS_RAD, SETTLES_S = 0.1, 1.0
 END_JOINT = 3

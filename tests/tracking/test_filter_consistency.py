@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.depth_sensor import PRIMESENSE
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.model.depth_sensor import PRIMESENSE
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import FloatArray
 from tests.suites import few
 from tests.tracking.hands import CAMERA, DT_S, RIGID, Motion, Pose, blobs, calibration, rotation_of, swing
 

@@ -1,17 +1,20 @@
-"""The quick chains of the filter against the plain ones of ``core.hand``, and their slopes against differences."""
+"""The quick chains of the filter against the plain ones of ``core.model.hand``, and their slopes against
+differences."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from carpus.core.camera import Camera
 from carpus.core.compiled.digits import BENT, OTHER, place_digits
-from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
-from carpus.core.hand.anatomy_prior import constants_from_anatomy
-from carpus.core.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
-from carpus.core.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
-from carpus.core.tracking.digit_filter import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.model.hand.anatomy_prior import constants_from_anatomy
+from carpus.core.model.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
+from carpus.core.model.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.digits.digit_search import is_in_reach
+from carpus.core.tracking.filter.digit_filter import (
     DIGIT_SIZE,
     OBSERVED,
     RATES,
@@ -19,16 +22,14 @@ from carpus.core.tracking.digit_filter import (
     draw_sigma_points,
     linearise_digits,
 )
-from carpus.core.tracking.digit_search import is_in_reach
-from carpus.core.tracking.hand_geometry import (
+from carpus.core.tracking.filter.hand_geometry import (
     N_CONSTANTS,
     N_DIGITS,
     N_SLOTS,
     JointAngleMap,
     direct_marker_rows,
 )
-from carpus.core.tracking.unscented import UnscentedParameters
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.unscented import UnscentedParameters
 
 DIGIT_MARKERS = np.array(SITE_CHAINS)[:, 2:]
 

@@ -8,14 +8,14 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.model.hand.protocols import joint_angle_names
+from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import restart_at_neutral
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.digit_filter import ANATOMY, RATES
-from carpus.core.tracking.finger_smoother import FingerTrajectory, _FilteredFrame
-from carpus.core.tracking.hand_geometry import N_DIGITS, N_SLOTS
-from carpus.core.tracking.palm_smoother import Smoother
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.digit_filter import ANATOMY, RATES
+from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
+from carpus.core.tracking.smoother.finger_smoother import FingerTrajectory, _FilteredFrame
+from carpus.core.tracking.smoother.palm_smoother import Smoother
 from tests.accuracy.carpus import learnt_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.suites import few

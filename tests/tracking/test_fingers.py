@@ -8,20 +8,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import HAND21
+from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking import finger_model
-from carpus.core.tracking.digit_filter import ANATOMY, RATES
-from carpus.core.tracking.digit_naming import DigitFrame, DigitPosterior
-from carpus.core.tracking.digit_readout import base_from_estimate
-from carpus.core.tracking.fingers import FingerFilter
+from carpus.core.tracking.association.palm_association import measurements_from_blobs
+from carpus.core.tracking.digits import finger_model
+from carpus.core.tracking.digits.digit_readout import base_from_estimate
+from carpus.core.tracking.digits.digit_update import DigitFrame, DigitPosterior
+from carpus.core.tracking.filter.digit_filter import ANATOMY, RATES
+from carpus.core.tracking.filter.hand_geometry import palm_calibration
+from carpus.core.tracking.filter.palm_state import InitialSd, initial_estimate
+from carpus.core.tracking.filter.readout import Readout
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.hand_geometry import palm_calibration
-from carpus.core.tracking.palm_association import measurements_from_blobs
-from carpus.core.tracking.palm_state import InitialSd, initial_estimate
-from carpus.core.tracking.readout import Readout
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.tracking.sequences import calibrated, tracker_of
 

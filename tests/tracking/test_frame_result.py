@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core.hand.protocols import WRIST6
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import Detections, TrackedFrame, TrackStatus
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.consistency import MAX_UNUSED_S
+from carpus.core.tracking.association.consistency import MAX_UNUSED_S
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import OutputRowBuilder
-from carpus.core.types import Detections, TrackedFrame, TrackStatus
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
 from tests.tracking.sequences import tracker_of

@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.hand.back_surface import fit_dorsal_surface
+from carpus.core.model.hand.dorsal_surface import fit_dorsal_surface
+from carpus.core.model.types import Detections
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter
+from carpus.core.tracking.association.reacquire import FoundPalm, TurnLimits
+from carpus.core.tracking.filter.hand_geometry import palm_calibration
+from carpus.core.tracking.filter.motion import RATE_MEMORY_S
+from carpus.core.tracking.filter.palm_state import RATE, SHAPE, SKIN
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.soft_tissue import ZERO_SPEEDS, stationary_covariance
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
-from carpus.core.tracking.hand_geometry import palm_calibration
-from carpus.core.tracking.motion import RATE_MEMORY_S
-from carpus.core.tracking.palm_state import RATE, SHAPE, SKIN
-from carpus.core.tracking.reacquire import FoundPalm, TurnLimits
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import ZERO_SPEEDS, stationary_covariance
-from carpus.core.types import Detections
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
 from tests.tracking.sequences import calibrated

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.hand.anatomy import HARD_LIMITS_RAD
-from carpus.core.tracking.digit_filter import ANATOMY
-from carpus.core.tracking.finger_model import MAX_BEYOND_RAD
-from carpus.core.tracking.hand_geometry import N_DIGITS, N_SLOTS
-from carpus.core.tracking.joint_limits import (
+from carpus.core.model.hand.anatomy import HARD_LIMITS_RAD
+from carpus.core.tracking.digits.finger_model import MAX_BEYOND_RAD
+from carpus.core.tracking.filter.digit_filter import ANATOMY
+from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
+from carpus.core.tracking.filter.joint_limits import (
     LIMIT_SD_RAD,
     MID_RANGE_RAD,
     RANGE_SD_RAD,
@@ -20,7 +20,7 @@ from carpus.core.tracking.joint_limits import (
     compute_limit_excess,
     slot_limits_rad,
 )
-from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
 
 SIZE = ANATOMY.stop
 INDEX, PIP = 1, 2

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.model.types import Detections, FloatArray, TrackStatus
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, FloatArray, TrackStatus
 from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
 
 SETTINGS = {

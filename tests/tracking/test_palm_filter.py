@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
-from carpus.core import so3
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, propagate_mixture
-from carpus.core.tracking.motion import (
+from carpus.core.model import so3
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, propagate_mixture
+from carpus.core.tracking.filter.motion import (
     MotionNoise,
     PalmMotion,
     fading_factors,
@@ -18,8 +19,7 @@ from carpus.core.tracking.motion import (
     find_unobserved_turns,
     palm_transition,
 )
-from carpus.core.tracking.palm_smoother import FilterStep, PalmTrajectory, smooth_palm
-from carpus.core.tracking.palm_state import (
+from carpus.core.tracking.filter.palm_state import (
     POSE,
     POSITION,
     RATE,
@@ -37,8 +37,8 @@ from carpus.core.tracking.palm_state import (
     initial_estimate,
     reset_error,
 )
-from carpus.core.tracking.predicted_measurement import predict_measurement
-from carpus.core.tracking.soft_tissue import (
+from carpus.core.tracking.filter.predicted_measurement import predict_measurement
+from carpus.core.tracking.filter.soft_tissue import (
     CUP,
     HOME,
     STILL,
@@ -49,8 +49,8 @@ from carpus.core.tracking.soft_tissue import (
     single_moving_mode,
     stationary_covariance,
 )
-from carpus.core.tracking.unscented import UnscentedParameters
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.unscented import UnscentedParameters
+from carpus.core.tracking.smoother.palm_smoother import FilterStep, PalmTrajectory, smooth_palm
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
 MOTION = PalmMotion(MotionNoise(), single_moving_mode(SoftTissue()), np.array([0.5, 4.0]))

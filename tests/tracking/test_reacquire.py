@@ -8,13 +8,13 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from carpus.core import so3
-from carpus.core.tracking import reacquire
-from carpus.core.tracking.palm_state import SKIN, PalmView
-from carpus.core.tracking.reacquire import FoundPalm, TurnLimits, find_palm, is_other_hand
-from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
-from carpus.core.tracking.track_manager import MAX_TURN_RAD
-from carpus.core.types import Detections, Side
+from carpus.core.model import so3
+from carpus.core.model.types import Detections, Side
+from carpus.core.tracking.association import reacquire
+from carpus.core.tracking.association.reacquire import FoundPalm, TurnLimits, find_palm, is_other_hand
+from carpus.core.tracking.association.track_manager import MAX_TURN_RAD
+from carpus.core.tracking.filter.palm_state import SKIN, PalmView
+from carpus.core.tracking.filter.soft_tissue import SoftTissue, stationary_covariance
 from tests.suites import few
 from tests.tracking.hands import (
     CAMERA,

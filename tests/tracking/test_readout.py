@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.tracking.palm_state import InitialSd, initial_estimate
-from carpus.core.tracking.readout import Readout
-from carpus.core.types import FloatArray
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.palm_state import InitialSd, initial_estimate
+from carpus.core.tracking.filter.readout import Readout
 from tests.session.samples import make_calibration
 
 PALM_M = 1e-3 * np.array([[0, 0, 0], [20, 30, 0], [80, 25, 0], [85, 5, 0], [80, -15, 0], [72, -35, 0]], dtype=float)

@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.depth_sensor import D435, PRIMESENSE
-from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.palm_state import CALIBRATION_ERROR, SHAPE, SIZE, PalmEstimate
-from carpus.core.tracking.predicted_measurement import (
+from carpus.core.model.depth_sensor import D435, PRIMESENSE
+from carpus.core.tracking.filter.palm_state import CALIBRATION_ERROR, SHAPE, SIZE, PalmEstimate
+from carpus.core.tracking.filter.predicted_measurement import (
     LOCKED_DEPTH_SHARE,
     compute_fresh_share,
     depth_bias_matrix,
@@ -18,9 +17,10 @@ from carpus.core.tracking.predicted_measurement import (
     shape_covariance,
     shape_partial_update,
 )
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.unscented import UnscentedParameters
+from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.tracking.unscented import UnscentedParameters
 from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration
 from tests.tracking.test_palm_filter import linearised_about
 

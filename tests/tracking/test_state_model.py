@@ -7,14 +7,25 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitMotion
-from carpus.core.tracking.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS
-from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_transition
-from carpus.core.tracking.palm_state import N_PALM_DISCS, RIGID_MOTION, SIZE
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import SoftTissue, TissueModes, joint_driven_modes, resting_and_moving_modes
-from carpus.core.tracking.state_model import DIGIT_MEASUREMENTS, DIGIT_STATE, PALM_MEASUREMENTS, PALM_STATE, StatePart
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.digit_filter import DIGIT_SIZE, DigitMotion
+from carpus.core.tracking.filter.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS
+from carpus.core.tracking.filter.motion import MotionNoise, PalmMotion, palm_transition
+from carpus.core.tracking.filter.palm_state import N_PALM_DISCS, RIGID_MOTION, SIZE
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.soft_tissue import (
+    SoftTissue,
+    TissueModes,
+    joint_driven_modes,
+    resting_and_moving_modes,
+)
+from carpus.core.tracking.filter.state_model import (
+    DIGIT_MEASUREMENTS,
+    DIGIT_STATE,
+    PALM_MEASUREMENTS,
+    PALM_STATE,
+    StatePart,
+)
 from tests.sources import SOURCES
 from tests.test_document_names import is_there
 

@@ -8,20 +8,29 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core import so3
-from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.hand.back_surface import DorsalSurface, fit_dorsal_surface
-from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, SURFACE, TURN, PalmEstimate, PalmView, reset_error
-from carpus.core.tracking.predicted_measurement import shape_partial_update
-from carpus.core.tracking.surface_fit import (
+from carpus.core.model import so3
+from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
+from carpus.core.model.hand.dorsal_surface import DorsalSurface, fit_dorsal_surface
+from carpus.core.model.types import FloatArray, SurfaceSamples
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.palm_state import (
+    POSITION,
+    RELIEF,
+    SIZE,
+    SURFACE,
+    TURN,
+    PalmEstimate,
+    PalmView,
+    reset_error,
+)
+from carpus.core.tracking.filter.predicted_measurement import shape_partial_update
+from carpus.core.tracking.filter.surface_fit import (
     SurfaceMeasurement,
     SurfaceSettings,
     fit_surface,
     surface_calibration_covariance,
     update_by_surface,
 )
-from carpus.core.types import FloatArray, SurfaceSamples
 from tests.suites import few
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core import so3
-from carpus.core.tracking.reacquire import FoundPalm
-from carpus.core.tracking.track_manager import (
+from carpus.core.model import so3
+from carpus.core.model.types import TrackStatus
+from carpus.core.tracking.association.reacquire import FoundPalm
+from carpus.core.tracking.association.track_manager import (
     AMBIGUOUS_SD_RAD,
     AMBIGUOUS_WITH_FINGERS_SD_RAD,
     CONFIRMATION_S,
@@ -20,7 +21,6 @@ from carpus.core.tracking.track_manager import (
     TrackManager,
     TrackStage,
 )
-from carpus.core.types import TrackStatus
 
 LOST_AFTER_S, LEAST_FOUND = 1.5, 4
 

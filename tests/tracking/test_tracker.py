@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.tracking import consistency
-from carpus.core.tracking.palm_state import SHAPE
-from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.model.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
+from carpus.core.tracking.association import consistency
+from carpus.core.tracking.filter.palm_state import SHAPE
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
 from tests.suites import few
 from tests.tracking.hands import (
     CAMERA,

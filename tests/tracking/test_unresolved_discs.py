@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
-from carpus.core.tracking.digit_naming import compute_disc_areas
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.digits.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
+from carpus.core.tracking.digits.digit_update import compute_disc_areas
+from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.tracking.test_fingers import weighed
 
 CHAIN, PIP, DIP, TIP = 2, 0, 1, 2

@@ -8,13 +8,13 @@ from functools import cache
 import numpy as np
 
 from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
+from carpus.core.calibration.camera.board_views import FIELDS, ViewCollector, ViewCoverage
 from carpus.core.calibration.camera.calibrate import CameraCalibration, DepthCheck, Intrinsics
-from carpus.core.calibration.camera.views import FIELDS, ViewCollector, ViewCoverage
 from carpus.core.calibration.card.card import DIMENSIONS, CardReading
 from carpus.core.calibration.card.checks import CardCheck, CheckStatus
 from carpus.core.calibration.card.measure import CardMeasurement
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.types import Frame
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.types import Frame
 from carpus.ui.words.camera_calibration import BoardProgress, BoardResult
 from carpus.ui.words.camera_check import CardProgress
 from tests.studio import LENS, Studio, card_scene, poses, texture_of

@@ -14,13 +14,13 @@ from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.background import Background
-from carpus.ui.controls.sheet import Dialog
-from carpus.ui.fonts import load_fonts
-from carpus.ui.live.screen import LiveScreen
-from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.style import apply_style
-from carpus.ui.theme import Theme
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.fonts import load_fonts
+from carpus.ui.kit.style import apply_style
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.live.screen import LiveScreen
+from carpus.ui.screens.review.screen import ReviewScreen
 from tests.ui.fakes import FakeFeed, FakeSessions, figures_once, set_up
 from tests.ui.live_tried import TriedLive
 

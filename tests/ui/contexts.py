@@ -8,10 +8,10 @@ from typing import Any, cast
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.results.report_form import ReportSettings
-from carpus.ui.background import Background
-from carpus.ui.flow import ScreenContext
-from carpus.ui.now_open import CurrentSelection, SourceChoice
-from carpus.ui.theme import Theme
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.shell.current_selection import CurrentSelection, SourceChoice
+from carpus.ui.shell.flow import ScreenContext
 from tests.ui.fakes import NOW
 
 

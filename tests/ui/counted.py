@@ -45,7 +45,7 @@ def counts_of(window: QWidget, texts: list[str]) -> tuple[int, int, int]:
 
 def main() -> None:
     """Print a line for each screen."""
-    from carpus.ui.fonts import load_fonts
+    from carpus.ui.kit.fonts import load_fonts
     from tests.ui.gallery import Gallery
     from tests.ui.geometry import _labels, painted_texts
 

@@ -7,8 +7,8 @@ from datetime import datetime, timedelta
 from pathlib import Path
 
 from carpus.core.records.values import SessionEntry
-from carpus.ui.sessions.listing import SessionLine
-from carpus.ui.sessions.stored import SessionStore
+from carpus.ui.screens.sessions.session_list import SessionLine
+from carpus.ui.screens.sessions.session_store import SessionStore
 
 
 class FakeStoredSessions(SessionStore):

@@ -11,25 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.agreement.retest import ExcludedSession, RetestAnalysis, RetestResult
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
-from carpus.core.camera import Camera
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
-from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
-from carpus.core.records.corrections import Corrections
-from carpus.core.records.patients import Patients
-from carpus.core.records.set_up import PRACTICE_PATIENT, SessionSetup
-from carpus.core.records.values import Onset, Patient, SessionEntry
-from carpus.core.results.figures import SessionResults, compute_session_results
-from carpus.core.results.measure import Measure
-from carpus.core.results.progress import Comparison
-from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, stack_states
-from carpus.core.simulation.recording import SimulatedRecording
-from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import (
+from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.types import (
     ByteImage,
     Detections,
     FloatArray,
@@ -40,7 +27,22 @@ from carpus.core.types import (
     TrackedFrame,
     TrackStatus,
 )
-from carpus.ui.ports import (
+from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.records.corrections import Corrections
+from carpus.core.records.patients import Patients
+from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
+from carpus.core.records.values import Onset, Patient, SessionEntry
+from carpus.core.research.agreement.retest import ExcludedSession, RetestAnalysis, RetestResult
+from carpus.core.results.measure import Measure
+from carpus.core.results.progress import Comparison
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.session_results import SessionResults, compute_session_results
+from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, stack_states
+from carpus.core.simulation.recording import SimulatedRecording
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.ui.report.builders import build_session_report
+from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
+from carpus.ui.shell.view_models import (
     MAX_LISTED_PATIENTS,
     CalibrationAssessment,
     CalibrationLimits,
@@ -49,8 +51,6 @@ from carpus.ui.ports import (
     MeasureWithChange,
     PatientCard,
 )
-from carpus.ui.report.gather import build_session_report
-from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
 from tests.moments import with_moment
 
 FPS = 30.0

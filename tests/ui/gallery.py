@@ -20,62 +20,62 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.errors import DiskFull
+from carpus.core.model.errors import DiskFull
+from carpus.core.model.fault_text import MessageText
+from carpus.core.model.types import ByteImage, Side
 from carpus.core.records.corrections import ResultDifference
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.set_up import DEFAULT_SETS
+from carpus.core.records.session_setup import DEFAULT_SETS
 from carpus.core.records.values import SessionEntry
-from carpus.core.results.figures import compute_session_results
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.report_form import Letterhead, ReportForm
-from carpus.core.results.seen import joint_curves, wrist_curves
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.valid_data import joint_curves, wrist_curves
 from carpus.core.session.values import Session
-from carpus.core.types import ByteImage, Side
-from carpus.core.words import MessageText
-from carpus.ui import numbers
-from carpus.ui.background import Background
-from carpus.ui.beside.screen import ComparisonScreen
-from carpus.ui.by_hand.screen import ManualMeasurementsScreen, ManualRecord
-from carpus.ui.camera_calibration.screen import CameraCalibrationScreen
-from carpus.ui.check_card.screen import CheckCardScreen
-from carpus.ui.controls.sheet import Dialog
-from carpus.ui.correct.flow import difference_words
-from carpus.ui.correct.results_sheet import ResultPair, ResultsDialog
-from carpus.ui.correct.screen import CorrectionScreen
-from carpus.ui.fault_words import fault_words
-from carpus.ui.fonts import load_fonts
-from carpus.ui.help.screen import HelpScreen
-from carpus.ui.live.screen import LiveScreen
-from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.messages.messages import Answer, MessageDialog, NoticeStrip
-from carpus.ui.patient.guide import GuideScene
-from carpus.ui.patient.view import PatientView
-from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.ports import Preferences
-from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
-from carpus.ui.records.erasing import DeleteDialog
-from carpus.ui.records.lists import ListedRecord, LogDialog, RecordsDialog
-from carpus.ui.records.locking import LockScreen, PinDialog
-from carpus.ui.report.gather import build_progress_report, build_session_report
+from carpus.ui.kit import numbers
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.fonts import load_fonts
+from carpus.ui.kit.theme import Theme, ThemeName
+from carpus.ui.picture.movement_guide import GuideScene
+from carpus.ui.report.builders import build_progress_report, build_session_report
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.pages import Report
-from carpus.ui.report.screen import ReportScreen
+from carpus.ui.report.report import Report
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.sheets import HomeDialog, LetterDialog
-from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.sessions.screen import SessionsScreen
-from carpus.ui.settings.retest import RetestDialog
-from carpus.ui.settings.screen import SettingsScreen
-from carpus.ui.setup.camera import CameraScreen
-from carpus.ui.setup.exercise import ExerciseScreen
-from carpus.ui.setup.set_sheet import SetDialog
-from carpus.ui.shell import MainWindow
-from carpus.ui.theme import Theme, ThemeName
-from carpus.ui.tour.bubble import BubbleView
-from carpus.ui.tour.order import Bubble
-from carpus.ui.welcome.panel import Check, WelcomePanel
+from carpus.ui.screens.beside.screen import ComparisonScreen
+from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
+from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen
+from carpus.ui.screens.check_card.screen import CheckCardScreen
+from carpus.ui.screens.correct.flow import difference_words
+from carpus.ui.screens.correct.results_dialog import ResultPair, ResultsDialog
+from carpus.ui.screens.correct.screen import CorrectionScreen
+from carpus.ui.screens.help.screen import HelpScreen
+from carpus.ui.screens.live.screen import LiveScreen
+from carpus.ui.screens.markers.screen import MarkersScreen
+from carpus.ui.screens.patient.view import PatientView
+from carpus.ui.screens.patients.screen import PatientsScreen
+from carpus.ui.screens.progress.screen import ProgressScreen
+from carpus.ui.screens.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
+from carpus.ui.screens.records.deletion import DeleteDialog
+from carpus.ui.screens.records.lock import LockScreen, PinDialog
+from carpus.ui.screens.records.record_lists import ListedRecord, LogDialog, RecordsDialog
+from carpus.ui.screens.report.dialogs import HomeDialog, LetterDialog
+from carpus.ui.screens.report.screen import ReportScreen
+from carpus.ui.screens.review.screen import ReviewScreen
+from carpus.ui.screens.sessions.screen import SessionsScreen
+from carpus.ui.screens.settings.retest_dialog import RetestDialog
+from carpus.ui.screens.settings.screen import SettingsScreen
+from carpus.ui.screens.setup.camera import CameraScreen
+from carpus.ui.screens.setup.exercise import ExerciseScreen
+from carpus.ui.screens.setup.set_dialog import SetDialog
+from carpus.ui.screens.tour.bubble import BubbleView
+from carpus.ui.screens.tour.bubbles import Bubble
+from carpus.ui.screens.welcome.panel import Check, WelcomePanel
+from carpus.ui.shell.main_window import MainWindow
+from carpus.ui.shell.messages import Answer, MessageDialog, NoticeStrip
+from carpus.ui.shell.view_models import Preferences
 from carpus.ui.words.camera_check import camera_words
+from carpus.ui.words.fault_words import fault_words
 from tests.moments import with_moment
 from tests.ui.camera_fakes import board_progress, board_result, card_progress, checked
 from tests.ui.fake_stored_sessions import FakeStoredSessions

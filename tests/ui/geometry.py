@@ -20,10 +20,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.sheet import Dialog
-from carpus.ui.controls.text import ElidedText, Text
-from carpus.ui.shell import FocusRing
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.text import ElidedText, Text
+from carpus.ui.shell.main_window import FocusRing
 
 ROOM_PX = 2.0
 """So much may lie outside or over another: the air that belongs to every letter."""

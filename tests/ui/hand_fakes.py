@@ -9,7 +9,7 @@ from datetime import datetime, timedelta
 
 import numpy as np
 
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.model.hand.protocols import HAND21, joint_angle_names
 from carpus.core.records.values import SessionEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session

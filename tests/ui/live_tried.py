@@ -5,10 +5,10 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.records.set_up import SessionSetup
-from carpus.ui.live.number_card import Reading
-from carpus.ui.live.recording import MIN_RECORDING_S
-from carpus.ui.live.screen import LiveScreen
+from carpus.core.records.session_setup import SessionSetup
+from carpus.ui.screens.live.number_card import Reading
+from carpus.ui.screens.live.recording import MIN_RECORDING_S
+from carpus.ui.screens.live.screen import LiveScreen
 from tests.ui.fakes import FakeFeed, FakeMeasuring
 
 

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 from PySide6.QtCore import QLocale
 
-from carpus.ui import language
+from carpus.ui.kit import language
 
 CODE = "xx"
 _PLACES = re.compile(r"(\{[^}]*\}|&.)")
@@ -56,7 +56,7 @@ def main() -> None:
     """Look at every state, and print what is cut and what was not translated."""
     from PySide6.QtWidgets import QApplication
 
-    from carpus.ui.fonts import load_fonts
+    from carpus.ui.kit.fonts import load_fonts
     from tests.ui.gallery import STATES, Gallery
     from tests.ui.geometry import complaints, shown_texts
 

@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.progress import compute_progress, find_previous, incomparable_reasons
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
+from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Event, Session
-from carpus.ui.report.gather import write_session_report
+from carpus.ui.report.builders import write_session_report
 from carpus.ui.words.active_passive import MANUAL_SIGN, build_active_passive
 from carpus.ui.words.progress import exclusion_words
 from carpus.ui.words.ranges import repetition_words

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QRectF
 
-from carpus.core.agreement.compare import AnglePairs
-from carpus.core.agreement.statistics import compute_agreement, judge_agreement
-from carpus.ui.plot.agreement import AgreementPlot
-from carpus.ui.plot.style import screen_style
-from carpus.ui.theme import Theme
+from carpus.core.research.agreement.compare import AnglePairs
+from carpus.core.research.agreement.statistics import compute_agreement, judge_agreement
+from carpus.ui.charts.agreement import AgreementPlot
+from carpus.ui.charts.style import screen_style
+from carpus.ui.kit.theme import Theme
 from carpus.ui.words.agreement import angle_name, format_difference, format_interval
 
 

@@ -8,7 +8,7 @@ import weakref
 import pytest
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.background import Background
+from carpus.ui.kit.background import Background
 
 
 @pytest.mark.parametrize("fails", [False, True])

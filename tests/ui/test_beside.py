@@ -8,12 +8,14 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import SessionPair, compare_pair
-from carpus.ui.background import Background
-from carpus.ui.beside.screen import ComparisonScreen
-from carpus.ui.beside.words import (
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.cells import cell_text
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.beside.screen import ComparisonScreen
+from carpus.ui.screens.beside.words import (
     comparison_choices,
     difference_table,
     facts_words,
@@ -21,9 +23,7 @@ from carpus.ui.beside.words import (
     measure_keys,
     unfair_words,
 )
-from carpus.ui.theme import Theme
 from carpus.ui.words.fingers import progress_keys
-from carpus.ui.words.table import cell_text
 from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, figures_once, session
 from tests.ui.hand_fakes import hand_session

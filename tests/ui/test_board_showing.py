@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.camera_calibration.showing import BoardCaptureView
-from carpus.ui.theme import Theme
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.camera_calibration.capture_view import BoardCaptureView
 
 
 def test_the_keyboard_stays_with_the_board_while_it_is_worked_out(qtbot: QtBot) -> None:

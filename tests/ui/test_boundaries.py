@@ -32,7 +32,7 @@ def test_screens_load_no_device_filter_or_file_code() -> None:
     drawn = sorted(path for path in paths - SHARED if not path.endswith(("/flow.py", "/stored.py")))
     names = ["carpus.ui." + path.removesuffix(".py").replace("/", ".") for path in drawn]
     loaded = loaded_by(names)
-    assert "carpus.ui.live.screen" in loaded
+    assert "carpus.ui.screens.live.screen" in loaded
     assert not {name for name in loaded if any(name == part or name.startswith(part + ".") for part in FORBIDDEN)}
 
 
@@ -42,11 +42,11 @@ PLOTTING = re.compile(r"^\s*(?:import|from)\s+pyqtgraph\b", re.MULTILINE)
 def test_only_the_plotting_room_knows_pyqtgraph() -> None:
     sources = [path for part in ("app", "core", "ui") for path in sorted((ROOT / part).rglob("*.py"))]
     users = {path.relative_to(ROOT).parent for path in sources if PLOTTING.search(path.read_text(encoding="utf-8"))}
-    assert users == {Path("ui/plot")}
+    assert users == {Path("ui/charts")}
 
 
 def test_pyqtgraph_is_loaded_when_a_plot_is_shown_not_when_the_window_opens() -> None:
     """It takes a quarter of a second."""
-    loaded = loaded_by(["carpus.app.compose", "carpus.ui.patients.flow"])
-    assert "carpus.ui.patients.flow" in loaded
+    loaded = loaded_by(["carpus.app.compose", "carpus.ui.screens.patients.flow"])
+    assert "carpus.ui.screens.patients.flow" in loaded
     assert "pyqtgraph" not in loaded

@@ -15,23 +15,23 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.measures.by_hand import ManualValue, current_values
+from carpus.core.measures.manual_measurements import ManualValue, current_values
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import Patient
 from carpus.core.results.progress import compute_progress
-from carpus.ui.background import Background
-from carpus.ui.by_hand.flow import ManualMeasurementsFlow
-from carpus.ui.by_hand.screen import ManualMeasurementsScreen, ManualRecord
-from carpus.ui.progress.flow import write_tables
-from carpus.ui.report.gather import (
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.report.builders import (
     build_progress_report,
     build_session_report,
     write_progress_report,
     write_session_report,
 )
-from carpus.ui.shell import MainWindow
-from carpus.ui.theme import Theme
+from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
+from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
+from carpus.ui.screens.progress.flow import write_tables
+from carpus.ui.shell.main_window import MainWindow
 from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import NOW, FakeSessions, hand_values

@@ -10,17 +10,17 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import compute_session_results
-from carpus.core.results.seen import joint_curves, wrist_curves
-from carpus.core.session.marker_doubts import Correction, find_label_doubt
-from carpus.ui.background import Background
-from carpus.ui.correct.picture import RING_RADIUS_PX
-from carpus.ui.correct.places import MarkerEdits
-from carpus.ui.correct.results_sheet import ResultPair, ResultsDialog
-from carpus.ui.correct.screen import CorrectionScreen
-from carpus.ui.plot.compared import OLD_WIDTH_FACTOR, ComparisonPlot, HandComparisonPlot
-from carpus.ui.plot.session import HandPlot
-from carpus.ui.theme import Theme
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.valid_data import joint_curves, wrist_curves
+from carpus.core.session.label_checks import Correction, find_label_doubt
+from carpus.ui.charts.result_comparison import OLD_WIDTH_FACTOR, ComparisonPlot, HandComparisonPlot
+from carpus.ui.charts.session import HandPlot
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.correct.frame_view import RING_RADIUS_PX
+from carpus.ui.screens.correct.marker_edits import MarkerEdits
+from carpus.ui.screens.correct.results_dialog import ResultPair, ResultsDialog
+from carpus.ui.screens.correct.screen import CorrectionScreen
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCorrections, FakeSessions, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session

@@ -11,12 +11,12 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QImage, QPainter
 from pytestqt.qtbot import QtBot
 
-from carpus.core.measures.by_hand import ManualValue
+from carpus.core.measures.manual_measurements import ManualValue
 from carpus.core.results.progress import compute_progress
-from carpus.ui.plot import course
-from carpus.ui.plot.course import ProgressChart
-from carpus.ui.plot.style import paper_style
-from carpus.ui.theme import Theme
+from carpus.ui.charts import progress
+from carpus.ui.charts.progress import ProgressChart
+from carpus.ui.charts.style import paper_style
+from carpus.ui.kit.theme import Theme
 from tests.ui.fakes import FakeSessions
 from tests.ui.test_plots import drag, move
 
@@ -41,7 +41,7 @@ def place(chart: ProgressChart, number: int) -> QPointF:
     key = chart.panels()[0][1]
     at_s = chart._progress.points[number].results.when.timestamp()
     plot = chart.plots[0]
-    row = course.find_session_measure(chart._progress, number, key)
+    row = progress.find_session_measure(chart._progress, number, key)
     assert row is not None
     return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean)))
 
@@ -154,7 +154,7 @@ def test_course_on_paper_has_a_square_for_each_value_by_hand(
     monkeypatch.setattr(ProgressChart, "add_symbols", count)
     picture = QImage(800, 500, QImage.Format.Format_RGB32)
     with QPainter(picture) as painter:
-        course.paint_progress_chart(
+        progress.paint_progress_chart(
             painter, paper_style(1.0), QRectF(picture.rect()), replace(compute_progress(alike), by_hand=by_hand)
         )
     assert sum(squares) == len(by_hand) + 1  # and one that says what they mean

@@ -29,29 +29,29 @@ from pytestqt.qtbot import QtBot
 
 import carpus.app
 import carpus.ui
-from carpus.core.records.set_up import DEFAULT_SETS
-from carpus.core.words import MessageText
-from carpus.ui.camera_name_sheet import CameraNameDialog
-from carpus.ui.controls.button import ENTER_KEY, Button, is_enter_handler
-from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.sheet import Dialog
-from carpus.ui.controls.text import Text
-from carpus.ui.correct.results_sheet import ResultsDialog
-from carpus.ui.export.sheet import ExportDialog
-from carpus.ui.live.notes import NoteDialog, PainDialog
-from carpus.ui.markers.guidance import StartAngleDialog
-from carpus.ui.messages.messages import Answer, MessageDialog
-from carpus.ui.patients.entry import PatientForm
-from carpus.ui.records.erasing import DeleteDialog
-from carpus.ui.records.lists import ListedRecord, LogDialog, RecordsDialog
-from carpus.ui.records.locking import LockScreen, PinDialog
-from carpus.ui.report.sheets import HomeDialog, LetterDialog
-from carpus.ui.review.hand_picture import HandImageDialog
-from carpus.ui.review.screen import ExclusionDialog
-from carpus.ui.sessions.sheets import ChoiceDialog, ExcludeDialog
-from carpus.ui.settings.retest import RetestDialog
-from carpus.ui.setup.set_sheet import SetDialog
-from carpus.ui.theme import Theme
+from carpus.core.model.fault_text import MessageText
+from carpus.core.records.session_setup import DEFAULT_SETS
+from carpus.ui.kit.button import ENTER_KEY, Button, is_enter_handler
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.field import SearchField
+from carpus.ui.kit.text import Text
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.correct.results_dialog import ResultsDialog
+from carpus.ui.screens.export.dialog import ExportDialog
+from carpus.ui.screens.live.note_dialogs import NoteDialog, PainDialog
+from carpus.ui.screens.markers.guidance import StartAngleDialog
+from carpus.ui.screens.patients.patient_form import PatientForm
+from carpus.ui.screens.records.deletion import DeleteDialog
+from carpus.ui.screens.records.lock import LockScreen, PinDialog
+from carpus.ui.screens.records.record_lists import ListedRecord, LogDialog, RecordsDialog
+from carpus.ui.screens.report.dialogs import HomeDialog, LetterDialog
+from carpus.ui.screens.review.hand_image import HandImageDialog
+from carpus.ui.screens.review.screen import ExclusionDialog
+from carpus.ui.screens.sessions.dialogs import ChoiceDialog, ExcludeDialog
+from carpus.ui.screens.settings.retest_dialog import RetestDialog
+from carpus.ui.screens.setup.set_dialog import SetDialog
+from carpus.ui.shell.camera_name_dialog import CameraNameDialog
+from carpus.ui.shell.messages import Answer, MessageDialog
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
 from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY

@@ -13,8 +13,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.records.erasing import DeleteDialog, DeletionController
-from carpus.ui.theme import Theme
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.records.deletion import DeleteDialog, DeletionController
 from tests.ui.gallery import ERASED_PATIENT, ERASED_SESSION, LAST_BACKUP, TODAY
 
 

@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.records.values import Patient
-from carpus.ui.setup.camera import CameraScreen
-from carpus.ui.setup.exercise import ExerciseScreen
-from carpus.ui.theme import Theme
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.setup.camera import CameraScreen
+from carpus.ui.screens.setup.exercise import ExerciseScreen
 from tests.ui.conftest import Show
 from tests.ui.fakes import set_up
 

@@ -11,27 +11,27 @@ import pytest
 from pytestqt.qtbot import QtBot
 from sqlalchemy import select, update
 
-from carpus.core.errors import ConcurrentChange
-from carpus.core.hand.exercises import get_exercise
+from carpus.core.model.errors import ConcurrentChange
+from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.records import patients
 from carpus.core.records.changes import delete_row
-from carpus.core.records.kept_sets import read_last_setup, read_sets, save_sets, save_setup
+from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets, save_setup
 from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, GOAL, PATIENT
-from carpus.core.records.set_up import DEFAULT_SETS, ExerciseSet, SetPart, next_part, start_set
+from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart, next_part, start_set
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
-from carpus.core.results.figures import compute_session_results
 from carpus.core.results.progress import compute_progress
-from carpus.ui.background import Background
-from carpus.ui.live.course import STOP_DELAY_S, CourseRunner
-from carpus.ui.live.screen import LiveScreen
-from carpus.ui.patient.guide import ExerciseSnapshot, GuideScene
-from carpus.ui.patient.viewing import PatientViewController
-from carpus.ui.plot.course import goals_deg
-from carpus.ui.setup.exercise import ExerciseScreen
-from carpus.ui.setup.set_sheet import SetDialog
-from carpus.ui.theme import Theme
+from carpus.core.results.session_results import compute_session_results
+from carpus.ui.charts.progress import goals_deg
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.picture.movement_guide import ExerciseSnapshot, GuideScene
+from carpus.ui.screens.live.course import STOP_DELAY_S, CourseRunner
+from carpus.ui.screens.live.screen import LiveScreen
+from carpus.ui.screens.patient.view_controller import PatientViewController
+from carpus.ui.screens.setup.exercise import ExerciseScreen
+from carpus.ui.screens.setup.set_dialog import SetDialog
 from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, session, set_up

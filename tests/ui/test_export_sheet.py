@@ -11,12 +11,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.formats.formats import FORMATS
-from carpus.core.formats.new_output import MACHINE_DIALECT, TableDialect
-from carpus.ui.background import Background
-from carpus.ui.export.flow import ExportController
-from carpus.ui.last_places import RecentLocations
-from carpus.ui.theme import Theme
+from carpus.core.formats.export import FORMATS
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.export.flow import ExportController
+from carpus.ui.shell.recent_locations import RecentLocations
 from tests.ui.contexts import Told, a_context
 
 Parts = tuple[ExportController, "Stored", Told]

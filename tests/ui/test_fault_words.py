@@ -9,14 +9,14 @@ import pytest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.errors import DiskFull
+from carpus.core.model.errors import DiskFull
+from carpus.core.model.fault_text import shorten
 from carpus.core.records.new_sessions import RecoveredSession
-from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.words import shorten
-from carpus.ui.fault_words import fault_words
-from carpus.ui.language import use_language
-from carpus.ui.messages.messages import Messages
-from carpus.ui.theme import Theme
+from carpus.core.records.session_setup import PRACTICE_PATIENT
+from carpus.ui.kit.language import use_language
+from carpus.ui.kit.theme import Theme
+from carpus.ui.shell.messages import Messages
+from carpus.ui.words.fault_words import fault_words
 
 
 @pytest.mark.parametrize("root", ["/home/someone/.local/share/carpus", "C:\\Users\\Some One\\AppData\\carpus"])

@@ -10,14 +10,14 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from carpus.core.errors import OutputNotWritable
-from carpus.core.hand.protocols import HAND21
-from carpus.ui.hand_drawing import MARKER_POSITIONS
-from carpus.ui.help import guide
-from carpus.ui.help.cards import write_cards
-from carpus.ui.help.screen import HelpScreen
-from carpus.ui.language import LANGUAGES, load_texts, use_language
-from carpus.ui.theme import Theme
+from carpus.core.model.errors import OutputNotWritable
+from carpus.core.model.hand.protocols import HAND21
+from carpus.ui.kit.language import LANGUAGES, load_texts, use_language
+from carpus.ui.kit.theme import Theme
+from carpus.ui.picture.hand_drawing import MARKER_POSITIONS
+from carpus.ui.screens.help import guide
+from carpus.ui.screens.help.cards import write_cards
+from carpus.ui.screens.help.screen import HelpScreen
 from tests.ui.conftest import Show
 from tests.ui.printed import pages_of, words_of
 

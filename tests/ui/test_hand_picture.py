@@ -16,16 +16,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.errors import OutputNotWritable
-from carpus.core.hand.exercises import get_exercise
+from carpus.core.model.errors import OutputNotWritable
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.types import SIMULATED, ByteImage, TrackStatus
 from carpus.core.results.hand_cutout import BACKGROUND_GREY, angle_overlay, cut_out_hand
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
-from carpus.core.types import SIMULATED, ByteImage, TrackStatus
-from carpus.ui.background import Background
-from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.review.hand_picture import HandImage, build_hand_image
-from carpus.ui.theme import Theme
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.review.flow import ReviewFlow
+from carpus.ui.screens.review.hand_image import HandImage, build_hand_image
 from tests.ui.conftest import Reviewing
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeSessions, session

@@ -14,42 +14,48 @@ from PySide6.QtCore import QRectF
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core import so3
-from carpus.core.agreement.limits_file import LIMITS_FILE, save_limits
-from carpus.core.errors import SessionUnreadable, SettingsInvalid
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import WRIST6
-from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.measures.change_limits import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.measures.repetitions import NoRepetitionReason
+from carpus.core.model import so3
+from carpus.core.model.errors import SessionUnreadable, SettingsInvalid
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import TrackedFrame
 from carpus.core.records.library import Library
+from carpus.core.records.limits_file import LIMITS_FILE, save_limits
 from carpus.core.records.new_sessions import recover_sessions
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.measure import summarise_values
 from carpus.core.results.progress import compute_progress
-from carpus.core.results.seen import joint_curves, wrist_curves
-from carpus.core.types import TrackedFrame
-from carpus.ui.background import Background
-from carpus.ui.controls.text import StateText, Text
-from carpus.ui.figures import find_finger_angle, spread_labels
-from carpus.ui.live.number_card import speed_words
-from carpus.ui.patients.card import PatientCardView
-from carpus.ui.plot.course import place_panels
-from carpus.ui.plot.history import History
-from carpus.ui.plot.session import HandPlot
-from carpus.ui.plot.style import screen_style
-from carpus.ui.ports import PatientCard, Preferences
-from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.report.gather import build_session_report
-from carpus.ui.report.screen import default_file_name
-from carpus.ui.settings.limits import limit_rows
-from carpus.ui.settings.screen import SettingsScreen
-from carpus.ui.theme import Theme
-from carpus.ui.verdicts import change_since_first, difference_words, error_limit_words, no_change_words, verdict_word
+from carpus.core.results.session_results import SessionResults
+from carpus.core.results.valid_data import joint_curves, wrist_curves
+from carpus.ui.charts.history import History
+from carpus.ui.charts.progress import place_panels
+from carpus.ui.charts.session import HandPlot
+from carpus.ui.charts.style import screen_style
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.cells import cell_text
+from carpus.ui.kit.text import StateText, Text
+from carpus.ui.kit.theme import Theme
+from carpus.ui.report.builders import build_session_report
+from carpus.ui.screens.live.number_card import speed_words
+from carpus.ui.screens.patients.card import PatientCardView
+from carpus.ui.screens.progress.screen import ProgressScreen
+from carpus.ui.screens.report.screen import default_file_name
+from carpus.ui.screens.settings.limits_card import limit_rows
+from carpus.ui.screens.settings.screen import SettingsScreen
+from carpus.ui.shell.view_models import PatientCard, Preferences
+from carpus.ui.words.finger_angles import find_finger_angle, spread_labels
 from carpus.ui.words.fingers import finger_table, limitation_words, main_angles, main_result_words
 from carpus.ui.words.progress import value_pair
 from carpus.ui.words.ranges import range_table, repetition_words
 from carpus.ui.words.session import change_sentence, method_words, speed_pain_lines
-from carpus.ui.words.table import cell_text
+from carpus.ui.words.verdicts import (
+    change_since_first,
+    difference_words,
+    error_limit_words,
+    no_change_words,
+    verdict_word,
+)
 from tests.moments import with_moment
 from tests.results.days import with_ranges
 from tests.sources import SOURCES, modules, nodes

@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QImage, QPainter
 
-from carpus.ui.icons import paint_icon, paint_logo, paint_state
+from carpus.ui.kit.icons import paint_icon, paint_logo, paint_state
 
 ROOT = Path(__file__).parents[2]
 ICONS = sorted(path.stem for path in (ROOT / "resources" / "icons").glob("*.svg"))

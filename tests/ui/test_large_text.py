@@ -10,15 +10,15 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.by_hand.screen import ManualMeasurementsScreen
-from carpus.ui.controls.field import Combo, number_field
-from carpus.ui.controls.layouts import ScrollArea
-from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.records.locking import LockScreen
-from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.theme import Theme
+from carpus.ui.kit.field import Combo, number_field
+from carpus.ui.kit.layouts import ScrollArea
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen
+from carpus.ui.screens.markers.screen import MarkersScreen
+from carpus.ui.screens.patients.screen import PatientsScreen
+from carpus.ui.screens.progress.screen import ProgressScreen
+from carpus.ui.screens.records.lock import LockScreen
+from carpus.ui.screens.review.screen import ReviewScreen
 from tests.ui import pseudo
 from tests.ui.gallery import TODAY, Gallery
 

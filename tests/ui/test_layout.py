@@ -16,9 +16,10 @@ from PySide6.QtCore import QLocale, QSize
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
-from carpus.ui import language, terms
-from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.review.screen import ReviewScreen
+from carpus.ui.kit import language
+from carpus.ui.screens.markers.screen import MarkersScreen
+from carpus.ui.screens.review.screen import ReviewScreen
+from carpus.ui.words import terms
 from tests.ui import pseudo
 from tests.ui.fakes import WHY
 from tests.ui.gallery import STATES, Gallery

@@ -15,24 +15,24 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPointF, QRectF, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.errors import DiskFull
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import resample_evenly
+from carpus.core.model.errors import DiskFull
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.core.model.types import Detections, TrackedFrame, TrackStatus
 from carpus.core.pipeline.live_values import StartMode
-from carpus.core.types import Detections, TrackedFrame, TrackStatus
-from carpus.ui.live import recording as live_recording
-from carpus.ui.live.controls import HEIGHT_PX, StatusLightView
-from carpus.ui.live.counting import RepetitionCounter
-from carpus.ui.live.doubt import MarkerDoubt, SteadyDoubt, find_doubt, question_light
-from carpus.ui.live.light import StatusLight, SteadyLight, wrist_light
-from carpus.ui.live.number_card import NumberCard, Reading
-from carpus.ui.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
+from carpus.ui.charts.history import BUFFER_S, History
+from carpus.ui.charts.live_curves import LiveCurves
+from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.overlay import axis_pixels, clamp_to_box, covariance_ellipse
-from carpus.ui.plot.history import BUFFER_S, History
-from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.theme import Theme
+from carpus.ui.screens.live import recording as live_recording
+from carpus.ui.screens.live.controls import HEIGHT_PX, StatusLightView
+from carpus.ui.screens.live.marker_doubt import MarkerDoubt, SteadyDoubt, find_doubt, question_light
+from carpus.ui.screens.live.number_card import NumberCard, Reading
+from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
+from carpus.ui.screens.live.repetition_counter import RepetitionCounter
+from carpus.ui.screens.live.status_light import StatusLight, SteadyLight, wrist_light
 from tests.moments import with_moment
 from tests.ui.conftest import Live, Show
 from tests.ui.fakes import FakeFeed, FakeMeasuring, LateFeed, with_other_spot

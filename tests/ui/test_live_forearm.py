@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import WRIST6
-from carpus.ui.live.counting import RepetitionCounter
-from carpus.ui.plot.history import History
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import WRIST6
+from carpus.ui.charts.history import History
+from carpus.ui.screens.live.repetition_counter import RepetitionCounter
 from tests.ui.fakes import simulated, tracked_frames
 
 

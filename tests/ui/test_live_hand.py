@@ -11,21 +11,21 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.results.figures import compute_session_results
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import HAND21, joint_angle_names
+from carpus.core.model.types import TrackedFrame, TrackStatus
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.values import Session
-from carpus.core.types import TrackedFrame, TrackStatus
-from carpus.ui.figures import FINGER_ANGLES, FingerAngle, find_finger_angle
-from carpus.ui.joint_figures import estimate_finger_angles
-from carpus.ui.live.counting import RepetitionCounter
-from carpus.ui.live.light import hand_light, hand_map_words
-from carpus.ui.live.number_card import NumberCard, Reading
+from carpus.ui.charts.finger_curves import angle_suffix
+from carpus.ui.charts.history import History
+from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.skeleton import side_points_m
-from carpus.ui.plot.finger_curves import angle_suffix
-from carpus.ui.plot.history import History
-from carpus.ui.theme import Theme
+from carpus.ui.screens.live.number_card import NumberCard, Reading
+from carpus.ui.screens.live.repetition_counter import RepetitionCounter
+from carpus.ui.screens.live.status_light import hand_light, hand_map_words
+from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
+from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle, find_finger_angle
 from tests.moments import with_moment
 from tests.ui.conftest import Live
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up

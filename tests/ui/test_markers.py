@@ -11,14 +11,14 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.calibration.result import CalibrationFinding, Clicks
-from carpus.core.hand.protocols import HAND21, WRIST6
-from carpus.ui.background import Background
-from carpus.ui.language import use_language
-from carpus.ui.markers.clicking import LabelState
-from carpus.ui.markers.picture import MarkerFrameView
-from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.ports import CalibrationAssessment, LabelProposal
-from carpus.ui.theme import Theme
+from carpus.core.model.hand.protocols import HAND21, WRIST6
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.language import use_language
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.markers.label_state import LabelState
+from carpus.ui.screens.markers.marker_frame import MarkerFrameView
+from carpus.ui.screens.markers.screen import MarkersScreen
+from carpus.ui.shell.view_models import CalibrationAssessment, LabelProposal
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCalibrator
 from tests.ui.geometry import painted_texts

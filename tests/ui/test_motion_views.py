@@ -12,22 +12,22 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QFontMetricsF
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.motion_curves import compute_motion_curves
-from carpus.core.results.seen import wrist_curves
-from carpus.ui.controls.text import Text
-from carpus.ui.patients.card import PatientCardView
-from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.motion import MotionPlot
-from carpus.ui.plot.style import screen_style
-from carpus.ui.plot.ways import MIN_SPAN_MM, PathsChart, finger_paths, has_title, plane_panels, wrist_path
-from carpus.ui.ports import PatientCard
-from carpus.ui.report.gather import write_session_report
-from carpus.ui.review.charts import WRIST
-from carpus.ui.theme import Theme
+from carpus.core.results.session_results import SessionResults
+from carpus.core.results.valid_data import wrist_curves
+from carpus.ui.charts.axes import Panel
+from carpus.ui.charts.motion import MotionPlot
+from carpus.ui.charts.paths import MIN_SPAN_MM, PathsChart, finger_paths, has_title, plane_panels, wrist_path
+from carpus.ui.charts.style import screen_style
+from carpus.ui.kit.cells import Cell
+from carpus.ui.kit.text import Text
+from carpus.ui.kit.theme import Theme
+from carpus.ui.report.builders import write_session_report
+from carpus.ui.screens.patients.card import PatientCardView
+from carpus.ui.screens.review.charts import WRIST
+from carpus.ui.shell.view_models import PatientCard
 from carpus.ui.words.fingers import finger_table, main_result_words
-from carpus.ui.words.further import task_summary, task_table
-from carpus.ui.words.table import Cell
+from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, QRectF, QSizeF
 
-from carpus.ui.picture.name_places import place_label
+from carpus.ui.picture.label_placement import place_label
 
 INSIDE = QRectF(4, 4, 632, 364)
 RADIUS = 13.0

@@ -14,27 +14,27 @@ from PySide6.QtPrintSupport import QPrinter
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.of_file import read_report_form
-from carpus.core.errors import ConcurrentChange
-from carpus.core.records.of_clinic import read_form, save_form
+from carpus.app.session_commands import read_report_form
+from carpus.core.model.errors import ConcurrentChange
+from carpus.core.records.clinic_records import read_form, save_form
 from carpus.core.records.store import Store
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
-from carpus.ui.background import Background
-from carpus.ui.language import use_language
-from carpus.ui.patient.words import task_words
-from carpus.ui.report.gather import build_session_report, write_session_report
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.language import use_language
+from carpus.ui.kit.theme import Theme
+from carpus.ui.report.builders import build_session_report, write_session_report
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.pages import layout_pages as pages_of_report
-from carpus.ui.report.panel import fill_sentence
 from carpus.ui.report.pdf import write_report
-from carpus.ui.report.screen import PAGE_SIZES, ReportScreen, default_file_name, make_printer, print_pages
+from carpus.ui.report.report import layout_pages as pages_of_report
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.sheets import HomeDialog
-from carpus.ui.settings.report_card import LogoError, logo_png
-from carpus.ui.terms import LEGAL_SENTENCE
-from carpus.ui.theme import Theme
+from carpus.ui.screens.report.dialogs import HomeDialog
+from carpus.ui.screens.report.panel import fill_sentence
+from carpus.ui.screens.report.screen import PAGE_SIZES, ReportScreen, default_file_name, make_printer, print_pages
+from carpus.ui.screens.settings.report_card import LogoError, logo_png
+from carpus.ui.words.patient import task_words
 from carpus.ui.words.session import warning_lines
+from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions

@@ -10,15 +10,15 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.exercises import EXERCISES, get_exercise
-from carpus.ui.background import Background
-from carpus.ui.live.screen import LiveScreen
-from carpus.ui.patient.figure import build_pose, find_arc
-from carpus.ui.patient.guide import LOST_AFTER_S, ExerciseGuide, ExerciseSnapshot, GuideScene
-from carpus.ui.patient.view import PatientView
-from carpus.ui.patient.viewing import PatientViewController, PatientWindow
-from carpus.ui.patient.words import PatientWords, patient_words
-from carpus.ui.theme import Theme
+from carpus.core.model.hand.exercises import EXERCISES, get_exercise
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.picture.hand_pose import build_pose, find_arc
+from carpus.ui.picture.movement_guide import LOST_AFTER_S, ExerciseGuide, ExerciseSnapshot, GuideScene
+from carpus.ui.screens.live.screen import LiveScreen
+from carpus.ui.screens.patient.view import PatientView
+from carpus.ui.screens.patient.view_controller import PatientViewController, PatientWindow
+from carpus.ui.words.patient import PatientWords, patient_words
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import set_up
 

@@ -10,12 +10,11 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtWidgets import QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.names import MAX_NAME_CHARACTERS
-from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.model.names import MAX_NAME_CHARACTERS
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
-from carpus.ui.controls.text import Text
-from carpus.ui.language import LANGUAGES, use_language
-from carpus.ui.numbers import (
+from carpus.ui.kit.language import LANGUAGES, use_language
+from carpus.ui.kit.numbers import (
     format_clock,
     format_clock_tenths,
     format_days_ago,
@@ -25,13 +24,14 @@ from carpus.ui.numbers import (
     format_sd,
     format_with_sd,
 )
-from carpus.ui.patients.entry import PatientForm
-from carpus.ui.patients.listing import row_cells
-from carpus.ui.patients.screen import PatientsScreen
+from carpus.ui.kit.text import Text
+from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.photo import fit_box
-from carpus.ui.ports import MAX_LISTED_PATIENTS
-from carpus.ui.terms import LEGAL_SENTENCE
-from carpus.ui.theme import Theme
+from carpus.ui.screens.patients.patient_form import PatientForm
+from carpus.ui.screens.patients.patient_list import row_cells
+from carpus.ui.screens.patients.screen import PatientsScreen
+from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS
+from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeStore
 from tests.ui.geometry import shown_texts

@@ -17,24 +17,24 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QGuiApplication, QImage,
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.errors import OutputNotWritable
-from carpus.core.hand.exercises import get_exercise
-from carpus.core.hand.protocols import HAND21, WRIST6, joint_angle_names
-from carpus.core.results.figures import compute_session_results
+from carpus.core.model.errors import OutputNotWritable
+from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.hand.protocols import HAND21, WRIST6, joint_angle_names
+from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.seen import WristCurves, joint_curves, wrist_curves
-from carpus.core.types import ByteImage, FloatArray
-from carpus.ui.figures import FINGER_ANGLES, FingerAngle
-from carpus.ui.joint_figures import estimate_finger_angles
-from carpus.ui.numbers import format_with_sd
-from carpus.ui.plot.axes import Panel, Scale, time_labels
-from carpus.ui.plot.chart import ChartText
-from carpus.ui.plot.history import History
-from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.series import Curve, CurveDrawing, Series, decimate, find_max_step_s
-from carpus.ui.plot.session import SessionChart, SessionPlot
-from carpus.ui.plot.style import RIGHT_MIDDLE, draw_text, paper_style, screen_style
-from carpus.ui.theme import Theme
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.valid_data import WristCurves, joint_curves, wrist_curves
+from carpus.ui.charts.axes import Panel, Scale, time_labels
+from carpus.ui.charts.chart import ChartText
+from carpus.ui.charts.history import History
+from carpus.ui.charts.live_curves import LiveCurves
+from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate, find_max_step_s
+from carpus.ui.charts.session import SessionChart, SessionPlot
+from carpus.ui.charts.style import RIGHT_MIDDLE, draw_text, paper_style, screen_style
+from carpus.ui.kit.numbers import format_with_sd
+from carpus.ui.kit.theme import Theme
+from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
+from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle
 from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, figures_once, session
 from tests.ui.hand_fakes import hand_session
@@ -246,7 +246,7 @@ def test_a_curve_in_pieces_looks_like_the_stroked_one_and_keeps_every_peak(
     predicted = (time_s > 50.0) & (time_s < 55.0)
     series = Series(time_s, value, np.full(len(time_s), 2.0), predicted)
     in_pieces = drawn_series(theme, series, 0.0, 60.0, ratio)
-    monkeypatch.setattr("carpus.ui.plot.series._is_raster", lambda painter: False)
+    monkeypatch.setattr("carpus.ui.charts.series._is_raster", lambda painter: False)
     stroked = drawn_series(theme, series, 0.0, 60.0, ratio)
     assert np.abs(in_pieces - stroked).mean() < 5.0
     tops = [np.flatnonzero((picture < 128).any(axis=(1, 2)))[0] for picture in (in_pieces, stroked)]
@@ -271,7 +271,7 @@ def test_all_that_is_drawn_of_a_curve_lies_on_it(
     qapp: QApplication, theme: Theme, monkeypatch: pytest.MonkeyPatch, seen: range, on_pixels: bool
 ) -> None:
     """As pieces on pixels and as lines on paper, half of it dashed, all but one piece, or all."""
-    monkeypatch.setattr("carpus.ui.plot.series._is_raster", lambda painter: on_pixels)
+    monkeypatch.setattr("carpus.ui.charts.series._is_raster", lambda painter: on_pixels)
     time_s = np.arange(0.0, 30.0, 0.15)
     predicted = ~np.isin(np.arange(len(time_s)), seen)
     ink = drawn_series(theme, Series(time_s, 3.0 * time_s - 45.0, None, predicted), 0.0, 30.0, 1.0).min(axis=2) < 200
@@ -419,7 +419,7 @@ def test_time_axis_label_at_the_end_lies_within_the_paper(view: SessionChart, mo
     assert plot is not None
     time_s = plot.curves.time_s
     view.show_plot(replace(plot, curves=replace(plot.curves, time_s=time_s * (60.0 / time_s[-1]))))
-    monkeypatch.setattr("carpus.ui.plot.chart.write", note)
+    monkeypatch.setattr("carpus.ui.charts.chart.write", note)
     image = QImage(2000, 900, QImage.Format.Format_RGB32)
     painter = QPainter(image)
     view.render_on_paper(painter, paper_style(4), QRectF(0.0, 0.0, 2000.0, 900.0))

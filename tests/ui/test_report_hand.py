@@ -10,21 +10,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.measure import wrist_angle_index
 from carpus.core.results.progress import compare_ranges, compute_progress
 from carpus.core.results.ranges import finger_measure_keys
-from carpus.ui import numbers
-from carpus.ui.figures import FingerAngle, format_spread
-from carpus.ui.plot.course import axis_top_deg, panel_keys
-from carpus.ui.progress.flow import write_table
-from carpus.ui.report.gather import (
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.charts.progress import axis_top_deg, panel_keys
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import Cell, cell_text
+from carpus.ui.report.builders import (
     build_progress_report,
     build_session_report,
     write_progress_report,
     write_session_report,
 )
-from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.screens.progress.flow import write_table
+from carpus.ui.words.finger_angles import FingerAngle, format_spread
 from carpus.ui.words.fingers import (
     finger_table,
     limitation_words,
@@ -34,7 +34,7 @@ from carpus.ui.words.fingers import (
 )
 from carpus.ui.words.progress import headline
 from carpus.ui.words.session import hand_summary, quality_lines
-from carpus.ui.words.table import Cell, cell_text
+from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden

@@ -18,21 +18,21 @@ from PySide6.QtWidgets import QApplication
 
 import carpus
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.errors import OutputExists, OutputNotWritable
-from carpus.core.provenance import source_revision
+from carpus.core.model.errors import OutputExists, OutputNotWritable
+from carpus.core.platform.provenance import source_revision
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import PAPERS, Paper, ReportForm
-from carpus.ui.report.gather import (
+from carpus.ui.report.builders import (
     build_progress_report,
     build_session_report,
     write_progress_report,
     write_session_report,
 )
 from carpus.ui.report.page import BODY_WIDTH_PT, PAPER, break_lines, fact_row, fit_parts, page_head
-from carpus.ui.report.pages import layout_pages as pages_of_report
 from carpus.ui.report.progress_page import provenance_words
-from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.report.report import layout_pages as pages_of_report
 from carpus.ui.words.session import speed_pain_lines
+from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.printed import overlapping_words, pages_of, reach_of, tool, words_of
 
@@ -243,7 +243,7 @@ def test_a_kill_leaves_no_half_report_and_the_next_one_is_whole(
 def test_a_report_is_written_without_any_display(tmp_path: Path) -> None:
     program = (
         "import pickle, sys; from pathlib import Path\n"
-        "from carpus.ui.report.gather import write_session_report\n"
+        "from carpus.ui.report.builders import write_session_report\n"
         "write_session_report(pickle.loads(Path(sys.argv[1]).read_bytes()), Path(sys.argv[2]))"
     )
     (tmp_path / "session").write_bytes(pickle.dumps(session(seconds=12.0)))

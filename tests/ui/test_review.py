@@ -11,21 +11,21 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.records.values import SessionEntry
 from carpus.core.results.progress import Progress
-from carpus.ui.background import Background
-from carpus.ui.controls.button import Button
-from carpus.ui.numbers import (
+from carpus.ui.charts.export import render_image
+from carpus.ui.charts.progress import panel_keys
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.numbers import (
     format_date_time,
     format_day_month,
     format_distinct_day,
     format_distinct_time,
     format_time_or_day,
 )
-from carpus.ui.plot.course import panel_keys
-from carpus.ui.plot.export import render_image
-from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.review.card import VersionChoice
-from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.theme import Theme
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.progress.screen import ProgressScreen
+from carpus.ui.screens.review.card import VersionChoice
+from carpus.ui.screens.review.screen import ReviewScreen
 from carpus.ui.words.progress import headline
 from tests.ui.conftest import Reviewing, Show
 from tests.ui.fakes import FakeSessions

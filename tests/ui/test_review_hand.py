@@ -15,18 +15,18 @@ from PySide6.QtGui import QColor, QImage, QPainter, qGray
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES, joint_angle_names
-from carpus.core.results.figures import compute_session_results
-from carpus.core.results.seen import joint_curves, wrist_curves
+from carpus.core.model.hand.protocols import HAND21, SITE_CHAINS, SITES, joint_angle_names
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.valid_data import joint_curves, wrist_curves
 from carpus.core.session.values import Session
-from carpus.ui.background import Background
-from carpus.ui.figures import FingerAngle
+from carpus.ui.charts.chart import ChartText
+from carpus.ui.charts.session import HandPlot, SessionChart, read_joint_angle
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.picture.session_frames import BLANK_GREY, paint_trails, project_markers
 from carpus.ui.picture.view import FrameView
-from carpus.ui.playback.pictures import BLANK_GREY, paint_trails, project_markers
-from carpus.ui.plot.chart import ChartText
-from carpus.ui.plot.session import HandPlot, SessionChart, read_joint_angle
-from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.theme import Theme
+from carpus.ui.screens.review.screen import ReviewScreen
+from carpus.ui.words.finger_angles import FingerAngle
 from carpus.ui.words.fingers import COLUMNS, limitation_words
 from tests.ui.conftest import Reviewing, Show
 from tests.ui.hand_fakes import FakeHandSessions, hand_session

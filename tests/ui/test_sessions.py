@@ -7,12 +7,12 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFontMetricsF
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.background import Background
-from carpus.ui.fonts import MEDIUM, font
-from carpus.ui.sessions import listing
-from carpus.ui.sessions.listing import row_cells
-from carpus.ui.sessions.screen import SessionsScreen
-from carpus.ui.theme import Theme
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.fonts import MEDIUM, font
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.sessions import session_list
+from carpus.ui.screens.sessions.screen import SessionsScreen
+from carpus.ui.screens.sessions.session_list import row_cells
 from tests.ui.conftest import Show
 from tests.ui.fake_stored_sessions import FakeStoredSessions
 
@@ -101,7 +101,7 @@ def test_a_patient_without_a_session_is_told_so(
 
 
 def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: QtBot) -> None:
-    rooms = listing._cell_boxes(QRectF(0, 0, 846, listing.ROW_PX), theme, has_remark=True)
+    rooms = session_list._cell_boxes(QRectF(0, 0, 846, session_list.ROW_PX), theme, has_remark=True)
     metrics = QFontMetricsF(font(14, MEDIUM))
     for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "does not count: simulated")):
         assert metrics.elidedText(text, Qt.TextElideMode.ElideRight, rooms[number].width()) == text
@@ -109,7 +109,7 @@ def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: Qt
 
 def test_a_figure_without_room_loses_letters_of_its_name_but_no_sign(theme: Theme) -> None:
     metrics = QFontMetricsF(font(16, MEDIUM))
-    shown = listing.elide_value("Supination −50° ± 1°", metrics, metrics.horizontalAdvance("Supination −50°"))
+    shown = session_list.elide_value("Supination −50° ± 1°", metrics, metrics.horizontalAdvance("Supination −50°"))
     assert shown.startswith("Sup")
     assert shown.endswith("… −50° ± 1°")
     assert metrics.horizontalAdvance(shown) <= metrics.horizontalAdvance("Supination −50°")

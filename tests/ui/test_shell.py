@@ -13,23 +13,23 @@ from PySide6.QtGui import QFontInfo, QFontMetricsF, QKeySequence
 from PySide6.QtWidgets import QApplication, QPushButton, QScrollArea, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.version import __version__
-from carpus.core.words import MessageText
-from carpus.ui.background import Background
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.field import ChoiceRow
-from carpus.ui.controls.layouts import column_layout
-from carpus.ui.controls.text import Text, heading
-from carpus.ui.flow import Navigator
-from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
-from carpus.ui.keys import KEYS, action_words
-from carpus.ui.messages.messages import Answer, MessageDialog
-from carpus.ui.ports import Preferences
-from carpus.ui.report.gather import build_session_report
-from carpus.ui.report.screen import ReportScreen
-from carpus.ui.settings.screen import SettingsScreen
-from carpus.ui.shell import FocusRing, MainWindow
-from carpus.ui.theme import Theme
+from carpus.core.model.fault_text import MessageText
+from carpus.core.platform.version import __version__
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.field import ChoiceRow
+from carpus.ui.kit.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
+from carpus.ui.kit.keys import KEYS, action_words
+from carpus.ui.kit.layouts import column_layout
+from carpus.ui.kit.text import Text, heading
+from carpus.ui.kit.theme import Theme
+from carpus.ui.report.builders import build_session_report
+from carpus.ui.screens.report.screen import ReportScreen
+from carpus.ui.screens.settings.screen import SettingsScreen
+from carpus.ui.shell.flow import Navigator
+from carpus.ui.shell.main_window import FocusRing, MainWindow
+from carpus.ui.shell.messages import Answer, MessageDialog
+from carpus.ui.shell.view_models import Preferences
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeSessions
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from carpus.ui.theme import DARK, LIGHT, Tokens
+from carpus.ui.kit.theme import DARK, LIGHT, Tokens
 
 MACHADO_2009 = {
     "normal": np.eye(3),

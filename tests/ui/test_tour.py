@@ -9,9 +9,18 @@ from typing import get_args
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.ui.theme import Theme
-from carpus.ui.tour.bubble import BubbleView
-from carpus.ui.tour.order import PARTS, PLACES, Bubble, LabelStage, TourState, bubble_words, find_bubble, part_number
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.tour.bubble import BubbleView
+from carpus.ui.screens.tour.bubbles import (
+    PARTS,
+    PLACES,
+    Bubble,
+    LabelStage,
+    TourState,
+    bubble_words,
+    find_bubble,
+    part_number,
+)
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
 PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")

@@ -13,13 +13,14 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QLocale, QTranslator
 from pytestqt.qtbot import QtBot
 
-from carpus.ui import language, terms
-from carpus.ui.background import Background
-from carpus.ui.live.controls import StatusLightView
-from carpus.ui.numbers import format_day_month
-from carpus.ui.patients.listing import ListHeader, PatientList
-from carpus.ui.theme import Theme
-from carpus.ui.translate import tr
+from carpus.ui.kit import language
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.numbers import format_day_month
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr
+from carpus.ui.screens.live.controls import StatusLightView
+from carpus.ui.screens.patients.patient_list import ListHeader, PatientList
+from carpus.ui.words import terms
 from installer import translations
 from tests.sources import ROOT, SOURCES, modules, parsed
 

@@ -7,7 +7,7 @@ from PySide6.QtCore import QRect
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.last_places import TITLE_BAR_PX, encode_geometry, fit_on_screen, restore_window
+from carpus.ui.shell.recent_locations import TITLE_BAR_PX, encode_geometry, fit_on_screen, restore_window
 
 ROOM = QRect(0, 0, 1280, 800)
 

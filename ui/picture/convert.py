@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtGui import QImage
 
-from carpus.core.types import ByteImage
+from carpus.core.model.types import ByteImage
 
 
 def to_qimage(color_rgb: ByteImage) -> QImage:

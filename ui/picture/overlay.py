@@ -10,10 +10,10 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.ui.kit.theme import DARK, ON_PICTURE_LINE, Theme
 from carpus.ui.picture.photo import paint_label
-from carpus.ui.theme import DARK, ON_PICTURE_LINE, Theme
 
 HALO = QColor(0, 0, 0, 150)
 AXIS_LENGTH_M = 0.045

@@ -6,11 +6,11 @@ from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.types import ByteImage
-from carpus.ui.fonts import SEMIBOLD, font
-from carpus.ui.icons import paint_state
+from carpus.core.model.types import ByteImage
+from carpus.ui.kit.fonts import SEMIBOLD, font
+from carpus.ui.kit.icons import paint_state
+from carpus.ui.kit.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
 from carpus.ui.picture.convert import to_qimage
-from carpus.ui.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
 
 LABEL_ALPHA = 180
 

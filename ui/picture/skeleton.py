@@ -8,12 +8,12 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
-from carpus.core.camera import Camera
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.types import FloatArray, Side, TrackedFrame, TrackStatus
-from carpus.ui.fonts import SEMIBOLD, font
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import FloatArray, Side, TrackedFrame, TrackStatus
+from carpus.ui.kit.fonts import SEMIBOLD, font
+from carpus.ui.kit.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
 from carpus.ui.picture.overlay import HALO, MIN_RING_PX, ToScreen, covariance_ellipse, draw_with_halo
-from carpus.ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
 
 MAX_RING_PX = 26.0
 """Half of the longest ring drawn around the place of a hidden disc, on the screen."""

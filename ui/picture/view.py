@@ -9,11 +9,11 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.types import ByteImage, FloatArray
-from carpus.ui import numbers
+from carpus.core.model.types import ByteImage, FloatArray
+from carpus.ui.kit import numbers
+from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.picture.convert import to_qimage
 from carpus.ui.picture.photo import paint_label
-from carpus.ui.theme import CARD_RADIUS_PX, Theme
 
 Overlay = Callable[[QPainter, "FrameView"], None]
 PALM_AREA_FACTOR, HAND_AREA_FACTOR = 2.0, 1.3

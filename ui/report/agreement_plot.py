@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSizeF
 from PySide6.QtGui import QColor, QImage, QPainter
 
-from carpus.core.formats.new_output import open_new_file
-from carpus.ui.controls.text import SEMIBOLD
-from carpus.ui.plot.agreement import AgreementChart, AgreementPlot
-from carpus.ui.plot.style import paper_style
+from carpus.core.formats.output_files import open_new_file
+from carpus.ui.charts.agreement import AgreementChart, AgreementPlot
+from carpus.ui.charts.style import paper_style
+from carpus.ui.kit.text import SEMIBOLD
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.report.page import UNIT, PaintedPart, column, fit_parts, line, paragraph, render_parts
 from carpus.ui.report.pdf import POINTS_PER_MM, ensure_application, pdf_bytes
-from carpus.ui.theme import Theme
-from carpus.ui.translate import tr, translate_phrase
 from carpus.ui.words.agreement import angle_name, format_coefficient, format_tenths, remark_words
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
-    from carpus.core.agreement.compare import AnglePairs, Comparison
+    from carpus.core.research.agreement.compare import AnglePairs, Comparison
 
 WIDTH, HEIGHT, EDGE = 1120, 480, 24
 PICTURE_SCALE = 2

@@ -12,18 +12,18 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPen, QPolygonF, QTransform
 from PySide6.QtWidgets import QLayout
 
-from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
-from carpus.core.hand.forearm_rotation import from_clinical_targets_deg
+from carpus.core.model.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
+from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg
+from carpus.core.model.types import Side
 from carpus.core.records.values import HomePlan
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.progress import Goals, compare_ranges, compute_progress, goal_measure
-from carpus.core.types import Side
-from carpus.ui import language, numbers, terms
-from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.patient.figure import build_pose, find_arc
-from carpus.ui.patient.words import task_words
-from carpus.ui.plot.style import draw_text
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.charts.style import draw_text
+from carpus.ui.kit import language, numbers
+from carpus.ui.kit.layouts import STRETCH, Part
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.picture.hand_pose import build_pose, find_arc
 from carpus.ui.report.page import (
     CHART,
     PAPER,
@@ -40,7 +40,8 @@ from carpus.ui.report.page import (
     to_layout_units,
 )
 from carpus.ui.report.session_page import DerivedReport
-from carpus.ui.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.words import terms
+from carpus.ui.words.patient import task_words
 
 MAX_TASKS, MAX_DAYS, DEFAULT_DAYS = 3, 7, 7
 DRAWABLE_EXERCISES = tuple(exercise for exercise in EXERCISES if exercise.has_repetitions)

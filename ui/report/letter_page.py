@@ -13,10 +13,11 @@ from functools import partial
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLayout
 
-from carpus.ui import numbers, terms
-from carpus.ui.controls.layouts import STRETCH, Item, Part
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.marker_words import finger_name
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import TableColumn, cell_text
+from carpus.ui.kit.layouts import STRETCH, Item, Part
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.report.page import (
     PAPER,
     Body,
@@ -31,12 +32,12 @@ from carpus.ui.report.page import (
     table,
 )
 from carpus.ui.report.session_page import DerivedReport, SessionReport, comment_lines, comment_text
-from carpus.ui.translate import to_mid_sentence, tr
+from carpus.ui.words import terms
 from carpus.ui.words.fingers import LOWER_BOUND, is_thumb_exercise, main_angles, range_words
+from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import range_table
 from carpus.ui.words.session import change_sentences, method_words, warning_lines
-from carpus.ui.words.table import TableColumn, cell_text
 
 MIN_SCALE = 0.8
 MAX_OMISSIONS = 3

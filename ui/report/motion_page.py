@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QLayout
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.motion_curves import MotionCurves
-from carpus.core.results.seen import WristCurves
-from carpus.ui import numbers
-from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.plot.motion import MotionKind, MotionPlot, zyz_words
-from carpus.ui.plot.ways import PathPlot, finger_paths, paint_paths, wrist_path
+from carpus.core.results.session_results import SessionResults
+from carpus.core.results.valid_data import WristCurves
+from carpus.ui.charts.motion import MotionKind, MotionPlot, zyz_words
+from carpus.ui.charts.paths import PathPlot, finger_paths, paint_paths, wrist_path
+from carpus.ui.kit import numbers
+from carpus.ui.kit.layouts import STRETCH, Part
+from carpus.ui.kit.translate import tr
 from carpus.ui.report.page import (
     CHART,
     PaintedPart,
@@ -21,8 +22,7 @@ from carpus.ui.report.page import (
     session_chart_part,
     table,
 )
-from carpus.ui.translate import tr
-from carpus.ui.words.further import task_table, task_title
+from carpus.ui.words.task_measures import task_table, task_title
 
 
 def motion_page(

@@ -9,20 +9,20 @@ from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter, QPaintEvent, QPen, QRegion, QTextLayout, QTextOption
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QSizePolicy, QVBoxLayout, QWidget
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
-from carpus.ui import terms
-from carpus.ui.controls.card import Separator
-from carpus.ui.controls.layouts import STRETCH, Part, column_layout, row_layout
-from carpus.ui.controls.table import Table
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
-from carpus.ui.fonts import font
-from carpus.ui.language import thread_language, use_language
-from carpus.ui.plot.session import SessionPlot, paint_session
-from carpus.ui.plot.style import PlotStyle, paper_style
-from carpus.ui.theme import Theme
-from carpus.ui.translate import to_mid_sentence, tr
-from carpus.ui.words.table import Cell, TableColumn
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.charts.session import SessionPlot, paint_session
+from carpus.ui.charts.style import PlotStyle, paper_style
+from carpus.ui.kit.card import Separator
+from carpus.ui.kit.cells import Cell, TableColumn
+from carpus.ui.kit.fonts import font
+from carpus.ui.kit.language import thread_language, use_language
+from carpus.ui.kit.layouts import STRETCH, Part, column_layout, row_layout
+from carpus.ui.kit.table import Table
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.words import terms
 
 UNIT = 4
 """Pixels of a layout in a point: Qt places in whole ones, and a quarter of a point is finer than print shows."""

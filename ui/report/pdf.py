@@ -9,13 +9,13 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, Q
 from PySide6.QtGui import QColor, QFontMetricsF, QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.calibration.camera.sheet import PrintedSheet, SheetBox, SheetDisc, SheetLine, SheetText
-from carpus.core.formats.new_output import open_new_file, require_folder
-from carpus.ui.fonts import REGULAR, SEMIBOLD, font, load_fonts
+from carpus.core.calibration.camera.printed_sheet import PrintedSheet, SheetBox, SheetDisc, SheetLine, SheetText
+from carpus.core.formats.output_files import open_new_file, require_folder
+from carpus.ui.kit.fonts import REGULAR, SEMIBOLD, font, load_fonts
+from carpus.ui.kit.theme import LIGHT
+from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.report.page import DISPLAY_FROM_PT, Page
-from carpus.ui.report.pages import Report, layout_pages
-from carpus.ui.theme import LIGHT
-from carpus.ui.translate import translate_phrase
+from carpus.ui.report.report import Report, layout_pages
 
 TITLE = "Carpus report"
 """What a viewer writes above its window and a mail program into its list: nobody's name."""

@@ -8,13 +8,15 @@ from functools import partial
 
 from PySide6.QtWidgets import QLayout
 
-from carpus.core.results.figures import SessionResults
 from carpus.core.results.progress import Progress
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
-from carpus.ui import numbers
-from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.plot.course import paint_progress_chart
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.charts.progress import paint_progress_chart
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import Cell, TableColumn
+from carpus.ui.kit.layouts import STRETCH, Part
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.kit.translate import tr
 from carpus.ui.report.page import (
     CHART,
     Body,
@@ -28,9 +30,7 @@ from carpus.ui.report.page import (
     session_page_head,
     table,
 )
-from carpus.ui.translate import tr
-from carpus.ui.verdicts import duplicate_result_words, error_limit_words, verdict_token, verdict_word
-from carpus.ui.words.by_hand import change_words, day_words, find_changes, full_name, verdict_words
+from carpus.ui.words.manual_values import change_words, day_words, find_changes, full_name, verdict_words
 from carpus.ui.words.progress import (
     change_line,
     comparison_name,
@@ -39,7 +39,7 @@ from carpus.ui.words.progress import (
     uncertainty_words,
     value_pair,
 )
-from carpus.ui.words.table import Cell, TableColumn
+from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, verdict_token, verdict_word
 
 MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
 MAX_EXCLUDED = 4

@@ -10,19 +10,20 @@ from functools import partial
 
 from PySide6.QtWidgets import QLayout
 
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.results.figures import SessionResults
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.types import Side
 from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.results.progress import compare_ranges
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
-from carpus.core.results.seen import JointCurves, WristCurves
-from carpus.core.types import Side
-from carpus.ui import numbers, terms
-from carpus.ui.controls.layouts import STRETCH, Part
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
-from carpus.ui.plot.range_bars import BAR_PX, FOOT_PX, paint_range_bars, range_bars
-from carpus.ui.plot.session import SessionPlot
-from carpus.ui.report.hand_part import finger_curve_section, finger_section, wrist_section
+from carpus.core.results.session_results import SessionResults
+from carpus.core.results.valid_data import JointCurves, WristCurves
+from carpus.ui.charts.range_bars import BAR_PX, FOOT_PX, paint_range_bars, range_bars
+from carpus.ui.charts.session import SessionPlot
+from carpus.ui.kit import numbers
+from carpus.ui.kit.layouts import STRETCH, Part
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
+from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.report.hand_section import finger_curve_section, finger_section, wrist_section
 from carpus.ui.report.motion_page import motion_page
 from carpus.ui.report.page import (
     BODY_WIDTH_PT,
@@ -46,10 +47,10 @@ from carpus.ui.report.page import (
     table,
     value_rows,
 )
-from carpus.ui.translate import to_mid_sentence, tr
+from carpus.ui.words import terms
 from carpus.ui.words.active_passive import build_active_passive
-from carpus.ui.words.by_hand import day_words
 from carpus.ui.words.fingers import find_main_ranges
+from carpus.ui.words.manual_values import day_words
 from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import range_table, reference_words, repetition_words
 from carpus.ui.words.session import (

@@ -6,20 +6,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import compress
 
-from carpus.core.measures.by_hand import MEASURES, ManualValue
-from carpus.core.results.figures import SessionResults
+from carpus.core.measures.manual_measurements import MEASURES, ManualValue
 from carpus.core.results.measure import Measure, MeasureKey, is_total_active_motion, negate_measure, wrist_angle_index
 from carpus.core.results.progress import Comparison, compare_ranges
-from carpus.ui import numbers, terms
-from carpus.ui.figures import FINGERS, AngleKind, FingerAngle
-from carpus.ui.marker_words import finger_name
-from carpus.ui.translate import to_mid_sentence, tr
-from carpus.ui.verdicts import reason_words
-from carpus.ui.words.by_hand import value_words
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import TableColumn, TableContent
+from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.words import terms
+from carpus.ui.words.finger_angles import FINGERS, AngleKind, FingerAngle
 from carpus.ui.words.fingers import LOWER_BOUND, has_totals, range_words
+from carpus.ui.words.manual_values import value_words
+from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import range_name
 from carpus.ui.words.ranges import is_deficit, mean_words
-from carpus.ui.words.table import TableColumn, TableContent
+from carpus.ui.words.verdicts import reason_words
 
 MANUAL_SIGN = "\N{WHITE SQUARE}"
 """Before what a person measured, here as in every chart."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from carpus.ui import numbers
-from carpus.ui.figures import FINGER_ANGLES, find_finger_angle
-from carpus.ui.translate import tr, translate_phrase
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import tr, translate_phrase
+from carpus.ui.words.finger_angles import FINGER_ANGLES, find_finger_angle
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
-    from carpus.core.agreement.compare import Comparison
-    from carpus.core.agreement.statistics import Interval
+    from carpus.core.research.agreement.compare import Comparison
+    from carpus.core.research.agreement.statistics import Interval
 
 TOKENS = {"deviation": "curve_b", "flexion": "curve_a", "pronosupination": "curve_c"}
 

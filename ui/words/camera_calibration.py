@@ -7,15 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core.calibration.camera.board import BOARDS, Board, Pattern
-from carpus.core.calibration.camera.calibrate import (
-    FAIR_ERROR_PX,
-    GOOD_ERROR_PX,
-    MAX_REGISTRATION_ERROR_PX,
-    CameraCalibration,
-    DepthCheck,
-)
-from carpus.core.calibration.camera.sheet import RULER_MM, Paper
-from carpus.core.calibration.camera.views import (
+from carpus.core.calibration.camera.board_views import (
     FIELDS,
     MIN_FIELDS,
     MIN_TILT_SIDES,
@@ -24,10 +16,18 @@ from carpus.core.calibration.camera.views import (
     ViewCoverage,
     side_name,
 )
-from carpus.core.rounding import format_rounded
-from carpus.ui import numbers
-from carpus.ui.icons import State
-from carpus.ui.translate import tr, translate_phrase
+from carpus.core.calibration.camera.calibrate import (
+    FAIR_ERROR_PX,
+    GOOD_ERROR_PX,
+    MAX_REGISTRATION_ERROR_PX,
+    CameraCalibration,
+    DepthCheck,
+)
+from carpus.core.calibration.camera.printed_sheet import RULER_MM, Paper
+from carpus.core.model.rounding import format_rounded
+from carpus.ui.kit import numbers
+from carpus.ui.kit.icons import State
+from carpus.ui.kit.translate import tr, translate_phrase
 
 
 def view_fault_words(lack: RejectReason) -> str:

@@ -8,10 +8,10 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from carpus.core.calibration.card.card import verdict_sentence
-from carpus.core.types import FloatArray
-from carpus.ui import numbers
-from carpus.ui.icons import State
-from carpus.ui.translate import tr, translate_phrase
+from carpus.core.model.types import FloatArray
+from carpus.ui.kit import numbers
+from carpus.ui.kit.icons import State
+from carpus.ui.kit.translate import tr, translate_phrase
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.calibration.card.checks import CheckStatus

@@ -4,22 +4,30 @@ from __future__ import annotations
 
 import math
 
-from carpus.core.phrase import Phrase, phrase
-from carpus.core.results.figures import SessionResults
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.rounding import format_rounded
 from carpus.core.results.measure import Measure, MeasureKey, is_total_active_motion, negate_measure
 from carpus.core.results.norms import SHARE_OF_OTHER, compute_total_shares, grade_share, total_norm
 from carpus.core.results.progress import compare_ranges
 from carpus.core.results.ranges import abduction_measure_keys, finger_measure_keys, thumb_measure_keys
-from carpus.core.rounding import format_rounded
-from carpus.ui import numbers, terms
-from carpus.ui.figures import FINGERS, KIND_TOKENS, AngleKind, FingerAngle, find_finger_angle, format_spread
-from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.marker_words import finger_name
-from carpus.ui.translate import to_mid_sentence, tr, translate_phrase
-from carpus.ui.verdicts import reason_words, short_change_words
-from carpus.ui.words.further import short_task_summary
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
+from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.words import terms
+from carpus.ui.words.finger_angles import (
+    FINGERS,
+    KIND_TOKENS,
+    AngleKind,
+    FingerAngle,
+    find_finger_angle,
+    format_spread,
+)
+from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.ranges import is_deficit, mean_words
-from carpus.ui.words.table import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
+from carpus.ui.words.task_measures import short_task_summary
+from carpus.ui.words.verdicts import reason_words, short_change_words
 
 COLUMNS: tuple[AngleKind, ...] = ("knuckle", "middle", "end", "spread", "tam")
 LOWER_BOUND = "≥"

@@ -6,16 +6,17 @@ import math
 from collections.abc import Sequence
 
 from carpus.core.measures.motion_range import MIN_REPETITIONS_FOR_SD
-from carpus.core.results.figures import SessionResults
+from carpus.core.model.rounding import format_rounded
 from carpus.core.results.measure import Measure, is_total_active_motion
 from carpus.core.results.progress import Comparison, Progress, ProgressPoint
-from carpus.core.rounding import format_rounded
-from carpus.ui import numbers, terms
-from carpus.ui.fault_words import finding_words
-from carpus.ui.figures import find_finger_angle
-from carpus.ui.marker_words import long_finger_name
-from carpus.ui.translate import to_mid_sentence, tr
-from carpus.ui.verdicts import difference_words, reason_words
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.words import terms
+from carpus.ui.words.fault_words import finding_words
+from carpus.ui.words.finger_angles import find_finger_angle
+from carpus.ui.words.marker_words import long_finger_name
+from carpus.ui.words.verdicts import difference_words, reason_words
 
 
 def headline(progress: Progress) -> tuple[str, str]:

@@ -5,21 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from carpus.core.hand.exercises import STILL_NAMES
 from carpus.core.measures.repetitions import NoRepetitionReason
-from carpus.core.phrase import Phrase, phrase
-from carpus.core.results.figures import SessionResults
+from carpus.core.model.hand.exercises import STILL_NAMES
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.rounding import format_rounded
 from carpus.core.results.measure import Measure, negate_measure
 from carpus.core.results.norms import wrist_norm
 from carpus.core.results.progress import Comparison, compare_ranges
 from carpus.core.results.repetition_rows import PASSIVE
-from carpus.core.rounding import format_rounded
-from carpus.ui import numbers, terms
-from carpus.ui.fonts import MEDIUM, SEMIBOLD
-from carpus.ui.theme import CURVE_TOKENS
-from carpus.ui.translate import tr, translate_phrase
-from carpus.ui.verdicts import long_change_words, reason_words, short_change_words
-from carpus.ui.words.table import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
+from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD
+from carpus.ui.kit.theme import CURVE_TOKENS
+from carpus.ui.kit.translate import tr, translate_phrase
+from carpus.ui.words import terms
+from carpus.ui.words.verdicts import long_change_words, reason_words, short_change_words
 
 _UNMEASURED: Mapping[str, Phrase] = {
     "hidden": phrase("not seen well enough"),

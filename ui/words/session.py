@@ -6,18 +6,17 @@ import math
 from collections.abc import Sequence
 from datetime import datetime
 
-from carpus.core.hand.exercises import DIRECTIONS, STILL_NAMES, STILL_RADIUS_MM
-from carpus.core.measures.by_hand import ManualValue
-from carpus.core.results.figures import SessionResults
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.hand.exercises import DIRECTIONS, STILL_NAMES, STILL_RADIUS_MM
+from carpus.core.model.rounding import format_rounded
 from carpus.core.results.measure import Measure, is_total_active_motion
 from carpus.core.results.progress import Comparison, compare_ranges
-from carpus.core.rounding import format_rounded
-from carpus.ui import numbers, terms
-from carpus.ui.fault_words import finding_words
-from carpus.ui.figures import FingerAngle
-from carpus.ui.marker_words import finger_name
-from carpus.ui.translate import to_mid_sentence, tr, translate_phrase
-from carpus.ui.verdicts import duplicate_result_words, error_limit_words, reason_words
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.words import terms
+from carpus.ui.words.fault_words import finding_words
+from carpus.ui.words.finger_angles import FingerAngle
 from carpus.ui.words.fingers import (
     LOWER_BOUND,
     find_main_ranges,
@@ -27,8 +26,10 @@ from carpus.ui.words.fingers import (
     main_kind_name,
     range_words,
 )
-from carpus.ui.words.further import task_summary
+from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.ranges import has_sd, is_deficit, speed_words
+from carpus.ui.words.task_measures import task_summary
+from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, reason_words
 
 
 def wrist_summary(results: SessionResults, previous: SessionResults | None, first: SessionResults | None) -> str:

@@ -12,7 +12,7 @@ from typing import Literal
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.sheet import (
+from carpus.core.calibration.camera.printed_sheet import (
     PAPER_MM,
     Paper,
     PrintedSheet,
@@ -21,8 +21,8 @@ from carpus.core.calibration.camera.sheet import (
     SheetText,
     ruler_items,
 )
-from carpus.core.phrase import phrase
-from carpus.core.types import ByteImage, FloatArray
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import ByteImage, FloatArray
 
 Pattern = Literal["chessboard", "charuco"]
 _DICTIONARY = cv2.aruco.DICT_4X4_50

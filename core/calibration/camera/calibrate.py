@@ -15,13 +15,19 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.views import MIN_DISTANCE_RATIO, BoardView, ViewCoverage, assess_views, common_board
-from carpus.core.camera import Camera
-from carpus.core.depth_sensor import DepthSensor
-from carpus.core.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar
-from carpus.core.phrase import phrase
-from carpus.core.rounding import format_rounded
-from carpus.core.types import FloatArray
+from carpus.core.calibration.camera.board_views import (
+    MIN_DISTANCE_RATIO,
+    BoardView,
+    ViewCoverage,
+    assess_views,
+    common_board,
+)
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar
+from carpus.core.model.phrase import phrase
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import FloatArray
 
 MAX_REGISTRATION_ERROR_PX = 2.0
 """Colour and depth further apart than this: depths are read beside the markers."""

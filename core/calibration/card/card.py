@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.calibration.camera.sheet import (
+from carpus.core.calibration.camera.printed_sheet import (
     PAPER_MM,
     Paper,
     PrintedSheet,
@@ -21,9 +21,9 @@ from carpus.core.calibration.camera.sheet import (
     SheetText,
     ruler_items,
 )
-from carpus.core.phrase import Phrase, phrase
-from carpus.core.rounding import format_rounded
-from carpus.core.types import FloatArray
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import FloatArray
 
 BLUE = "#2648A5"
 DISC_RADIUS_MM = 6.0

@@ -19,14 +19,14 @@ from carpus.core.calibration.card.card import (
     CardReading,
     verdict_sentence,
 )
-from carpus.core.capture.calibrated import SUFFIX as CALIBRATION_SUFFIX
-from carpus.core.capture.calibrated import age_days, load_stored_calibration
+from carpus.core.capture.calibrated_source import SUFFIX as CALIBRATION_SUFFIX
+from carpus.core.capture.calibrated_source import age_days, load_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.dates import is_moment
-from carpus.core.durable import open_private, write_fault
-from carpus.core.errors import CarpusFault
-from carpus.core.installing import Finding, State
-from carpus.core.names import CAMERAS_FOLDER, file_stem
+from carpus.core.model.dates import is_moment
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.installation import Finding, State
+from carpus.core.model.names import CAMERAS_FOLDER, file_stem
+from carpus.core.platform.durable import open_private, write_fault
 
 CHECKS_SUFFIX = ".checks.jsonl"
 MAX_CHECK_AGE_DAYS = 7.0

@@ -19,11 +19,11 @@ from carpus.core.calibration.card.card import (
     disc_positions_m,
     measure_dimensions,
 )
-from carpus.core.camera import Camera
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.errors import CardNotVisible
-from carpus.core.phrase import phrase
-from carpus.core.types import Detections, FloatArray, Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import CardNotVisible
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import Detections, FloatArray, Frame
 
 # How far off the card's figures may be: the fixed limits, or what the sensor states of itself where that is more.
 #

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Protocol
 
-from carpus.core.camera import Camera
 from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.source import NoticeHandler, ignore_notice
-from carpus.core.errors import CameraUnknown, DriverMissing
-from carpus.core.installing import Finding, install_hint
-from carpus.core.names import describe_known_names
-from carpus.core.phrase import Phrase, phrase
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import CameraUnknown, DriverMissing
+from carpus.core.model.installation import Finding, install_hint
+from carpus.core.model.names import describe_known_names
+from carpus.core.model.phrase import Phrase, phrase
 
 if TYPE_CHECKING:
     from carpus.core.capture.devices.process_camera import ProcessCamera
@@ -51,7 +51,7 @@ def check_library(
 
 def _find_load_error(load: Callable[[], None]) -> str:
     """Why the library cannot be loaded; empty when it can. Only who asks loads what starts processes."""
-    from carpus.core.child_process import ChildDiedError, call_in_child
+    from carpus.core.platform.child_process import ChildDiedError, call_in_child
 
     try:
         call_in_child(load)

@@ -23,8 +23,7 @@ from typing import Any
 
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.video_mode import Lens, Sensor, VideoMode
-from carpus.core.child_process import end_with_owner
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CameraBusy,
     CameraLost,
     CameraMismatch,
@@ -34,6 +33,7 @@ from carpus.core.errors import (
     DriverFailed,
     DriverMissing,
 )
+from carpus.core.platform.child_process import end_with_owner
 
 
 @dataclass(frozen=True, slots=True)

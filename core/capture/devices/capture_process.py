@@ -24,9 +24,9 @@ from carpus.core.capture.devices.capture_child import (
     run,
 )
 from carpus.core.capture.video_mode import Sensor, VideoMode
-from carpus.core.child_process import ChildProcess
-from carpus.core.errors import DriverFailed
-from carpus.core.phrase import phrase
+from carpus.core.model.errors import DriverFailed
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.child_process import ChildProcess
 
 SLOTS = 8
 """Pictures of a recording, which waits."""

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.capture.video_mode import Sensor, VideoMode
-from carpus.core.errors import DriverMissing
+from carpus.core.model.errors import DriverMissing
 
 API_VERSION = 2002
 LIBRARY_NAMES = {"win32": ("OpenNI2.dll",), "darwin": ("libOpenNI2.dylib",)}

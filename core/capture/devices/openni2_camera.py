@@ -9,7 +9,6 @@ import sys
 import threading
 from collections.abc import Sequence
 
-from carpus.core.camera import Camera
 from carpus.core.capture.devices.cameras import CameraKind
 from carpus.core.capture.devices.capture_child import (
     POLL_MS,
@@ -35,11 +34,19 @@ from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.child_process import ChildDiedError, call_in_child
-from carpus.core.depth_sensor import PRIMESENSE
-from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed, DriverMissing
-from carpus.core.installing import Finding
-from carpus.core.phrase import phrase
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import PRIMESENSE
+from carpus.core.model.errors import (
+    CameraBusy,
+    CameraMissing,
+    CameraPermission,
+    CameraUnsuited,
+    DriverFailed,
+    DriverMissing,
+)
+from carpus.core.model.installation import Finding
+from carpus.core.model.phrase import phrase
+from carpus.core.platform.child_process import ChildDiedError, call_in_child
 
 MODELS = {
     ("1d27", "0500"): "PrimeSense Carmine",

@@ -15,7 +15,6 @@ from typing import Any
 
 import cv2
 
-from carpus.core.camera import Camera
 from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_library
 from carpus.core.capture.devices.capture_child import (
     POLL_MS,
@@ -33,9 +32,10 @@ from carpus.core.capture.devices.usb_devices import find_usb_cameras
 from carpus.core.capture.frame_assembly import DepthDistorter, camera_from_lens
 from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
-from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
-from carpus.core.errors import CameraBusy, CameraUnsuited, DriverMissing
-from carpus.core.phrase import phrase
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
+from carpus.core.model.errors import CameraBusy, CameraUnsuited, DriverMissing
+from carpus.core.model.phrase import phrase
 
 MODULE, PACKAGE = "pyorbbecsdk", "pyorbbecsdk2"
 DEPTH_SIZE_PX = (640, 480)

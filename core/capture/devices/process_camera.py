@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import rescale_camera
 from carpus.core.capture.devices.capture_child import (
     CameraConfig,
@@ -23,8 +22,9 @@ from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, Captur
 from carpus.core.capture.frame_assembly import FrameAssembler, StreamLayout, camera_from_field_of_view, camera_from_lens
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
 from carpus.core.capture.video_mode import Sensor
-from carpus.core.depth_sensor import DepthSensor
-from carpus.core.errors import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.errors import (
     CameraBusy,
     CameraFileUnreadable,
     CameraLost,
@@ -39,8 +39,8 @@ from carpus.core.errors import (
     ExposureUnstable,
     FramesEnlarged,
 )
-from carpus.core.rounding import format_rounded
-from carpus.core.types import Frame
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import Frame
 
 SIZE_PX = (640, 480)
 RING_SLOTS = 60

@@ -14,7 +14,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from carpus.core.camera import Camera
 from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_library
 from carpus.core.capture.devices.capture_child import (
     POLL_MS,
@@ -31,8 +30,9 @@ from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.devices.usb_devices import find_usb_cameras
 from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
-from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
-from carpus.core.errors import (
+from carpus.core.model.camera import Camera
+from carpus.core.model.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
+from carpus.core.model.errors import (
     CameraUnsuited,
     DriverFailed,
     DriverMissing,
@@ -40,7 +40,7 @@ from carpus.core.errors import (
     RecordingDamaged,
     RecordingUnsupported,
 )
-from carpus.core.phrase import phrase
+from carpus.core.model.phrase import phrase
 
 PACKAGE = "pyrealsense2"
 DEPTH_SIZE_PX = (848, 480)

@@ -13,7 +13,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import DepthImage
+from carpus.core.model.types import DepthImage
 
 FILE_MAGIC = b"NI10"
 FILE_VERSION = (1, 0, 1, 0)

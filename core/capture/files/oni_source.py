@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from carpus.core.capture.camera_info import CameraInfo, read_camera_info, rescale_camera, sidecar_path
 from carpus.core.capture.files import oni_format as oni
+from carpus.core.capture.files.image_codec import decode_color
 from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType, decode_depth
-from carpus.core.capture.files.pictures import decode_color
 from carpus.core.capture.frame_assembly import (
     DEPTH_UNIT_M,
     FILE_PAIRING_LIMIT,
@@ -28,7 +28,7 @@ from carpus.core.capture.frame_assembly import (
 )
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
 from carpus.core.capture.video_mode import PixelFormat, Sensor
-from carpus.core.errors import (
+from carpus.core.model.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DamagedFramesExcluded,
@@ -42,8 +42,8 @@ from carpus.core.errors import (
     RegistrationAssumed,
     TimesUnordered,
 )
-from carpus.core.phrase import phrase
-from carpus.core.types import SIMULATED, Frame
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import SIMULATED, Frame
 
 MAX_WIDTH_PX, MAX_HEIGHT_PX, MAX_FPS = 1600, 1200, 120
 MAX_TIME_US = 1 << 60

@@ -26,8 +26,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from carpus.core.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
-from carpus.core.capture.files.pictures import (
+from carpus.core.capture.files.image_codec import (
     TiledImage,
     decode_color,
     decode_depth,
@@ -36,9 +35,9 @@ from carpus.core.capture.files.pictures import (
     pack_tiles,
 )
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
-from carpus.core.depth_sensor import ASSUMED_SENSOR, parse_sensor
-from carpus.core.durable import FileWriter, open_private, write_fault
-from carpus.core.errors import (
+from carpus.core.model.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
+from carpus.core.model.depth_sensor import ASSUMED_SENSOR, parse_sensor
+from carpus.core.model.errors import (
     DamagedFramesExcluded,
     FrameSizeChanged,
     OutputExists,
@@ -47,8 +46,9 @@ from carpus.core.errors import (
     RecordingMissing,
     RecordingUnreadable,
 )
-from carpus.core.phrase import phrase
-from carpus.core.types import ByteImage, DepthImage, Frame, Region
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import ByteImage, DepthImage, Frame, Region
+from carpus.core.platform.durable import FileWriter, open_private, write_fault
 
 SUFFIX = ".carpusraw"
 BYTES_PER_FRAME = 62_000

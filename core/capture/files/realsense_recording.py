@@ -15,8 +15,8 @@ from carpus.core.capture.devices.realsense import find_sensor, require_library, 
 from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, StreamLayout, camera_from_lens
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.video_mode import Sensor, VideoMode
-from carpus.core.errors import RecordingDamaged
-from carpus.core.types import Frame
+from carpus.core.model.errors import RecordingDamaged
+from carpus.core.model.types import Frame
 
 MAX_IMAGE_BYTES = 1920 * 1080 * 3
 SLOTS = 4

@@ -16,12 +16,11 @@ from pathlib import Path, PurePath, PureWindowsPath
 
 import numpy as np
 
-from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.camera_info import CAMERA_FILE, CameraInfo, read_camera_info, rescale_camera, write_camera_info
-from carpus.core.capture.files.pictures import encode_color, encode_depth, read_color, read_depth
+from carpus.core.capture.files.image_codec import encode_color, encode_depth, read_color, read_depth
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice, is_simulated
-from carpus.core.durable import FileWriter, open_private, write_fault
-from carpus.core.errors import (
+from carpus.core.model.camera import DEFAULT_CAMERA, Camera
+from carpus.core.model.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DamagedFramesExcluded,
@@ -37,8 +36,9 @@ from carpus.core.errors import (
     TimesUnordered,
     UnitAssumed,
 )
-from carpus.core.phrase import phrase
-from carpus.core.types import SIMULATED, DepthImage, FloatArray, Frame
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import SIMULATED, DepthImage, FloatArray, Frame
+from carpus.core.platform.durable import FileWriter, open_private, write_fault
 
 COLOR_LIST = "rgb.txt"
 DEPTH_LIST = "depth.txt"

@@ -22,15 +22,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core import so3
 from carpus.core.calibration.result import Calibration
-from carpus.core.camera import Camera
-from carpus.core.hand import clinical_angles
-from carpus.core.hand.protocols import SITES, joint_angle_names, markers_at_joint
-from carpus.core.research.papers.chain import PaperSettings, measure_hand
-from carpus.core.tracking.readout import build_lost_frame, nan_kinematics
-from carpus.core.tracking.unscented import UnscentedParameters, compute_weights, sigma_offsets
-from carpus.core.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
+from carpus.core.model import so3
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand import clinical_angles
+from carpus.core.model.hand.protocols import SITES, joint_angle_names, markers_at_joint
+from carpus.core.model.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
+from carpus.core.research.papers.hand_model import PaperSettings, measure_hand
+from carpus.core.tracking.filter.readout import build_lost_frame, nan_kinematics
+from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights, sigma_offsets
 
 StateTransition = Callable[[FloatArray, FloatArray], FloatArray]
 """States (P, n) after a step from states (P, n) and noises (P, k)."""

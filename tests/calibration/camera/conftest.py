@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
-from carpus.core.calibration.camera.views import ViewCollector
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.types import Frame
+from carpus.core.calibration.camera.board_views import ViewCollector
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.types import Frame
 from tests.calibration.camera.printed import ShownSheets
 from tests.studio import Studio, poses, texture_of
 

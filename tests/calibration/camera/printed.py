@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from carpus.core.camera import Camera
 from carpus.core.capture.source import SourceInfo
-from carpus.core.types import Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import Frame
 from tests.studio import Placed, Studio
 
 

@@ -20,9 +20,7 @@ from carpus.core.calibration.camera.board import (
     create_board_sheet,
     find_board,
 )
-from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, format_calibration
-from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
-from carpus.core.calibration.camera.views import (
+from carpus.core.calibration.camera.board_views import (
     MIN_VIEWS,
     WANTED_VIEWS,
     BoardView,
@@ -31,10 +29,12 @@ from carpus.core.calibration.camera.views import (
     is_new_view,
     to_board_view,
 )
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar, CarpusFault
+from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, format_calibration
+from carpus.core.calibration.camera.printed_sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar, CarpusFault
+from carpus.core.model.types import FloatArray, Frame
 from carpus.core.simulation.sensor import depth_scale
-from carpus.core.types import FloatArray, Frame
 from tests.calibration.camera.printed import ShownSheets
 from tests.studio import (
     BOARD_DISTANCES_M,

@@ -14,11 +14,10 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
+from carpus.core.calibration.camera.board_views import ViewCollector
 from carpus.core.calibration.camera.calibrate import calibrate_camera
-from carpus.core.calibration.camera.keep import to_stored_calibration
-from carpus.core.calibration.camera.views import ViewCollector
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.calibrated import (
+from carpus.core.calibration.camera.storage import to_stored_calibration
+from carpus.core.capture.calibrated_source import (
     CalibratedSource,
     compute_correction_table,
     list_calibration_files,
@@ -30,10 +29,11 @@ from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import CameraFileUnreadable
+from carpus.core.model.camera import DEFAULT_CAMERA
+from carpus.core.model.errors import CameraFileUnreadable
+from carpus.core.model.types import Frame
 from carpus.core.pipeline.track import describe_source
 from carpus.core.simulation.sensor import depth_scale
-from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets
 from tests.capture.oni_writer import write_oni
 from tests.studio import LENS, Studio

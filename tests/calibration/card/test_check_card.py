@@ -13,7 +13,7 @@ import pytest
 
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
-from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetDisc, SheetLine, SheetText
+from carpus.core.calibration.camera.printed_sheet import PAPER_MM, Paper, SheetDisc, SheetLine, SheetText
 from carpus.core.calibration.card.card import (
     DIMENSIONS,
     CardReading,
@@ -31,13 +31,13 @@ from carpus.core.calibration.card.checks import (
     read_checks,
 )
 from carpus.core.calibration.card.measure import CardMeasurement, measure_card
-from carpus.core.camera import Camera
-from carpus.core.capture.calibrated import new_calibration_path
+from carpus.core.capture.calibrated_source import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import CardNotVisible
-from carpus.core.types import Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.errors import CardNotVisible
+from carpus.core.model.types import Frame
 from tests.studio import LENS, Studio, card_scene
 
 NOW = datetime(2026, 11, 20, 9, tzinfo=UTC)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
 
 
 def compute_log_odds(

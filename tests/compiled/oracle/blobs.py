@@ -27,11 +27,11 @@ from carpus.core.compiled.blobs import (
     SLOPE_SHARE,
     SPLIT_ROUNDS,
 )
-from carpus.core.depth_sensor import DepthSensor
 from carpus.core.detection.components import Components
 from carpus.core.detection.detector import ColorTable
 from carpus.core.detection.stencil import WEDGES, Stencil
-from carpus.core.types import BoolArray, ByteImage, DepthImage, FloatArray
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.types import BoolArray, ByteImage, DepthImage, FloatArray
 
 _QUARTERS = np.arange(1, 4)[:, None]
 _BEYOND_M = 1e3

@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core import so3
 from carpus.core.compiled.digit_images import (
     ACROSS_M,
     DEPTH_STAYS_M,
@@ -22,7 +21,10 @@ from carpus.core.compiled.digit_images import (
     STEEPEST_SD_RAD,
 )
 from carpus.core.compiled.digits import BENT, OTHER
-from carpus.core.tracking.digit_association import (
+from carpus.core.model import so3
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.association.palm_association import CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE
+from carpus.core.tracking.digits.digit_association import (
     MERGED_SD_SHARE,
     MIN_MERGED_AREA_RATIO,
     MIN_VISIBLE_PROBABILITY,
@@ -30,7 +32,8 @@ from carpus.core.tracking.digit_association import (
     DigitAssignment,
     DigitScene,
 )
-from carpus.core.tracking.digit_filter import (
+from carpus.core.tracking.digits.digit_readout import DigitBase
+from carpus.core.tracking.filter.digit_filter import (
     DIGIT_SIZE,
     OBSERVED,
     DigitLinearisation,
@@ -38,12 +41,16 @@ from carpus.core.tracking.digit_filter import (
     DigitView,
     digit_sigma_weights,
 )
-from carpus.core.tracking.digit_readout import DigitBase
-from carpus.core.tracking.hand_geometry import CROWDED_PX, CROWDED_RADII, N_DIGITS, N_DISCS, N_SLOTS, is_crowded
-from carpus.core.tracking.palm_association import CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.unscented import UnscentedParameters
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.hand_geometry import (
+    CROWDED_PX,
+    CROWDED_RADII,
+    N_DIGITS,
+    N_DISCS,
+    N_SLOTS,
+    is_crowded,
+)
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.unscented import UnscentedParameters
 from tests.compiled.oracle.association import compute_log_odds
 from tests.compiled.oracle.palm import camera_slope
 

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erfcx
 
-from carpus.core import so3
 from carpus.core.compiled.digits import BENT, FLOOR, OTHER
-from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.tracking.digit_filter import (
+from carpus.core.model import so3
+from carpus.core.model.hand.kinematics import DIP_PER_PIP
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.digit_filter import (
     DIGIT_SIZE,
     OBSERVED,
     DigitMotion,
@@ -21,10 +22,9 @@ from carpus.core.tracking.digit_filter import (
     Forgetting,
     digit_sigma_weights,
 )
-from carpus.core.tracking.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS
-from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.unscented import UnscentedParameters
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.unscented import UnscentedParameters
 
 _DOWN = np.array([1.0, 1.0, -1.0])
 _AXES = np.arange(3)
@@ -78,7 +78,8 @@ def digit_discs_m(root_m: FloatArray, state: FloatArray, chains: list[int] | Non
     side by side.
 
     ``root_m`` (R, 3) discs CMC1 and MCP2 to MCP5, under which the digits begin. The chains of
-    :mod:`core.hand.kinematics` written for speed: every digit bends in a plane of its own azimuth, the thumb's rolled;
+    :mod:`core.model.hand.kinematics` written for speed: every digit bends in a plane of its own azimuth, the thumb's
+    rolled;
     a turn in a plane is a complex factor.
     """
     turn = np.exp(1j * (state @ (_TURNS if chains is None else _TURNS[chains])))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtri
 
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, Transition, Update
-from carpus.core.types import FloatArray
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, Transition, Update
 
 LEAST_PROBABILITY = 1e-6
 

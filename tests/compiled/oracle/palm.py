@@ -7,11 +7,12 @@ import math
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from carpus.core import so3
-from carpus.core.camera import Camera
-from carpus.core.tracking.kernel import ModeMixture, mode_transition_matrix
-from carpus.core.tracking.motion import PalmMotion
-from carpus.core.tracking.palm_state import (
+from carpus.core.model import so3
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.mixture_filter import ModeMixture, mode_transition_matrix
+from carpus.core.tracking.filter.motion import PalmMotion
+from carpus.core.tracking.filter.palm_state import (
     POSE,
     POSITION,
     RATE,
@@ -24,9 +25,8 @@ from carpus.core.tracking.palm_state import (
     PalmEstimate,
     PalmView,
 )
-from carpus.core.tracking.soft_tissue import HOME, WRIST, DigitSpeeds
-from carpus.core.tracking.unscented import SigmaWeights
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.soft_tissue import HOME, WRIST, DigitSpeeds
+from carpus.core.tracking.filter.unscented import SigmaWeights
 from tests.compiled.oracle.mixture import merged
 
 DISCS, FLOOR = np.arange(6), 1e-14

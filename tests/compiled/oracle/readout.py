@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from carpus.core import so3
-from carpus.core.hand import clinical_angles
-from carpus.core.tracking.hand_geometry import ZERO_CUP, PalmGeometry
-from carpus.core.tracking.palm_state import POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate, PalmView
-from carpus.core.tracking.readout import WristAxes
-from carpus.core.tracking.soft_tissue import CUPPING_DISCS
-from carpus.core.types import FloatArray, Side
+from carpus.core.model import so3
+from carpus.core.model.hand import clinical_angles
+from carpus.core.model.types import FloatArray, Side
+from carpus.core.tracking.filter.hand_geometry import ZERO_CUP, PalmGeometry
+from carpus.core.tracking.filter.palm_state import POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate, PalmView
+from carpus.core.tracking.filter.readout import WristAxes
+from carpus.core.tracking.filter.soft_tissue import CUPPING_DISCS
 
 
 def axes_of(known: WristAxes, estimate: PalmEstimate) -> FloatArray:

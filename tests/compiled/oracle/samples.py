@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import DepthImage, FloatArray
+from carpus.core.model.types import DepthImage, FloatArray
 
 Readings = tuple[FloatArray, FloatArray] | None
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from carpus.core import so3
-from carpus.core.hand.back_surface import DorsalSurface
-from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, SURFACE, TURN, PalmEstimate, PalmView
-from carpus.core.tracking.surface_fit import SurfaceSettings
-from carpus.core.types import FloatArray, SurfaceSamples
+from carpus.core.model import so3
+from carpus.core.model.hand.dorsal_surface import DorsalSurface
+from carpus.core.model.types import FloatArray, SurfaceSamples
+from carpus.core.tracking.filter.palm_state import POSITION, RELIEF, SIZE, SURFACE, TURN, PalmEstimate, PalmView
+from carpus.core.tracking.filter.surface_fit import SurfaceSettings
 
 KEPT = np.array([0, 1, 5])
 """Turn about X and Y and shift along Z among turn and shift."""

@@ -8,12 +8,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
-from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
-from carpus.core.hand.kinematics import joint_centres
-from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.research.papers.chain import PaperSettings
+from carpus.core.model.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.model.hand.kinematics import joint_centres
+from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.types import Detections, FloatArray, Side, TrackedFrame
+from carpus.core.research.papers.hand_model import PaperSettings
 from carpus.core.research.papers.tracker import PaperTracker
-from carpus.core.types import Detections, FloatArray, Side, TrackedFrame
 from tests.tracking.hands import FROM_ABOVE, palm, rotation_of
 
 MIDDLE_M = np.array([0.01, 0.07, 0.68])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
+from carpus.core.model.types import FloatArray
 from carpus.core.research.papers.tracker import AugmentedGaussian, predict_outputs, predict_state, update_state
-from carpus.core.tracking.unscented import UnscentedParameters
-from carpus.core.types import FloatArray
+from carpus.core.tracking.filter.unscented import UnscentedParameters
 
 SPREADS = [UnscentedParameters(1.0, 2.0, 0.0), UnscentedParameters(0.25, 2.0, 0.0), UnscentedParameters(0.5, 0.0, 1.0)]
 

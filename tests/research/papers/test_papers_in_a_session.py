@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from carpus.app.__main__ import main
+from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE
-from carpus.core.types import FloatArray, TrackStatus
 from tests.rendered import LEFT_DEVIATION, Rendered
 
 

@@ -7,10 +7,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.neutral_pose import with_w0_from_markers
-from carpus.core.hand.anatomy import anatomy_from_size
-from carpus.core.hand.kinematics import joint_centres
-from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES
-from carpus.core.research.papers.chain import PaperSettings, calibrate_as_written, measure_hand, model_palm
+from carpus.core.model.hand.anatomy import anatomy_from_size
+from carpus.core.model.hand.kinematics import joint_centres
+from carpus.core.model.hand.protocols import HAND21, SITE_CHAINS, SITES
+from carpus.core.research.papers.hand_model import PaperSettings, calibrate_as_written, measure_hand, model_palm
 from carpus.core.research.papers.tracker import PaperMotion, body_rate_matrix, euler_from_rotation, rotation_from_euler
 from tests.research.papers.hands import MIDDLE_M, calibration, hand_calibration, straight_hand
 from tests.tracking.hands import CAMERA, FROM_ABOVE, RIGHT_PALM_M

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core.types import TrackStatus
+from carpus.core.model.types import TrackStatus
 from tests.accuracy.hand21_table import hand_jobs
 from tests.accuracy.jobs import BLOB_SECONDS, jobs_for
 from tests.accuracy.papers import HAND_ROWS, HEAD, WRIST_ROWS, PaperJob, lines_of, paper_jobs, paper_runs

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carpus.core.model.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
 from carpus.core.research.papers.tracker import PaperTracker
-from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
 from tests.research.papers.hands import (
     MEASURED,
     blobs,

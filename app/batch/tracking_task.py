@@ -1,0 +1,151 @@
+"""One recording of many: tracked, or left as it is where that was done before, and measured.
+
+Runs in a process of its own, here or on another machine: what goes in and comes out are plain values.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Literal
+
+from threadpoolctl import threadpool_limits
+
+from carpus.app.settings import load_settings
+from carpus.app.sources import TrackingInput, open_recording, warn_assumed_intrinsics
+from carpus.core.calibration.clicks_file import read_clicks
+from carpus.core.calibration.result import Verdict, finding_sentence
+from carpus.core.capture.source import RecordingDate
+from carpus.core.model.errors import CarpusFault, OutputExists
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.types import TrackStatus
+from carpus.core.pipeline.stored_settings import list_differences
+from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
+from carpus.core.platform.durable import write_fault
+from carpus.core.platform.version import __version__
+from carpus.core.research.papers.track_settings import settings_from_json
+from carpus.core.results.measures_table import MeasureRow, build_measure_rows
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.session.reader import read_session
+
+Result = Literal["tracked", "kept", "fault"]
+
+
+@dataclass(frozen=True, slots=True)
+class TrackingTask:
+    """What is to be done with one recording."""
+
+    tracking_input: TrackingInput
+    settings: TrackSettings
+    subject_id: str = ""
+    exercise: str = ""
+    leave_out_damaged: bool = False
+    software_version: str = __version__
+    """Whoever tracks it has the same, or the numbers of one table would not be of one program."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrackingOutcome:
+    """What came of it: shares 0 to 1 of ``frames``, NaN after a fault; ``messages`` the fault, or what is doubtful;
+    ``measures`` of the session."""
+
+    tracking_input: TrackingInput
+    result: Result
+    messages: tuple[str, ...] = ()
+    frames: int = 0
+    tracked: float = float("nan")
+    lost: float = float("nan")
+    measures: tuple[MeasureRow, ...] = ()
+    is_retryable: bool = False
+    """Of a fault: whether it may be gone when tried again."""
+
+
+def execute_task(task: TrackingTask) -> TrackingOutcome:
+    """Do one task; whatever goes wrong is part of the outcome."""
+    if task.software_version != __version__:
+        return fault_outcome(
+            task.tracking_input, f"the worker has Carpus {__version__}, and {task.software_version} was asked for"
+        )
+    try:
+        with threadpool_limits(1):  # the same numbers wherever it runs
+            return _track_and_measure(task)
+    except CarpusFault as fault:
+        return fault_outcome(task.tracking_input, format_fault_line(fault))
+    except OSError as cause:
+        sentence = f"the system refuses {cause.filename or ''} ({cause.strerror or cause})"
+        return fault_outcome(task.tracking_input, sentence, is_retryable=True)
+    except Exception as cause:
+        return fault_outcome(task.tracking_input, f"something unforeseen happened ({type(cause).__name__}: {cause})")
+
+
+def fault_outcome(tracking_input: TrackingInput, sentence: str, *, is_retryable: bool = False) -> TrackingOutcome:
+    """The outcome of a recording that could not be tracked."""
+    return TrackingOutcome(tracking_input, "fault", (sentence,), is_retryable=is_retryable)
+
+
+def _track_and_measure(task: TrackingTask) -> TrackingOutcome:
+    place, said = task.tracking_input, list[str]()
+    result: Result = "kept"
+    try:
+        place.session.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        raise write_fault(place.session.parent, cause) from cause
+    if not place.session.exists():
+        with suppress(OutputExists):  # another run of the same batch was faster
+            _track(task, said)
+            result = "tracked"
+    session = read_session(place.session)
+    told = settings_from_json(session.header.parameters)
+    if result == "kept" and (told is None or list_differences(told.settings, task.settings)):
+        said.append("tracked before with other settings, left as it is")
+    shares = [float((session.status == status).mean()) if len(session) else float("nan") for status in TrackStatus]
+    return TrackingOutcome(
+        place,
+        result,
+        tuple(said),
+        len(session),
+        shares[TrackStatus.TRACKED],
+        shares[TrackStatus.LOST],
+        build_measure_rows(compute_session_results(session), place.name),
+    )
+
+
+def _track(task: TrackingTask, messages: list[str]) -> None:
+    place = task.tracking_input
+
+    def add_findings(verdict: Verdict) -> None:
+        messages.extend(finding_sentence(finding) for finding in verdict.findings if not finding.blocks)
+
+    def add_date_message(recorded: RecordingDate | None) -> None:
+        if recorded is None or recorded.source == "file":
+            messages.append("the recording does not say when the hand moved")
+
+    if place.clicks is None:
+        retrack_session(place.recording, place.session, task.settings, on_verdict=add_findings)
+        return
+
+    def add_fault(fault: CarpusFault) -> None:
+        messages.append(format_fault_line(fault))
+
+    source = open_recording(
+        place.recording,
+        leave_out_damaged=task.leave_out_damaged,
+        data_folder=load_settings().data_folder,
+        notice=add_fault,
+    )
+    try:
+        camera = source.info.camera
+        warn_assumed_intrinsics(source, place.recording, add_fault)
+        track_recording(
+            source,
+            read_clicks(place.clicks, camera.width_px, camera.height_px),
+            place.session,
+            task.settings,
+            subject_id=task.subject_id,
+            exercise=task.exercise,
+            on_verdict=add_findings,
+            path=place.recording,
+            on_date=add_date_message,
+        )
+    finally:
+        source.close()

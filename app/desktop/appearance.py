@@ -1,0 +1,43 @@
+"""What the window looks like: typeface, style, language and theme, as chosen or as the system has them."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPixmap
+from PySide6.QtWidgets import QApplication
+
+from carpus.app.settings import Settings
+from carpus.core.platform.version import __version__
+from carpus.ui.kit import language
+from carpus.ui.kit.fonts import load_fonts
+from carpus.ui.kit.icons import program_icon_image
+from carpus.ui.kit.style import apply_style
+from carpus.ui.kit.theme import Theme, ThemeName
+
+
+def create_application(arguments: list[str]) -> QApplication:
+    """The Qt application, with the bundled typeface and the plain style under the design."""
+    running = QApplication.instance()
+    qt = running if isinstance(running, QApplication) else QApplication(arguments)
+    qt.setApplicationName("Carpus")
+    qt.setDesktopFileName("carpus")
+    qt.setApplicationVersion(__version__)
+    qt.setWindowIcon(QPixmap.fromImage(program_icon_image(256)))
+    qt.setStyle("Fusion")
+    load_fonts()
+    return qt
+
+
+def apply_appearance(qt: QApplication, settings: Settings) -> Theme:
+    """Language, theme and style as chosen."""
+    language.set_window_language(settings.screen.language)
+    theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
+    apply_style(qt, theme)
+    return theme
+
+
+def theme_name(qt: QApplication, settings: Settings) -> ThemeName:
+    """The theme chosen, or the system's."""
+    if settings.screen.theme != "system":
+        return settings.screen.theme
+    return "dark" if qt.styleHints().colorScheme() == Qt.ColorScheme.Dark else "light"

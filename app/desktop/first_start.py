@@ -1,0 +1,307 @@
+"""The very first start: a look at the computer, where the data will lie, and the offer of a guided first session, which
+is led from bubble to bubble by where the person is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QAbstractButton
+
+from carpus.app.desktop.main_controller import MainController
+from carpus.app.desktop.preferences import PreferencesController
+from carpus.app.settings import WelcomeSettings
+from carpus.core.capture.doctor import examine_at_start
+from carpus.core.model.installation import Finding
+from carpus.core.records.library import Library
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.dialog import has_open_dialog
+from carpus.ui.kit.fonts import DISPLAY_FAMILY, TEXT_FAMILY, load_fonts
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import translate_phrase
+from carpus.ui.screens.tour.bubble import BubbleView
+from carpus.ui.screens.tour.bubbles import ONLY_READ, Bubble, TourState, find_bubble
+from carpus.ui.screens.welcome.panel import Check, WelcomePanel
+from carpus.ui.shell.main_window import MIN_SIZE_PX
+from carpus.ui.shell.messages import NoticeStrip
+from carpus.ui.shell.view_models import Preferences
+
+REFRESH_EVERY_MS = 150
+
+
+class TourController(QObject):
+    """``ended`` when it was left or finished. It looks at the screens, and presses what a person could press."""
+
+    ended = Signal()
+
+    def __init__(self, controller: MainController) -> None:
+        super().__init__(controller)
+        self._controller = controller
+        self._is_requested = False
+        self._read_bubbles: frozenset[Bubble] = frozenset()
+        self._is_report_saved = False
+        self._views: dict[str, BubbleView] = {}
+        views: dict[str, Callable[[], BubbleView]] = {
+            "patients": lambda: controller.patients.screen.card.bubble,
+            "camera": lambda: controller.camera.screen.bubble,
+            "markers": lambda: controller.markers.screen.bubble,
+            "live": lambda: controller.live.screen.bubble,
+            "review": lambda: controller.review.screen.bubble,
+            "report": lambda: controller.report.screen.bubble,
+        }
+        for place, view in views.items():
+            controller.navigator.run_when_created(place, partial(self._connect_view, place, view))
+        self._clock = QTimer(self)
+        self._clock.setInterval(REFRESH_EVERY_MS)
+        self._clock.timeout.connect(self.refresh)
+        controller.navigator.run_when_created(
+            "report", lambda: controller.report.screen.saved.connect(self._on_report_saved)
+        )
+        controller.navigator.screen_changed.connect(self._on_screen_changed)
+        controller.navigator.run_when_created(
+            "help", lambda: controller.help.screen.tour_button.clicked.connect(self._start_from_help)
+        )
+        controller.handle_escape = self._handle_escape
+
+    def _connect_view(self, place: str, view: Callable[[], BubbleView]) -> None:
+        shown = self._views[place] = view()
+        shown.next_button.clicked.connect(self.advance)
+        shown.leave_button.clicked.connect(self.cancel)
+
+    @property
+    def is_on(self) -> bool:
+        return self._clock.isActive()
+
+    @property
+    def bubble(self) -> Bubble | None:
+        return next((view.bubble for view in self._views.values() if view.bubble is not None), None)
+
+    def start(self, *, is_requested: bool) -> None:
+        """From the beginning; only for the practice patient unless it was asked for."""
+        self._is_requested = is_requested
+        self._read_bubbles = frozenset()
+        self._is_report_saved = False
+        self._clock.start()
+        self.refresh()
+
+    def cancel(self) -> None:
+        if self.is_on:
+            self.stop()
+            self.ended.emit()
+
+    def stop(self) -> None:
+        """The window closes, or it was left: nothing is looked at any more."""
+        self._clock.stop()
+        for view in self._views.values():
+            view.show_bubble(None)
+
+    def advance(self) -> None:
+        """What the bubble speaks of is done; where only a person can do it, the bubble has been read."""
+        bubble = self.bubble
+        if bubble == "end":
+            self.cancel()
+            return
+        if bubble is None:
+            return
+        button = self._find_button(bubble)
+        if bubble in ONLY_READ or not button.isEnabled():
+            self._read_bubbles |= {bubble}
+        else:
+            button.click()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the bubble of this moment, and no other."""
+        if not self.is_on:
+            return
+        moment = self.tour_state()
+        bubble = find_bubble(moment, self._read_bubbles)
+        for place, view in self._views.items():
+            view.show_bubble(bubble if place == moment.place else None)
+
+    def tour_state(self) -> TourState:
+        journey = self._controller
+        place, made = journey.place, journey.navigator.flows
+        is_busy: dict[str, Callable[[], bool]] = {
+            "camera": lambda: journey.camera.screen.is_opening,
+            "live": lambda: journey.live.screen.recording.is_storing,
+            "review": lambda: not journey.review.screen.is_loaded,
+        }
+        return TourState(
+            place,
+            is_wanted=self._is_requested or place == "patients" or journey.current.is_practice,
+            is_covered=journey.messages.is_busy or has_open_dialog(journey.patients.screen.window()),
+            is_busy=place in is_busy and is_busy[place](),
+            label_stage=journey.markers.screen.labelling.stage if "markers" in made else "aiming",
+            is_recording="live" in made and journey.live.screen.recording.state != "off",
+            is_saved=self._is_report_saved,
+        )
+
+    def _find_button(self, bubble: Bubble) -> QAbstractButton:
+        """The control that a bubble speaks of."""
+        journey = self._controller
+        buttons: dict[Bubble, Callable[[], QAbstractButton]] = {
+            "patient": lambda: journey.patients.screen.card.start_button,
+            "camera": lambda: journey.camera.screen.primary_button,
+            "record": lambda: journey.live.screen.controls.main_button,
+            "stop": lambda: journey.live.screen.controls.main_button,
+            "results": lambda: journey.review.screen.card.report_button,
+            "report": lambda: journey.review.screen.card.report_button,
+            "save": lambda: journey.report.screen.save_button,
+        }
+        return buttons.get(bubble, lambda: journey.markers.screen.primary_button)()
+
+    def _on_report_saved(self, _: str) -> None:
+        self._is_report_saved = True
+        self.refresh()
+
+    def _on_screen_changed(self, place: str) -> None:
+        if place != "report":
+            self._is_report_saved = False
+        self.refresh()
+
+    def _start_from_help(self) -> None:
+        self._controller.navigator.navigate_back()
+        self.start(is_requested=True)
+
+    def _handle_escape(self) -> bool:
+        if self.bubble is None:
+            return False
+        self.cancel()
+        return True
+
+
+class WelcomeController(QObject):
+    """A panel below the empty list, until it is answered or there is a patient. It takes no key from the search."""
+
+    def __init__(
+        self,
+        controller: MainController,
+        theme: Theme,
+        tour: TourController,
+        preferences: PreferencesController,
+        library: Library,
+    ) -> None:
+        super().__init__(controller)
+        self._controller, self._theme, self._tour, self._preferences, self._library = (
+            controller,
+            theme,
+            tour,
+            preferences,
+            library,
+        )
+        self._background = Background()
+        self._handle_escape_before = controller.handle_escape
+        self.panel: WelcomePanel | None = None
+        self._folder = library.folder
+        controller.handle_escape = self._handle_escape
+        tour.ended.connect(self._save_answered)
+        controller.navigator.run_when_created(
+            "settings", lambda: preferences.screen.changed.connect(self._update_folder)
+        )
+
+    def show_if_first_start(self) -> None:
+        """Offer it where nobody has answered it and nobody is in the list."""
+        if self._preferences.first_start_answered or self.panel is not None or self._library.store.is_server_away:
+            return
+        if self._library.patients.search(limit=1):
+            return
+        panel = self.panel = WelcomePanel(self._theme)
+        panel.show_folder(str(self._folder), needs_restart=False)
+        panel.tour_button.clicked.connect(self._start_tour)
+        panel.later_button.clicked.connect(self._decline)
+        panel.again_button.clicked.connect(self.run_checks)
+        panel.folder_button.clicked.connect(lambda: self._preferences.screen.choose_folder())
+        panel.close_button.clicked.connect(self._controller.patients.screen.window().close)
+        self._controller.patients.screen.show_welcome(panel)
+        self.run_checks()
+
+    def stop(self) -> None:
+        self._background.join()
+
+    def run_checks(self) -> None:
+        """At the computer, beside the window."""
+        panel = self.panel
+        if panel is None:
+            return
+        panel.show_checking()
+        folder, here = self._folder, self._check_window()
+
+        def show_findings(found: list[Finding]) -> None:
+            if panel is self.panel:
+                panel.show_checks([*(self._to_check(finding) for finding in found), *here])
+
+        def show_fault(fault: Exception) -> None:
+            panel.show_checks(here)
+            self._controller.messages.show_fault(fault)
+
+        needs_camera = not self._controller.is_demo
+        self._background.run(
+            lambda: list(examine_at_start(folder, needs_camera=needs_camera)), show_findings, show_fault, panel
+        )
+
+    def _check_window(self) -> list[Check]:
+        """What only the window knows."""
+        name = self.tr("Screen")
+        room = QGuiApplication.primaryScreen().availableGeometry()
+        found = self.tr("{width} × {height} for windows").format(width=room.width(), height=room.height())
+        small = room.width() < MIN_SIZE_PX[0] or room.height() < MIN_SIZE_PX[1]
+        remedy = self.tr("Choose more pixels, or a smaller scale, in the display settings: {width} × {height} or more.")
+        checks = [
+            Check(name, "warning", found, remedy.format(width=MIN_SIZE_PX[0], height=MIN_SIZE_PX[1]))
+            if small
+            else Check(name, "good", found)
+        ]
+        if not {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts()):
+            remedy = self.tr("Install Carpus again: part of it is missing or damaged.")
+            checks.append(Check(self.tr("Fonts"), "bad", self.tr("the program’s own cannot be used"), remedy))
+        return checks
+
+    def _to_check(self, finding: Finding) -> Check:
+        names = {
+            "Camera": self.tr("Camera"), "Driver": self.tr("Camera driver"), "Camera rights": self.tr("Camera rights"),
+            "Data folder": self.tr("Data folder"), "Disk": self.tr("Disk"), "Fonts": self.tr("Fonts"),
+        }  # fmt: skip
+        return Check(
+            names.get(finding.name) or translate_phrase(finding.name),
+            finding.state,
+            translate_phrase(finding.observation),
+            translate_phrase(finding.remedy),
+        )
+
+    def _update_folder(self, chosen: Preferences) -> None:
+        folder = Path(chosen.data_folder)
+        if self.panel is not None and folder != self._folder:
+            self._folder = folder
+            self.panel.show_folder(str(folder), needs_restart=folder != self._library.folder)
+            self.run_checks()
+
+    def _start_tour(self) -> None:
+        self._close()
+        self._tour.start(is_requested=False)
+
+    def _decline(self) -> None:
+        self._close()
+        self._save_answered()
+
+    def _close(self) -> None:
+        if self.panel is not None:
+            self.panel = None
+            self._controller.patients.screen.show_welcome(None)
+            self._controller.patients.screen.search.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _save_answered(self) -> None:
+        self._preferences.save(first_start=WelcomeSettings(answered=True))
+
+    def _handle_escape(self) -> bool:
+        if self._handle_escape_before():
+            return True
+        if self.panel is None or self._controller.place != "patients":
+            return False
+        if self._controller.patients.screen.findChildren(NoticeStrip):
+            return False  # what stands above the list is answered first
+        self._decline()
+        return True

@@ -1,0 +1,221 @@
+"""Puts the screens together: patient, exercise, camera, markers, live, review, progress, report.
+
+Each knows its own way (:mod:`ui.shell.flow`); here is what belongs to none: the top bar, the keys, the end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from datetime import date, datetime
+from functools import partial
+from pathlib import Path
+
+from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
+from carpus.app.desktop.screens import PLACES, Screens, load_flow_class
+from carpus.app.desktop.server_monitor import ServerMonitor
+from carpus.app.desktop.top_bar import TopBarController
+from carpus.app.settings import Settings
+from carpus.core.capture.files.raw import MB_PER_MINUTE
+from carpus.core.model.errors import CarpusFault
+from carpus.core.records.corrections import Corrections
+from carpus.core.records.library import Library
+from carpus.core.records.values import Patient
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.theme import Theme
+from carpus.ui.shell.camera_state import CameraState
+from carpus.ui.shell.current_selection import CurrentSelection, SourceChoice
+from carpus.ui.shell.flow import PATIENT_TABS, SETUP_STEPS, Flow, Navigator, ScreenContext
+from carpus.ui.shell.main_window import MainWindow
+from carpus.ui.shell.messages import Messages
+from carpus.ui.shell.recent_locations import RecentLocations
+from carpus.ui.shell.source_opener import OpenSourceFunction, SourceOpener
+
+ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
+
+
+@dataclass(frozen=True, slots=True)
+class AppServices:
+    """What the journey needs besides the window."""
+
+    library: Library
+    open_source: OpenSourceFunction
+    cameras: MaintenanceCameras
+    settings: Settings
+    is_demo: bool
+    today: Callable[[], date]
+    """The day now: the program may stand open for days."""
+
+
+class MainController(Screens):
+    """The way through the screens, and what they share."""
+
+    def __init__(self, shell: MainWindow, theme: Theme, services: AppServices) -> None:
+        super().__init__(shell)
+        self._shell, self._library = shell, services.library
+        self.handle_escape: Callable[[], bool] = lambda: False
+        """Asked first when Esc is pressed: True where that closed something, and the person stays where they are."""
+        self.settings, self.is_demo = services.settings, services.is_demo
+        self.current = CurrentSelection(source_choice=SourceChoice("practice" if services.is_demo else "camera"))
+        self.background = Background()
+        self.messages = messages = Messages(shell.screen_stack, theme)
+        self.opener = SourceOpener(services.open_source, self.current, self.background, messages.show_fault, self)
+        self.camera_state = CameraState(
+            services.cameras, self.background, lambda: datetime.now().astimezone(), self, is_demo=services.is_demo
+        )
+        self.navigator = Navigator(
+            shell, lambda: messages.is_busy, lambda: "live" in self.navigator.flows and self.live.is_recording
+        )
+        self.context = ScreenContext(
+            shell,
+            theme,
+            services.library,
+            self.background,
+            messages,
+            self.navigator,
+            self.current,
+            self.opener,
+            self.camera_state,
+            services.cameras,
+            RecentLocations(services.library.folder),
+            services.settings.report,
+            services.today,
+            services.is_demo,
+            services.settings.patient.sound,
+            services.settings.recording.keep_pictures,
+            MB_PER_MINUTE,
+        )
+        for place in PLACES:
+            self.navigator.factories[place] = partial(self._create_flow, place)
+        self.top_bar = TopBarController(self.context, lambda: self.review.screen)
+        self._connect()
+        self.camera_state.start()
+        self._check_new_results()
+        self.server_monitor = ServerMonitor(services.library, self)
+        self.server_monitor.server_lost.connect(self._on_server_lost)
+        self.server_monitor.server_restored.connect(self._on_server_restored)
+
+    def _on_server_lost(self) -> None:
+        self.top_bar.refresh()
+        if self.place == "patients":
+            self.patients.screen.refresh()
+
+    def _on_server_restored(self) -> None:
+        """Who was typed while it was away is who the list says, and every screen reads what it could not."""
+        now, patients = self.current, self._library.patients
+        row = now.patient
+        if row is not None and row.patient_id and not patients.has(row.patient_id):
+            known = patients.id_of_pseudonym(row.pseudonym)
+            now.patient = patients.get(known) if known else row
+            if now.set_up is not None:
+                now.set_up = replace(now.set_up, patient_id=now.patient.patient_id)
+        for flow in self.navigator.flows.values():
+            flow.on_server_reconnected()
+        self.top_bar.refresh()
+
+    def _create_flow(self, place: str) -> Flow:
+        return load_flow_class(place)(self.context)
+
+    def _connect(self) -> None:
+        shell, bar, way = self._shell, self._shell.top_bar, self.navigator
+        shell.bind_keys(ALL_KEYS)
+        shell.key_pressed.connect(self._handle_key)
+        shell.prompt_before_close = lambda: any(flow.prompt_before_close() for flow in way.flows.values())
+        bar.back_button.clicked.connect(way.navigate_back)
+        bar.tab_selected.connect(self.open_tab)
+        bar.step_selected.connect(lambda number: self._open_step(SETUP_STEPS[number]))
+        bar.help_button.clicked.connect(lambda: way.open_screen("help"))
+        bar.settings_button.clicked.connect(lambda: way.open_screen("settings"))
+        bar.reanalysis_button.clicked.connect(lambda: self.correct.open_dialog(self.current.session_id))
+        way.run_when_created("live", self._connect_live)
+        way.run_when_created("beside", lambda: self.beside.screen.sessions_shown.connect(way.banner_changed))
+        way.run_when_created("review", self._connect_review)
+        way.run_when_created("correct", lambda: self.correct.progress_changed.connect(self.top_bar.show_reanalysis))
+        way.run_when_created("sessions", lambda: self.sessions.screen.sessions_changed.connect(self._check_new_results))
+
+    def _connect_live(self) -> None:
+        self.live.screen.recording_changed.connect(self.top_bar.show_recording)
+        self.live.screen.counters_changed.connect(self.top_bar.show_counters)
+
+    def _connect_review(self) -> None:
+        self.review.screen.session_shown.connect(self.navigator.banner_changed)
+        self.review.screen.repeat_requested.connect(lambda: self.navigator.open_screen("live"))
+
+    def _check_new_results(self) -> None:
+        """What was tracked again and waits for a decision, also from before the program was started."""
+        if "correct" in self.navigator.flows or Corrections(self._library).has_pending:
+            self.correct.refresh_pending()
+
+    @property
+    def place(self) -> str:
+        return self.navigator.screen_name
+
+    # --- from one to the other ----------------------------------------------------------------------------
+    def open_tab(self, number: int) -> None:
+        place, patient = PATIENT_TABS[number], self.current.patient
+        if patient is None or place == self.place or self.messages.is_busy:
+            self.top_bar.refresh()
+        elif place in ("sessions", "progress"):
+            self.navigator.open_screen(place, patient.patient_id)
+        elif self.current.session_id:
+            self.navigator.open_screen(place, self.current.session_id)
+        else:
+            self.review.open("", patient.patient_id)
+
+    def _open_step(self, place: str) -> None:
+        if self.messages.is_busy:
+            return
+        if place == "exercise" and self.current.patient is not None:
+            self.exercise.open(self.current.patient.patient_id)
+        elif place == "camera":
+            (self.markers.navigate_back if self.place == "markers" else self.camera.open)()
+
+    def review_file(self, path: Path) -> None:
+        """Open a session file handed over from outside; not while something is measured or asked."""
+        if self.messages.is_busy or self.navigator.is_recording() or self.current.source is not None:
+            return
+        try:
+            found = self._library.open_file(path)
+        except CarpusFault as fault:
+            self.messages.show_fault(fault)
+            return
+        if not found.patient_id:  # of nobody here: shown under the name in its file
+            self.current.patient = Patient(found.subject_id.strip() or "?", found.side)
+        self.review.open(found.session_id, found.patient_id)
+
+    def _handle_key(self, name: str) -> None:
+        actions: dict[str, Callable[[], object]] = {
+            "back": self._on_escape,
+            "help": lambda: self.navigator.open_screen("help"),
+            "settings": lambda: self.navigator.open_screen("settings"),
+            "quit": self._shell.close,
+        }
+        if name in actions:
+            actions[name]()
+
+    def _on_escape(self) -> None:
+        taken = not self.messages.is_busy and (
+            ("live" in self.navigator.flows and self.live.patient_view.close_if_covering())
+            or self.handle_escape()
+            or (self.place == "report" and self.report.screen.show_parent_report())
+        )
+        if not taken:
+            self.navigator.navigate_back()
+
+    @property
+    def is_at_work(self) -> bool:
+        """Whether something is measured, or worked on that would end with the window."""
+        measures = self.current.source is not None and self.navigator.underlying_screen in SETUP_STEPS
+        works = any(flow.is_busy for flow in self.navigator.flows.values())
+        return measures or works or self.background.is_busy
+
+    def close(self) -> None:
+        """The window closes: finish what runs, in order, and wait for it."""
+        self.server_monitor.stop()
+        self.camera_state.stop()
+        for flow in self.navigator.flows.values():
+            flow.close()
+        self.opener.shut_down()
+        self.background.join()
+        if self.current.source is not None:
+            self.live.finish()

@@ -1,0 +1,515 @@
+"""What ``import carpus`` offers to researchers: tracking, sessions and simulated recordings as values. No screen.
+
+import carpus
+for frame in carpus.track("recording", "clicks.json"):
+    print(frame.time_s, frame.wrist.flexion_deg, frame.wrist.flexion_sd_deg)
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, Literal, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from carpus.app.session_commands import log_export, log_session_action, read_choices
+from carpus.app.sources import open_recording
+from carpus.core.calibration.candidates import find_marker_candidates
+from carpus.core.calibration.clicks_file import read_clicks, write_clicks
+from carpus.core.calibration.label_proposal import propose_labels
+from carpus.core.calibration.result import Clicks
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.formats.csv_tables import build_repetition_table, build_tables
+from carpus.core.formats.export import FORMATS, ExportRequest, ExportResult, export_sessions
+from carpus.core.formats.export_provenance import build_provenance
+from carpus.core.formats.output_files import MACHINE_DIALECT
+from carpus.core.model.camera import DEFAULT_CAMERA, Camera
+from carpus.core.model.errors import CalibrationImpossible, CarpusFault, RecordingEmpty, SettingsInvalid
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.hand.exercises import EXERCISES
+from carpus.core.model.hand.protocols import SITES, get_protocol
+from carpus.core.model.types import BoolArray, FloatArray, Frame, Side, TrackedFrame, TrackStatus
+from carpus.core.pipeline.track import TrackSettings, start_tracking, track_recording
+from carpus.core.research.agreement.agreement_files import compare_files
+from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S, Comparison
+from carpus.core.research.agreement.reference import ANGLE_NAMES
+from carpus.core.research.papers.hand_model import PaperSettings
+from carpus.core.research.papers.track_settings import PaperTrackSettings
+from carpus.core.results.measures_table import build_measure_rows
+from carpus.core.results.session_results import SessionResults, compute_session_results
+from carpus.core.session import reader
+from carpus.core.session.values import Session
+from carpus.core.simulation import recording
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import Truth
+from carpus.core.tracking.filter.settings import Profile, TrackerSettings
+
+FilterName = Literal["default", "paper"]
+Dip = Literal["coupled", "free"]
+_UNIT_BY_SUFFIX = {"_deg_s": "deg/s", "_mm_s": "mm/s", "_deg": "deg", "_mm": "mm", "_px": "px", "_s": "s"}
+"""By the end of a column's name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wrist:
+    """The wrist of one picture, degrees: + radial, + flexion, + supination on both hands, from the
+    palm down (thumb up is + 90); ``*_sd_deg`` their standard deviations.
+    ``position_m`` (3,), ``rotation_w2_w0`` (3, 3) and ``velocity_m_s`` (3,) of W2 in W0;
+    ``angular_velocity_deg_s`` (3,) in W2, which the papers' filter has none of. NaN where the hand is lost."""
+
+    deviation_deg: float
+    flexion_deg: float
+    pronosupination_deg: float
+    deviation_sd_deg: float
+    flexion_sd_deg: float
+    pronosupination_sd_deg: float
+    position_m: FloatArray
+    rotation_w2_w0: FloatArray
+    velocity_m_s: FloatArray
+    angular_velocity_deg_s: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class HandFrame:
+    """One picture as tracked, without looking back.
+
+    ``time_s`` as in the recording; ``status`` tracked, predicted, lost or doubtful; ``joint_names`` (J,) with
+    ``joint_angles_deg``, ``joint_angles_sd_deg`` and ``joint_velocity_deg_s`` (J,), empty for six discs;
+    ``marker_names`` (M,) with ``marker_position_cam_m`` (M, 3) in camera axes and ``marker_measured`` (M,) whether each
+    disc was seen.
+    """
+
+    time_s: float
+    status: str
+    wrist: Wrist
+    joint_names: tuple[str, ...]
+    joint_angles_deg: FloatArray
+    joint_angles_sd_deg: FloatArray
+    joint_velocity_deg_s: FloatArray
+    marker_names: tuple[str, ...]
+    marker_position_cam_m: FloatArray
+    marker_measured: BoolArray
+
+
+@dataclass(frozen=True, slots=True)
+class ProposedClicks:
+    """Where the discs of a flat hand are: pixels [u, v] by marker, and of each whether no other name is nearly as good.
+    A person looks at it before anything is measured with it."""
+
+    hand: Side
+    protocol: str
+    markers: dict[str, list[float]]
+    sure: dict[str, bool]
+
+    @property
+    def complete(self) -> bool:
+        return len(self.markers) == len(get_protocol(self.protocol).markers)
+
+    def clicks(self) -> Clicks:
+        """As the tracker takes them. Raises :class:`CalibrationImpossible` where a marker has no disc."""
+        protocol = get_protocol(self.protocol)
+        lacking = [name for name in protocol.markers if name not in self.markers]
+        if lacking:
+            raise CalibrationImpossible(f"no disc found for {', '.join(lacking)}")
+        return Clicks(self.hand, protocol, np.array([self.markers[name] for name in protocol.markers]))
+
+    def write(self, path: str | Path) -> None:
+        """Write the file of clicks; one that is there already is kept and is :class:`OutputExists`."""
+        write_clicks(Path(path), self.clicks())
+
+
+@dataclass(frozen=True, slots=True)
+class OpenedSession(Session):
+    """A session with its tables, measures and provenance beside its arrays."""
+
+    def tables(self) -> Mapping[str, Any]:
+        """``wrist``, ``joints``, ``markers``, ``events``, ``repetitions``, ``measures``: tidy, NaN for unknown; as
+        pandas' data frames where that is installed, else as columns by name.
+
+        A data frame over time has the time after the first picture as its index (:class:`pandas.TimedeltaIndex`), and
+        ``attrs["units"]`` says the unit of every column that has one.
+        """
+        figures = self._figures()
+        found: dict[str, Any] = dict(build_tables(self)) | {"repetitions": build_repetition_table(self, figures)}
+        rows = [asdict(row) for row in build_measure_rows(figures, self.path.stem)]
+        found["measures"] = {name: [row[name] for row in rows] for name in rows[0]} if rows else {}
+        try:
+            import pandas
+        except ModuleNotFoundError:
+            return found
+        return {name: _to_data_frame(pandas, columns, self) for name, columns in found.items()}
+
+    def measures(self) -> Sequence[Any]:
+        """Every figure with its unit, as :class:`core.results.measures_table.MeasureRow`, of repetitions that count:
+        what a person left out or moved in the review is kept beside the file."""
+        return build_measure_rows(self._figures(), self.path.stem)
+
+    def _figures(self) -> SessionResults:
+        return compute_session_results(self, read_choices(self.path))
+
+    def provenance(self) -> Mapping[str, Any]:
+        """Of what, by what and with what it was made."""
+        return build_provenance(self)
+
+
+def track(
+    path: str | Path,
+    clicks: str | Path | ProposedClicks,
+    *,
+    filter: FilterName = "default",
+    dip: Dip = "coupled",
+    use_depth: bool = True,
+    profile: Profile = "standard",
+    lost_after_s: float = 1.5,
+) -> Iterator[HandFrame]:
+    """Track a stored recording picture by picture, as they come.
+
+    ``clicks`` is the file of first-frame clicks, or what :func:`propose_clicks` gave; ``filter="paper"`` is the papers'
+    method, as ``carpus track --filter paper``: colour alone, end joints coupled, angles in the hand paper's ZYX.
+    ``lost_after_s`` without three markers of the palm the hand is lost. Raises a
+    :class:`core.model.errors.CarpusFault` that
+    says what is wrong with a file, and at once ``SettingsInvalid`` for a setting that has a value that it cannot have.
+    """
+    where = "carpus.track"
+    chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
+    return _track_frames(_check_path(where, "path", path), _load_clicks(where, clicks), replace(chosen, smooth=False))
+
+
+def write_session(
+    path: str | Path,
+    clicks: str | Path | ProposedClicks,
+    output: str | Path,
+    *,
+    subject_id: str = "",
+    exercise: str = "",
+    smooth: bool = True,
+    filter: FilterName = "default",
+    dip: Dip = "coupled",
+    use_depth: bool = True,
+    profile: Profile = "standard",
+    lost_after_s: float = 1.5,
+) -> OpenedSession:
+    """Track a stored recording into a session file that is new, as ``carpus track`` does; the session, opened.
+
+    ``exercise`` by its id (``WRIST_FE``) has its repetitions counted; the papers' method does not look back, whatever
+    ``smooth`` says; the rest as in :func:`track`.
+    """
+    where = "carpus.write_session"
+    _check(where, "smooth", smooth, bool)
+    _check(where, "subject_id", subject_id, str)
+    _check(where, "exercise", exercise, str)
+    if exercise:
+        _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
+    chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
+    recorded, out, told = (
+        _check_path(where, "path", path),
+        _check_path(where, "output", output),
+        _load_clicks(where, clicks),
+    )
+    source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_show_warning)
+    try:
+        track_recording(
+            source, told, out, replace(chosen, smooth=smooth and chosen.smooth),
+            subject_id=subject_id, exercise=exercise, path=recorded,
+        )  # fmt: skip
+    finally:
+        source.close()
+    return open_session(out)
+
+
+def _build_settings(
+    where: str, method: str, dip: Dip, use_depth: bool, profile: Profile, lost_after_s: float
+) -> TrackSettings:
+    """Checked settings. Raises :class:`SettingsInvalid` with one sentence."""
+    wanted: dict[str, Any] = {"dip": dip, "use_depth": use_depth, "profile": profile, "lost_after_s": lost_after_s}
+    _check(where, "filter", method, FilterName)
+    known = TrackerSettings()
+    _check_fields(where, wanted, TrackerSettings)
+    if method == "paper":
+        if others := [name for name in wanted if name != "profile" and wanted[name] != getattr(known, name)]:
+            raise SettingsInvalid(where, f"the papers' filter knows no {others[0]}")
+        return PaperTrackSettings(smooth=False, paper=PaperSettings.from_profile(wanted["profile"]))
+    return TrackSettings(tracker=replace(known, **wanted))
+
+
+def _check_path(where: str, name: str, value: object) -> Path:
+    """A path as given. Raises :class:`SettingsInvalid` for what is none."""
+    if not isinstance(value, (str, Path)) or "\0" in str(value):
+        raise SettingsInvalid(where, f"{name} is {value!r}, a path expected")
+    return Path(value)
+
+
+def _load_clicks(where: str, clicks: str | Path | ProposedClicks) -> Clicks:
+    """Clicks as proposed or of a file. Raises :class:`SettingsInvalid` for what is neither, and the faults of both."""
+    return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(_check_path(where, "clicks", clicks))
+
+
+def _to_list(where: str, name: str, value: object) -> list[Any]:
+    """One or several; what is no collection, or a single text or path, is one. Raises :class:`SettingsInvalid` for
+    none."""
+    found = list(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else [value]
+    if not found:
+        raise SettingsInvalid(where, f"{name} is empty, one at least expected")
+    return found
+
+
+_TYPE_NAMES: Mapping[Any, str] = {
+    float: "a number", int: "a whole number", bool: "True or False", str: "a text",
+}  # fmt: skip
+
+
+def _check_fields(where: str, wanted: Mapping[str, Any], kind: type) -> None:
+    """Raise :class:`SettingsInvalid` for what is no field of a dataclass, or no such value as its type says."""
+    hints = get_type_hints(kind)
+    for name, value in wanted.items():
+        if name not in hints:
+            raise SettingsInvalid(where, f"it has no setting {name}")
+        _check(where, name, value, hints[name])
+
+
+def _check(
+    where: str, name: str, value: object, hint: Any, limits: tuple[float, float] = (-math.inf, math.inf)
+) -> None:
+    """Raise :class:`SettingsInvalid` for a value that is not of a type, or a number beyond its limits."""
+    if isinstance(hint, UnionType):
+        if value is None:
+            return
+        hint = next(one for one in get_args(hint) if one is not NoneType)
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    expected = _TYPE_NAMES.get(hint, f"a {getattr(hint, '__name__', hint)}")
+    if get_origin(hint) is Literal:
+        fits, expected = isinstance(value, str) and value in get_args(hint), " or ".join(map(repr, get_args(hint)))
+    elif hint is float:
+        fits = number
+    else:
+        fits = type(value) is hint if hint in _TYPE_NAMES else isinstance(value, get_origin(hint) or hint)
+    if fits and number and not limits[0] <= float(value) <= limits[1]:  # type: ignore[arg-type]
+        fits, expected = False, f"from {limits[0]:g} to {limits[1]:g}"
+    if not fits:
+        raise SettingsInvalid(where, f"{name} is {value!r}, {expected} expected")
+    if isinstance(value, tuple):
+        for one in value:
+            _check(where, f"one of {name}", one, get_args(hint)[0])
+
+
+def _check_names(where: str, name: str, value: object, known: Sequence[str]) -> None:
+    """Raise :class:`SettingsInvalid` for what is no mapping from known names to texts, nor None."""
+    if value is None:
+        return
+    if not isinstance(value, Mapping):
+        raise SettingsInvalid(where, f"{name} is {value!r}, a mapping from name to name expected")
+    for ours, theirs in value.items():
+        _check(where, f"a name in {name}", ours, Literal[*known])
+        _check(where, f"{name}[{ours!r}]", theirs, str)
+
+
+def _check_picture(
+    where: str, name: str, value: Any, kind: type, channels: tuple[int, ...], size: tuple[int, ...] = ()
+) -> None:
+    shape = getattr(value, "shape", ())
+    if (
+        getattr(value, "dtype", None) != kind
+        or shape[2:] != channels
+        or len(shape) < 2
+        or 0 in shape
+        or (size and shape != size)
+    ):
+        wanted = ", ".join(("H", "W", *map(str, channels))) if not size else "as large as the picture"
+        raise SettingsInvalid(where, f"{name} is no recording and no picture ({wanted}) {kind.__name__}")
+
+
+def _show_warning(fault: CarpusFault) -> None:
+    """What a command says on stderr before it tracks."""
+    warnings.warn(format_fault_line(fault), stacklevel=2)
+
+
+def _track_frames(path: Path, clicks: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
+    source = open_recording(path, need_depth=chosen.uses_depth, notice=_show_warning)
+    try:
+        begun, names = start_tracking(source, clicks, chosen), clicks.protocol.joint_names(chosen.dip_free)
+        for frame in begun.frames:
+            yield _hand_frame(begun.pipeline(frame), names, clicks.protocol.markers)
+    finally:
+        source.close()
+
+
+def _hand_frame(found: TrackedFrame, joint_names: Sequence[str], markers: tuple[str, ...]) -> HandFrame:
+    moment = found.kinematics
+    deviation, flexion, pronosupination = np.degrees(moment.angles_rad).tolist()
+    deviation_sd, flexion_sd, pronosupination_sd = np.degrees(moment.angles_sd_rad).tolist()
+    return HandFrame(
+        found.timestamp_s,
+        TrackStatus(found.status).name.lower(),
+        Wrist(
+            deviation,
+            flexion,
+            pronosupination,
+            deviation_sd,
+            flexion_sd,
+            pronosupination_sd,
+            moment.position_m,
+            moment.rotation_w2_w0,
+            moment.velocity_m_s,
+            np.degrees(moment.angular_velocity_rad_s),
+        ),
+        tuple(joint_names),
+        np.degrees(moment.joint_angles_rad),
+        np.degrees(moment.joint_angles_sd_rad),
+        np.degrees(moment.joint_velocity_rad_s),
+        markers,
+        found.marker_position_cam_m,
+        np.isfinite(found.marker_measured_px[:, 0]),
+    )
+
+
+def _to_data_frame(pandas: Any, columns: Mapping[str, Any], session: Session) -> Any:
+    """A table as a data frame, with the time after the first picture as its index where it has times."""
+    frame = pandas.DataFrame(columns)
+    frame.attrs["units"] = {
+        name: unit
+        for name in frame.columns
+        if (unit := next((unit for end, unit in _UNIT_BY_SUFFIX.items() if name.endswith(end)), ""))
+    }
+    if "timestamp_s" in columns or "start_s" in columns:
+        first_s = session.timestamp_s[0] if len(session) else 0.0
+        after_s = columns["timestamp_s"] - first_s if "timestamp_s" in columns else columns["start_s"]
+        frame.index = pandas.to_timedelta(np.round(np.asarray(after_s, dtype=np.float64), 6), unit="s").rename("time")
+    return frame
+
+
+def open_session(path: str | Path) -> OpenedSession:
+    """A session file as values: header, calibration, times, status, motion, smoothed motion, markers, events; tables,
+    measures and provenance when asked for. The file is never changed; that one of a data
+    folder was opened stands in the log there. Read by a process of its own."""
+    named = _check_path("carpus.open_session", "path", path)
+    session = reader.read_session(named)
+    log_session_action("opened", named, session.header.session_id)
+    return OpenedSession(**{field.name: getattr(session, field.name) for field in fields(Session)})
+
+
+def propose_clicks(
+    frame: str | Path | Frame | Any,
+    hand: Side = "right",
+    protocol: str = "wrist6",
+    camera: Camera | None = None,
+    depth: Any = None,
+    depth_unit_m: float = 1e-3,
+) -> ProposedClicks:
+    """Where the discs of a flat hand lie, for a person to confirm.
+
+    ``frame`` is a recording (its first picture counts), a :class:`Frame`, or a picture (H, W, 3) uint8 RGB with its
+    ``depth`` (H, W) uint16 in ``depth_unit_m`` if there is one. Markers without a likely disc are left out.
+    """
+    where = "carpus.propose_clicks"
+    _check(where, "hand", hand, Side)
+    _check(where, "protocol", protocol, str)
+    _check(where, "camera", camera, Camera | None)
+    _check(where, "depth_unit_m", depth_unit_m, float, (1e-6, 1.0))
+    markers = get_protocol(protocol)
+    if isinstance(frame, (str, Path)):
+        source = open_recording(_check_path(where, "frame", frame), need_depth=False)
+        try:
+            first, camera = next(source.frames(), None), camera or source.info.camera
+        finally:
+            source.close()
+        if first is None:
+            raise RecordingEmpty(frame)
+    elif isinstance(frame, Frame):
+        first = frame
+    else:
+        _check_picture(where, "frame", frame, np.uint8, (3,))
+        if depth is not None:
+            _check_picture(where, "depth", depth, np.uint16, (), frame.shape[:2])
+        first = Frame(0, 0.0, frame, depth, depth_unit_m)
+    camera = camera or DEFAULT_CAMERA
+    blobs = find_marker_candidates(first, camera, DetectionSettings())
+    found = propose_labels(blobs, camera, hand, markers)
+    named = {
+        name: (blobs.pixel[blob].tolist(), bool(sure))
+        for name, blob, sure in zip(markers.markers, found.blob.tolist(), found.is_sure, strict=True)
+        if blob >= 0
+    }
+    pixels = {name: pixel for name, (pixel, _) in named.items()}
+    return ProposedClicks(hand, protocol, pixels, {name: sure for name, (_, sure) in named.items()})
+
+
+def export(
+    sessions: str | Path | Sequence[str | Path],
+    folder: str | Path,
+    formats: str | Sequence[str] = ("csv",),
+    *,
+    deidentified: bool = False,
+    region: str | None = None,
+) -> ExportResult:
+    """Write sessions as csv, json, c3d, trc, mot, bids or h5 into a folder, in which nothing is overwritten.
+
+    Tables (csv) are for programs; with a ``region`` (``de_DE``) for a spreadsheet there: its separator and decimal
+    sign, UTF-8 with a mark. What could not be written stands in ``refused`` of the answer. Of sessions of a data folder
+    it stands in the log there. Raises ``SettingsInvalid`` for an unknown format or region, no format or no session.
+    """
+    where = "carpus.export"
+    _check(where, "deidentified", deidentified, bool)
+    paths = [_check_path(where, "sessions", path) for path in _to_list(where, "sessions", sessions)]
+    wanted = [ExportRequest.from_file(path, read_choices) for path in paths]
+    into, chosen = _check_path(where, "folder", folder), _to_list(where, "formats", formats)
+    for name in chosen:
+        _check(where, "formats", name, Literal[*FORMATS])
+    from carpus.ui.kit.table_file import regional_table_form  # Qt, which nothing else here loads
+
+    try:
+        form = MACHINE_DIALECT if region is None else regional_table_form(region)
+    except ValueError as cause:
+        raise SettingsInvalid(where, str(cause)) from cause
+    done = export_sessions(wanted, into, chosen, deidentified=deidentified, dialect=form)
+    log_export(done, deidentified=deidentified)
+    return done
+
+
+def compare(
+    session: str | Path,
+    reference: str | Path,
+    *,
+    columns: Mapping[str, str] | None = None,
+    markers: Mapping[str, str] | None = None,
+    radians: bool | None = None,
+    smoothed: bool = False,
+    most_shift_s: float = DEFAULT_MAX_SHIFT_S,
+    lag_s: float | None = None,
+    drift_percent: float = 0.0,
+) -> Comparison:
+    """How far a session agrees with C3D, TRC, MOT, a CSV table or list of readings, or another session.
+
+    ``columns`` angle (or ``time``) to column, a minus before it turns its sign; ``markers`` disc to marker. The clocks
+    are at most ``most_shift_s`` apart; ``lag_s`` by how much later things happen on the reference's, where it is known,
+    and ``drift_percent`` by how much that runs fast. Of each of
+    ``pairs``: ``figures_deg`` with bias, limits, rmse, correlation, icc, cmc. Readings without a time are compared with
+    the repetitions that count: what a person left out of them is left out here.
+    """
+    where = "carpus.compare"
+    _check(where, "smoothed", smoothed, bool)
+    _check(where, "radians", radians, bool | None)
+    _check_names(where, "columns", columns, ("time", *ANGLE_NAMES))
+    _check_names(where, "markers", markers, SITES)
+    _check(where, "most_shift_s", most_shift_s, float, (0.0, MAX_SHIFT_S))
+    _check(where, "lag_s", lag_s, float | None, (-MAX_SHIFT_S, MAX_SHIFT_S))
+    _check(where, "drift_percent", drift_percent, float, (-MAX_DRIFT_PERCENT, MAX_DRIFT_PERCENT))
+    ours, theirs = _check_path(where, "session", session), _check_path(where, "reference", reference)
+    result = compare_files(
+        ours, theirs, columns=columns, markers=markers, radians=radians, smoothed=smoothed,
+        max_shift_s=most_shift_s, lag_s=math.nan if lag_s is None else lag_s, drift=0.01 * drift_percent,
+        choices=read_choices(ours),
+    )  # fmt: skip
+    return result.comparison
+
+
+def simulate(folder: str | Path, **options: Any) -> Truth:
+    """A synthetic recording as a TUM folder, with clicks and truth beside it; ``options`` are those of
+    :class:`core.simulation.spec.RecordingSpec`. Its true values."""
+    where = "carpus.simulate"
+    _check_fields(where, options, RecordingSpec)
+    return recording.simulate(RecordingSpec(**options), _check_path(where, "folder", folder))

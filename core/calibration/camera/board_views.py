@@ -1,0 +1,282 @@
+"""Picks the pictures of the board out of a recording or a live camera: which are worth keeping, whether together they
+are enough, and where to hold the board next."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import cv2
+import numpy as np
+
+from carpus.core.calibration.camera.board import (
+    BOARDS,
+    MAX_EDGE_WIDTH_PX,
+    Board,
+    DetectedBoard,
+    Pattern,
+    edge_width_px,
+    find_board,
+)
+from carpus.core.model.camera import Camera
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.types import ByteImage, DepthImage, FloatArray, Frame
+
+MIN_VIEWS = 12
+FIELDS = (6, 4)
+"""The picture's fields across and down."""
+MIN_FIELDS = 18
+MIN_TILT_DEG = 15.0
+"""A board less tilted than this is as good as straight."""
+MAX_TILT_DEG = 60.0
+MIN_TILT_SIDES = 3
+MIN_DISTANCE_RATIO = 1.4
+"""Farthest over nearest board below which a shift of depth cannot be told from its scale."""
+MIN_NEW_VIEW_PX = 18.0
+"""A picture in which the corners have moved less than this since a kept one says nothing new."""
+MAX_MOTION_PX = 1.0
+"""From one camera picture to the next, at 30 a second: more blurs the corners."""
+
+TiltSide = Literal["left", "right", "top", "bottom"]
+TILT_SIDES: tuple[TiltSide, ...] = ("left", "right", "top", "bottom")
+
+
+@dataclass(frozen=True, slots=True)
+class BoardView:
+    """One kept picture. ``tilt_deg`` of the board off the straight view and the ``nearer_side`` side where it is
+    tilted;
+    ``distance_m`` of its middle; the depth picture that belongs to it, None without one."""
+
+    detected: DetectedBoard
+    tilt_deg: float
+    nearer_side: TiltSide | None
+    distance_m: float
+    depth_raw: DepthImage | None = None
+    depth_unit_m: float = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class ViewCoverage:
+    """What is there: number of views, corners in each field (down, across), sides the board was tilted to."""
+
+    view_count: int
+    corners_in_field: np.ndarray
+    sides: frozenset[TiltSide]
+    nearest_m: float
+    farthest_m: float
+
+    @property
+    def covered_fields(self) -> int:
+        """Fields of the picture in which a corner has been."""
+        return int(np.count_nonzero(self.corners_in_field))
+
+    @property
+    def is_near_and_far(self) -> bool:
+        """Whether a shift of the depth can be told from its scale."""
+        return self.farthest_m >= MIN_DISTANCE_RATIO * self.nearest_m
+
+    @property
+    def missing_text(self) -> str:
+        """The first thing that is missing, as a person would say it; empty when nothing is."""
+        if self.view_count < MIN_VIEWS:
+            return f"{self.view_count} different pictures of the board, {MIN_VIEWS} needed"
+        if self.covered_fields < MIN_FIELDS:
+            return f"board in {self.covered_fields} of {math.prod(FIELDS)} fields of the picture, {MIN_FIELDS} needed"
+        if len(self.sides) < MIN_TILT_SIDES:
+            tilted = " and ".join(side for side in TILT_SIDES if side in self.sides) or "none"
+            return f"tilted by {MIN_TILT_DEG:g}° with these sides nearer: {tilted}; {MIN_TILT_SIDES} sides needed"
+        return ""
+
+    def next_instruction(self, wanted_views: int) -> Phrase | None:
+        """What to do next with the board in the hand, until there are ``wanted_views`` pictures; None when all is
+        there."""
+        empty = np.argwhere(self.corners_in_field == 0)
+        if len(empty) and self.covered_fields < MIN_FIELDS:
+            return phrase("Move the board to the {place}", place=_place_name(*empty[0].tolist()))
+        if len(self.sides) < MIN_TILT_SIDES:
+            side = next(side for side in TILT_SIDES if side not in self.sides)
+            return phrase("Tilt the board: {side} nearer", side=side_name(side))
+        if not self.is_near_and_far:
+            near = self.nearest_m <= NEAR_BOARD_M or self.nearest_m * MIN_DISTANCE_RATIO < FAR_BOARD_M
+            return phrase("Take the board farther away") if near else phrase("Bring the board nearer")
+        return phrase("Show it in other places, tilted other ways") if self.view_count < wanted_views else None
+
+
+def side_name(side: TiltSide) -> Phrase:
+    """An edge of the board as a person holds it."""
+    return {
+        "left": phrase("left edge"), "right": phrase("right edge"), "top": phrase("upper edge"),
+        "bottom": phrase("lower edge"),
+    }[side]  # fmt: skip
+
+
+def _place_name(down: int, across: int) -> Phrase:
+    """Where in the picture a field lies."""
+    columns = {(True, False): 0, (False, True): 2}
+    column = columns.get((across < FIELDS[0] // 3, across >= FIELDS[0] - FIELDS[0] // 3), 1)
+    row = columns.get((down == 0, down == FIELDS[1] - 1), 1)
+    return (
+        (phrase("top left"), phrase("top"), phrase("top right")),
+        (phrase("left"), phrase("centre"), phrase("right")),
+        (phrase("bottom left"), phrase("bottom"), phrase("bottom right")),
+    )[row][column]
+
+
+def board_pose(detected: DetectedBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
+    """Turn, as a rotation vector, and shift from a board's own axes into the camera's; None where there is none."""
+    points = detected.board.corners_m[detected.corner_ids]
+    there, turn, shift = cv2.solvePnP(points, camera.undistort(detected.pixel), camera.matrix, np.zeros(5))
+    return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
+
+
+def to_board_view(
+    detected: DetectedBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float
+) -> BoardView | None:
+    """What a picture shows; ``camera`` may be a rough guess. None where the board cannot stand like that."""
+    pose = board_pose(detected, camera)
+    if pose is None:
+        return None
+    turn, shift = pose
+    rotation = np.asarray(cv2.Rodrigues(turn)[0], dtype=np.float64)
+    normal = rotation[:, 2] if rotation[2, 2] > 0.0 else -rotation[:, 2]
+    centre = rotation @ detected.board.outline_m.mean(axis=0) + shift.ravel()
+    if centre[2] <= 0.0:
+        return None
+    away = centre / np.linalg.norm(centre)
+    tilt_deg = math.degrees(math.acos(float(np.clip(normal @ away, -1.0, 1.0))))
+    if tilt_deg > MAX_TILT_DEG:
+        return None
+    lean = normal - (normal @ away) * away
+    return BoardView(detected, tilt_deg, _nearer_side(lean) if tilt_deg >= MIN_TILT_DEG else None, float(centre[2]),
+                depth_raw, depth_unit_m)  # fmt: skip
+
+
+def _nearer_side(lean: FloatArray) -> TiltSide:
+    """The side that is nearer, of the part of the normal, away from the camera, across the line of sight."""
+    # Away from the camera the normal leans towards the far side's opposite: a plane with n_x > 0 is nearer at +x.
+    if abs(lean[0]) >= abs(lean[1]):
+        return "right" if lean[0] > 0.0 else "left"
+    return "bottom" if lean[1] > 0.0 else "top"
+
+
+def is_new_view(detected: DetectedBoard, views: Sequence[BoardView]) -> bool:
+    """Whether the board stands elsewhere or otherwise than in every kept picture."""
+    return all(corner_motion_px(detected, view.detected) >= MIN_NEW_VIEW_PX for view in views)
+
+
+def corner_motion_px(one: DetectedBoard, other: DetectedBoard) -> float:
+    """How far the corners seen in both lie apart (root mean square); infinite where there is none."""
+    _, a, b = np.intersect1d(one.corner_ids, other.corner_ids, return_indices=True)
+    if not len(a):
+        return math.inf
+    return float(np.sqrt(np.mean(np.sum((one.pixel[a] - other.pixel[b]) ** 2, axis=1))))
+
+
+def assess_views(views: Sequence[BoardView], width_px: int, height_px: int) -> ViewCoverage:
+    """Whether these pictures are enough, and different enough."""
+    count = np.zeros((FIELDS[1], FIELDS[0]), dtype=np.int64)
+    for view in views:
+        across = np.clip(view.detected.pixel[:, 0] * FIELDS[0] / width_px, 0, FIELDS[0] - 1).astype(int)
+        down = np.clip(view.detected.pixel[:, 1] * FIELDS[1] / height_px, 0, FIELDS[1] - 1).astype(int)
+        np.add.at(count, (down, across), 1)
+    sides = frozenset(view.nearer_side for view in views if view.nearer_side is not None)
+    distances = [view.distance_m for view in views]
+    return ViewCoverage(len(views), count, sides, min(distances, default=math.nan), max(distances, default=math.nan))
+
+
+def common_board(views: Sequence[BoardView]) -> Board:
+    """The board of all views."""
+    return views[0].detected.board
+
+
+RejectReason = Literal["", "dark", "no_board", "too_tilted", "moving", "blurred", "known"]
+"""Why a picture was not kept; empty when it was, or when nothing is wrong."""
+MIN_BRIGHTNESS = 70.0
+"""The brightest tenth of a picture below this: more light."""
+WANTED_VIEWS: dict[Pattern, int] = {"chessboard": 30, "charuco": 44}
+"""So many are asked for before a live camera: more than must be, since each costs a person three seconds, and with them
+the focal length is known to 0.1 %. A ChArUco board has half the corners."""
+NEAR_BOARD_M, FAR_BOARD_M = 0.55, 0.85
+"""A board that has been nearer than this, or would go beyond it, is to be shown farther away next."""
+
+
+@dataclass(frozen=True, slots=True)
+class BoardFrame:
+    """What one picture shows of the board; ``kept``: it counts."""
+
+    detected: DetectedBoard | None
+    reject_reason: RejectReason
+    is_kept: bool = False
+
+
+def is_dark(color_rgb: ByteImage) -> bool:
+    """Whether a picture has too little light to find a board in it."""
+    return float(np.percentile(color_rgb[::8, ::8].max(axis=2), 90)) < MIN_BRIGHTNESS
+
+
+SEARCH_INTERVAL_S = 0.12
+"""Finding the board takes a while, and two pictures in a row show the same."""
+_CAMERA_FPS = 30.0
+_MAX_MOTION_GAP_S = 0.4
+MAX_VIEWS = 64
+
+
+class ViewCollector:
+    """Keeps the still and new pictures of the board.
+
+    ``camera`` is a rough guess for tilt and distance. A picture is kept when the board stands elsewhere than in every
+    kept one and has not moved since the picture before; without one just before nobody knows, and it is kept.
+    """
+
+    def __init__(self, camera: Camera, boards: Sequence[Board] = tuple(BOARDS.values())) -> None:
+        self._camera, self._boards = camera, tuple(boards)
+        self._views: list[BoardView] = []
+        self._last: tuple[float, DetectedBoard] | None = None
+        self._last_search_s = float("-inf")
+        self.searched_count, self.detected_count = 0, 0
+
+    @property
+    def views(self) -> Sequence[BoardView]:
+        return self._views
+
+    @property
+    def coverage(self) -> ViewCoverage:
+        return assess_views(self._views, self._camera.width_px, self._camera.height_px)
+
+    def add(self, frame: Frame) -> bool:
+        """Look at a frame; whether it was kept."""
+        look = self.process_frame(frame)
+        return look is not None and look.is_kept
+
+    def process_frame(self, frame: Frame) -> BoardFrame | None:
+        """Look at a frame and say what it lacks; None where it comes too soon after the last one."""
+        if frame.timestamp_s - self._last_search_s < SEARCH_INTERVAL_S or len(self._views) >= MAX_VIEWS:
+            return None
+        self._last_search_s = frame.timestamp_s
+        self.searched_count += 1
+        found = find_board(frame.color_rgb, self._boards)
+        before, self._last = self._last, None if found is None else (frame.timestamp_s, found)
+        if found is None:
+            return BoardFrame(None, "dark" if is_dark(frame.color_rgb) else "no_board")
+        self.detected_count += 1
+        self._boards = (found.board,)  # one board per calibration, and no time lost on the others
+        view = to_board_view(found, self._camera, frame.depth_raw, frame.depth_unit_m)
+        if view is None:
+            return BoardFrame(found, "too_tilted")
+        edge, motion = edge_width_px(frame.color_rgb, found), _motion_px(found, frame.timestamp_s, before)
+        lack: RejectReason = (
+            "blurred" if edge > MAX_EDGE_WIDTH_PX else "" if is_new_view(found, self._views) else "known"
+        )
+        lack = "moving" if motion > MAX_MOTION_PX else lack
+        if not lack:
+            self._views.append(view)
+        return BoardFrame(found, lack, is_kept=not lack)
+
+
+def _motion_px(detected: DetectedBoard, now_s: float, before: tuple[float, DetectedBoard] | None) -> float:
+    """How far the corners move from one picture of the camera to the next; NaN where nobody knows."""
+    if before is None or now_s - before[0] > _MAX_MOTION_GAP_S:
+        return math.nan
+    return corner_motion_px(detected, before[1]) / ((now_s - before[0]) * _CAMERA_FPS)

@@ -1,0 +1,147 @@
+"""The file of first-frame clicks: JSON with hand, protocol and one pixel for each marker."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
+from carpus.core.model.errors import ClickOutsideImage, ClicksUnreadable, OutputExists, ProtocolUnknown
+from carpus.core.model.hand.protocols import get_protocol
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import FloatArray, Side
+from carpus.core.platform.durable import open_private, write_fault
+
+_MAX_BYTES = 1_000_000
+"""Clicks take some hundred bytes; more is another file, or one that never ends."""
+_MAX_PIXEL_PX = 1e9
+"""Beyond any picture; also keeps NaN, infinity and integers too long for a float out."""
+
+
+def read_clicks(path: Path, width_px: int | None = None, height_px: int | None = None) -> Clicks:
+    """The clicks of a file; where the size of the first picture is given each must lie inside it.
+
+    Raises :class:`ClicksUnreadable`, :class:`ProtocolUnknown` or :class:`ClickOutsideImage`.
+    """
+    content = _read_json_object(path)
+    side = _parse_side(path, content.get("hand"))
+    name = str(content.get("protocol", ""))[:40]
+    try:
+        protocol = get_protocol(name)
+    except ProtocolUnknown as cause:
+        raise ProtocolUnknown(name, f"{path}: {cause.detail}") from cause
+    pixel = _parse_pixels(path, content.get("markers"), protocol.markers)
+    clicks = Clicks(side, protocol, pixel, _parse_straight_fingers(path, content.get("straight_fingers")))
+    if width_px is not None and height_px is not None:
+        check_clicks_inside(clicks, width_px, height_px)
+    return clicks
+
+
+def write_clicks(path: Path, clicks: Clicks) -> None:
+    """Write clicks in the agreed form; a file that is there already is kept."""
+    markers = dict(zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True))
+    content: dict[str, Any] = {"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}
+    if clicks.straight_fingers:
+        content["straight_fingers"] = list(clicks.straight_fingers)
+    text = json.dumps(content, indent=1)
+    try:
+        with open(path, "x", encoding="utf-8", opener=open_private) as file:
+            file.write(text + "\n")
+    except FileExistsError as cause:
+        raise OutputExists(path) from cause
+    except OSError as cause:
+        raise write_fault(path, cause) from cause
+
+
+def check_clicks_inside(clicks: Clicks, width_px: int, height_px: int) -> None:
+    """Raise :class:`ClickOutsideImage` for the first click outside; the picture begins half a pixel before 0."""
+    for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True):
+        if not (-0.5 <= u < width_px - 0.5 and -0.5 <= v < height_px - 0.5):
+            raise ClickOutsideImage(
+                name,
+                phrase(
+                    "{u}, {v} in a picture of {width_px} x {height_px} pixels",
+                    u=f"{u:g}",
+                    v=f"{v:g}",
+                    width_px=width_px,
+                    height_px=height_px,
+                ),
+            )
+
+
+def _read_json_object(path: Path) -> dict[str, Any]:
+    try:
+        with path.open("rb") as file:
+            data = file.read(_MAX_BYTES + 1)
+        if len(data) > _MAX_BYTES:
+            raise ClicksUnreadable(path, phrase("much too long for clicks"))
+        content = json.loads(data.decode("utf-8-sig"), object_pairs_hook=_reject_duplicate_keys)
+    except FileNotFoundError as cause:
+        raise ClicksUnreadable(path, phrase("there is no such file")) from cause
+    except OSError as cause:
+        raise ClicksUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
+    except UnicodeDecodeError as cause:
+        raise ClicksUnreadable(path, phrase("not a text file")) from cause
+    except json.JSONDecodeError as cause:
+        raise ClicksUnreadable(path, phrase("not JSON, line {lineno}", lineno=cause.lineno)) from cause
+    except _DuplicateKeyError as cause:
+        raise ClicksUnreadable(path, phrase("{cause} is there twice", cause=cause)) from cause
+    except (ValueError, RecursionError) as cause:
+        raise ClicksUnreadable(path, phrase("not JSON")) from cause
+    if not isinstance(content, dict):
+        raise ClicksUnreadable(path, phrase("not an object with hand, protocol and markers"))
+    return content
+
+
+class _DuplicateKeyError(Exception):
+    """A name that a JSON object holds twice; JSON itself would silently take the second."""
+
+
+def _reject_duplicate_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise _DuplicateKeyError(name)
+        found[name] = value
+    return found
+
+
+def _parse_side(path: Path, value: Any) -> Side:
+    if value == "right":
+        return "right"
+    if value == "left":
+        return "left"
+    raise ClicksUnreadable(path, phrase("hand is {json}, right or left expected", json=json.dumps(value)[:40]))
+
+
+def _parse_straight_fingers(path: Path, value: Any) -> tuple[bool, ...]:
+    if value is None:
+        return ()
+    if isinstance(value, list) and len(value) == len(ALL_STRAIGHT) and all(isinstance(each, bool) for each in value):
+        return tuple(value)
+    raise ClicksUnreadable(path, phrase("straight_fingers is not five times true or false, thumb to little"))
+
+
+def _parse_pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
+    """Pixels (M, 2) in the order of the protocol."""
+    if not isinstance(markers, dict):
+        raise ClicksUnreadable(path, phrase("no markers"))
+    for problem, some in (("no click for", set(names) - set(markers)), ("unknown marker", set(markers) - set(names))):
+        if some:
+            raise ClicksUnreadable(path, f"{problem} {', '.join(sorted(some))[:200]}")
+    return np.array([_parse_pixel(path, name, markers[name]) for name in names])
+
+
+def _parse_pixel(path: Path, name: str, value: Any) -> tuple[float, float]:
+    if isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)):
+        return float(value[0]), float(value[1])
+    raise ClicksUnreadable(
+        path, phrase("{name} is {json}, two pixels expected", name=name, json=json.dumps(value)[:40])
+    )
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _MAX_PIXEL_PX

@@ -1,0 +1,335 @@
+"""What speaks against the names that discs were given.
+
+The palm: every other way to give its six names is tried, since six discs are few. WRIST clicked on the little knuckle
+and every other name one disc further on is a palm to whoever only asks whether two were exchanged, or whether they stay
+together; of the 720 ways to give six names only one fits.
+
+The digits: a hand at its neutral pose has its fingers beside each other, straight or bent. Bending shortens a finger's
+line on the picture but does not turn it aside; only wrong names let it turn back, cross another or jump to a neighbour.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, pairwise, permutations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.model.hand.anatomy import REFERENCE_LENGTH_M, anatomy_from_size
+from carpus.core.model.hand.kinematics import disc_centres
+from carpus.core.model.hand.protocols import PALM_MARKERS, WRIST6, MarkerProtocol
+from carpus.core.model.types import FloatArray, Side
+
+_THUMB = 1
+_OTHER_SIDE: dict[Side, Side] = {"right": "left", "left": "right"}
+
+
+MAX_TURN_DEG = 50.0
+"""A line of discs that turns aside by more at one disc is no finger."""
+MAX_THUMB_TURN_DEG = 75.0
+"""As :data:`MAX_TURN_DEG` of the thumb, whose base lies freely."""
+MAX_LENGTH: tuple[float, ...] = (1.25, 0.85, 0.62, 0.45)
+"""Longest pieces of a finger, wrist to tip, over the length from WRIST to the middle knuckle."""
+MAX_THUMB_LENGTH: tuple[float, ...] = (0.6, 0.95, 0.75, 0.62)
+"""As :data:`MAX_LENGTH` of the thumb."""
+SHORT_LENGTH = 0.08
+"""Pieces as short on that scale have no direction worth judging."""
+LENGTH_WEIGHT = 4.0
+"""Faults counted for each such length too much; a crossing is one."""
+TURN_PENALTY_DEG = 45.0
+"""Turned aside by so much too far is one fault."""
+ORDER_WEIGHT = 1.5
+"""Faults counted for a knuckle out of order."""
+MIN_DOUBTFUL_PENALTY = 1.2
+"""With so many faults names are doubted: two bent fingers may cross once by themselves."""
+
+
+@dataclass(frozen=True, slots=True)
+class _FingerLines:
+    """The lines that a protocol's discs make: ``chains`` by digit; pieces of them, and which pairs of pieces of
+    different digits should not cross; the four ``knuckles``."""
+
+    chains: dict[int, tuple[int, ...]]
+    segments: tuple[tuple[int, int, int], ...]
+    crossing_pairs: tuple[tuple[int, int], ...]
+    knuckles: tuple[int, ...]
+
+
+@lru_cache(maxsize=4)
+def _finger_lines(protocol: MarkerProtocol) -> _FingerLines:
+    chains = protocol.chains
+    pieces = tuple((a, b, digit) for digit, chain in chains.items() for a, b in pairwise(chain))
+    beside = tuple(
+        (i, j)
+        for i, j in combinations(range(len(pieces)), 2)
+        # Pieces of one finger, and those that share the wrist, cannot be judged by crossing; a thumb may lie on the
+        # palm.
+        if pieces[i][2] != pieces[j][2]
+        and pieces[i][0] != pieces[j][0]
+        and not (_THUMB in (pieces[i][2], pieces[j][2]) and 0 in (pieces[i][0], pieces[j][0]))
+    )
+    return _FingerLines(chains, pieces, beside, protocol.rows(("MCP2", "MCP3", "MCP4", "MCP5")))
+
+
+@dataclass(frozen=True, slots=True)
+class LabelFault:
+    """Names that stand in for each other (``swapped``, two of equal length), or one that fits nowhere
+    (``misplaced``)."""
+
+    swapped: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
+    misplaced: str = ""
+
+
+def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> LabelFault | None:
+    """What is wrong with the names of a ``plan`` (M, 2) seen from the camera, y up; None when nothing is."""
+    lines = _finger_lines(protocol)
+    now = _label_penalty(lines, side, plan)
+    if now < MIN_DOUBTFUL_PENALTY:
+        return None
+    best = np.inf
+    rows: tuple[tuple[int, ...], tuple[int, ...]] = ((0,), (0,))
+    for one, other in _possible_swaps(lines, len(plan)):
+        trial = plan.copy()
+        trial[[*one, *other]] = plan[[*other, *one]]
+        value = _label_penalty(lines, side, trial)
+        if value < best - 1e-9:
+            best, rows = value, (one, other)
+    names = protocol.markers
+    exchanged = LabelFault((tuple(names[i] for i in rows[0]), tuple(names[i] for i in rows[1])))
+    if best < MIN_DOUBTFUL_PENALTY:
+        return exchanged
+    # No exchange mends it all: is it one disc that lies outside of the hand?
+    alone, without = _find_misplaced_marker(lines, side, plan)
+    return (
+        LabelFault(misplaced=names[alone])
+        if without < MIN_DOUBTFUL_PENALTY or best >= now - MIN_DOUBTFUL_PENALTY
+        else exchanged
+    )
+
+
+def _possible_swaps(lines: _FingerLines, count: int) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
+    """Two discs, or two whole fingers."""
+    fingers = [chain[1:] for digit, chain in lines.chains.items() if digit != _THUMB]
+    single = [((i,), (j,)) for i, j in combinations(range(count), 2)]
+    return [*single, *combinations(fingers, 2)]
+
+
+def _find_misplaced_marker(lines: _FingerLines, side: Side, plan: FloatArray) -> tuple[int, float]:
+    """The disc without which least is wrong, and how much: laid between its neighbours on the line, as if it fitted."""
+    left = np.full(len(plan), np.inf)
+    for chain in lines.chains.values():
+        for place in range(1, len(chain)):
+            trial = plan.copy()
+            before = plan[chain[place - 1]]
+            after = (
+                plan[chain[place + 1]] if place + 1 < len(chain) else before + 0.5 * (before - plan[chain[place - 2]])
+            )
+            trial[chain[place]] = 0.5 * (before + after)
+            left[chain[place]] = min(left[chain[place]], _label_penalty(lines, side, trial))
+    return int(np.argmin(left)), float(left.min())
+
+
+def _label_penalty(lines: _FingerLines, side: Side, plan: FloatArray) -> float:
+    """Sum of all that speaks against the names, 0 for a usual hand."""
+    size = float(np.median([np.hypot(*(plan[k] - plan[0])) for k in lines.knuckles]))
+    if not size > 0.0:
+        return 0.0
+    faults = 0.0
+    for digit, chain in lines.chains.items():
+        steps = np.diff(plan[list(chain)], axis=0)
+        length = np.hypot(steps[:, 0], steps[:, 1])
+        most = np.array(MAX_THUMB_LENGTH if digit == _THUMB else MAX_LENGTH)
+        faults += float(np.maximum(length / size - most, 0.0).sum()) * LENGTH_WEIGHT
+        along = (steps[:-1] * steps[1:]).sum(axis=1)
+        across = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
+        turn_deg = np.degrees(np.abs(np.arctan2(across, along)))
+        base_deg = MAX_THUMB_TURN_DEG if digit == _THUMB else MAX_TURN_DEG
+        limit_deg = np.array([base_deg] * 2 + [MAX_TURN_DEG])
+        # A very short piece, as of a finger bent towards the camera's line of sight, has no direction worth judging.
+        weight = np.clip(np.minimum(length[:-1], length[1:]) / (SHORT_LENGTH * size), 0.0, 1.0)
+        faults += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / TURN_PENALTY_DEG
+    start, end = (plan[[piece[end] for piece in lines.segments]] for end in (0, 1))
+    faults += float(find_crossings(start, end, np.array(lines.crossing_pairs, dtype=np.int64).reshape(-1, 2)).sum())
+    return faults + ORDER_WEIGHT * _count_unordered_knuckles(lines, side, plan)
+
+
+def find_crossings(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Which of the ``pairs`` (K, 2) of pieces cut each other, which run from ``start`` (P, 2) to ``end`` (P, 2)."""
+
+    def orientation(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+        return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
+
+    a, b, c, d = start[pairs[:, 0]], end[pairs[:, 0]], start[pairs[:, 1]], end[pairs[:, 1]]
+    return np.asarray(
+        (orientation(a, b, c) * orientation(a, b, d) < 0.0) & (orientation(c, d, a) * orientation(c, d, b) < 0.0)
+    )
+
+
+def _count_unordered_knuckles(lines: _FingerLines, side: Side, plan: FloatArray) -> int:
+    """Neighbouring knuckles that follow each other the wrong way about the wrist."""
+    ray = plan[list(lines.knuckles)] - plan[0]
+    turn = ray[:-1, 0] * ray[1:, 1] - ray[:-1, 1] * ray[1:, 0]
+    onwards = turn < 0.0 if side == "right" else turn > 0.0
+    return int(np.count_nonzero(~onwards))
+
+
+_PALM_PERMUTATIONS = np.array(list(permutations(range(len(PALM_MARKERS)))))
+
+
+GOOD_PALM_MISFIT = 0.08
+"""Share of the palm's size below which its names are not questioned: hands differ from the average by up to 0.05,
+and the next best order of the names of a right palm leaves 0.25."""
+BETTER_LABELS_SHARE = 0.6
+"""Another order must leave less than this share of the misfit of the names as clicked."""
+
+
+def find_shifted_labels(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
+    """The wrong names among the palm's, empty when another order does not fit clearly better.
+
+    ``palm_plan`` (6, 2) the discs in the order of ``PALM_MARKERS``, seen from the camera, y up. The first disc that
+    was given a wrong name comes first, and after each name the one that its disc should have: WRIST, MCP5 say that
+    the disc clicked as wrist is the little knuckle. Two names only are two that were exchanged.
+    """
+    misfits = misfit(average_palm(side), palm_plan[_PALM_PERMUTATIONS])
+    best = int(misfits.argmin())
+    if misfits[0] < GOOD_PALM_MISFIT or misfits[best] > BETTER_LABELS_SHARE * misfits[0]:
+        return ()
+    if misfits[best] > misfit(average_palm(_OTHER_SIDE[side]), palm_plan):
+        return ()  # the names are in order, but on the other hand
+    right_name = np.argsort(_PALM_PERMUTATIONS[best])  # of the disc clicked under each name
+    return tuple(PALM_MARKERS[i] for i in _permutation_cycles(right_name))
+
+
+def is_plausible_palm(side: Side, palm_plan: FloatArray) -> bool:
+    """Whether six names, given by nobody yet, lie where a palm of this hand has them, and not better on the other
+    hand. ``palm_plan`` as in :func:`find_shifted_labels`."""
+    misfits, others = (misfit(average_palm(one), palm_plan[_PALM_PERMUTATIONS]) for one in (side, _OTHER_SIDE[side]))
+    return bool(misfits[0] < GOOD_PALM_MISFIT and misfits[0] == misfits.min() < others.min())
+
+
+@lru_cache(maxsize=8)
+def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
+    """The discs (M, 2) of the average hand, seen from the camera, y up, in metres."""
+    discs = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
+    return discs[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
+
+
+def average_palm(side: Side) -> FloatArray:
+    """The discs (6, 2) of the average palm in the order of ``PALM_MARKERS``, seen from the camera, y up, in metres."""
+    return _average_plan(WRIST6, side)
+
+
+def misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
+    """Residual share (...) of the best similarity (turn, scale, shift; no mirror) of discs (..., M, 2) as named."""
+    axes = np.array([1.0, 1j])
+    mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=-2, keepdims=True)) @ axes
+    factor = theirs @ mine.conj() / np.vdot(mine, mine)
+    off = np.linalg.norm(theirs - factor[..., None] * mine, axis=-1)
+    return np.asarray(off / np.maximum(np.linalg.norm(theirs, axis=-1), 1e-12))
+
+
+def leave_one_out_misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
+    """The :func:`misfit` (M,) that is left without each of the discs (M, 2)."""
+    each = range(len(plan))
+    return np.array([misfit(np.delete(average, k, axis=0), np.delete(plan, k, axis=0)) for k in each])
+
+
+def _permutation_cycles(right_name: NDArray[np.int64]) -> list[int]:
+    """The wrong ones, each followed by what it should be."""
+    out: list[int] = []
+    for start in range(len(right_name)):
+        while right_name[start] != start and start not in out:
+            out.append(start)
+            start = int(right_name[start])
+    return out
+
+
+GOOD_SIDE_MISFIT = 0.05
+"""Share of the constellation's size below which the side is not questioned: hands differ by up to so much."""
+OTHER_SIDE_SHARE = 0.6
+"""The other hand must leave less than this share of the misfit to be called the likelier one."""
+
+
+def plan_view(point_cam_m: FloatArray) -> FloatArray:
+    """Points (M, 3) of the camera as a drawing (M, 2) seen from the camera, y up."""
+    return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
+
+
+def is_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
+    """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
+    average = _average_plan(protocol, side)
+    own, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER_SIDE[side]), plan)
+    if own < GOOD_SIDE_MISFIT or mirrored >= OTHER_SIDE_SHARE * own:
+        return False
+    pairs = np.array(list(combinations(range(len(plan)), 2)))
+    swapped = np.repeat(plan[None], len(pairs), axis=0)
+    which = np.arange(len(pairs))[:, None]
+    swapped[which, pairs] = plan[pairs[:, ::-1]]
+    return bool(mirrored < misfit(average, swapped).min())
+
+
+QUESTIONED_MISFIT = 0.08
+"""Share of the palm's size from which a spot without a name may stand in for a disc."""
+BETTER_SPOT_SHARE = 0.6
+"""What stands in for a disc must leave less than this share of the misfit."""
+MAX_PALM_MISFIT = 0.17
+"""A misfit that no palm has: hands differ by up to 0.05, discs stuck 4 mm off by up to 0.12."""
+PALM_MARGIN_SHARE = 0.18
+"""A spot as near to the palm's discs, a share of its length, lies on the palm: there is one disc too many."""
+MAX_SPARE_SPOTS = 2
+"""More of these are the discs of a whole hand, or a pattern: nobody is asked of each."""
+SAME_SPOT_PX = 4.0
+"""A spot as near to a disc is that disc."""
+MAX_DEPTH_OFFSET_M = 0.06
+"""A spot farther from the depth of the palm lies on something else."""
+SAME_MARKER_RADII = 1.6
+"""A spot within so many radii of a disc's middle may be the disc itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class OddMarker:
+    """``marker`` the row of the palm's disc in question, -1 for none; ``spot`` the row of the spot that may be it, or
+    that is one too many, -1 for none; ``is_spot_better`` whether the spot makes a better palm than the disc."""
+
+    marker: int
+    spot: int
+    is_spot_better: bool
+
+
+def find_odd_marker(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddMarker | None:
+    """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
+    average = average_palm(side)
+    own = misfit(average, palm_plan)
+    best = (float(own), -1, -1)
+    if own >= QUESTIONED_MISFIT:
+        for marker in range(len(palm_plan)):
+            for spot in range(len(spots_plan)):
+                other = palm_plan.copy()
+                other[marker] = spots_plan[spot]
+                best = min(best, (float(misfit(average, other)), marker, spot))
+    if best[0] < BETTER_SPOT_SHARE * own:
+        return OddMarker(best[1], best[2], is_spot_better=True)
+    if own >= MAX_PALM_MISFIT:
+        return OddMarker(int(leave_one_out_misfit(average, palm_plan).argmin()), -1, is_spot_better=False)
+    spare = _spots_on_palm(palm_plan, spots_plan)
+    if 0 < len(spare) <= MAX_SPARE_SPOTS:
+        return OddMarker(-1, int(spare[0]), is_spot_better=False)
+    return None
+
+
+def _spots_on_palm(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.int64]:
+    if not len(spots_plan):
+        return np.empty(0, dtype=np.int64)
+    length = float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
+    distance = np.linalg.norm(spots_plan[:, None] - palm_plan[None], axis=-1).min(axis=1)
+    inside = np.array([_is_inside(spot, palm_plan) for spot in spots_plan])
+    return np.flatnonzero(inside | (distance < PALM_MARGIN_SHARE * length))
+
+
+def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
+    """Whether a point lies inside the ring of points: seen from it they go all the way round."""
+    angles = np.sort(np.arctan2(corners[:, 1] - spot[1], corners[:, 0] - spot[0]))
+    gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
+    return bool(gaps.max() < np.pi)

@@ -1,0 +1,294 @@
+"""Names for the discs of a flat hand, proposed from where its blobs lie to each other: a person confirms them.
+
+The average hand in several postures is laid over the blobs by turning, shifting and scaling it in the plane of the
+picture, in metres where depth is known; then every finger is let turn and stretch by itself. The back of the hand
+faces the camera, so the side decides which of two mirror images it is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.calibration.label_checks import average_palm, is_plausible_palm, leave_one_out_misfit, misfit
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.anatomy import anatomy_from_size
+from carpus.core.model.hand.kinematics import disc_centres
+from carpus.core.model.hand.protocols import SITES, MarkerProtocol, joint_angle_names
+from carpus.core.model.types import Detections, FloatArray, Side
+
+IntArray = NDArray[np.int64]
+
+
+REFERENCE_HAND_M = 0.180
+"""Length of the average hand that is laid over the blobs."""
+MIN_SCALE = 0.62
+"""With :data:`MAX_SCALE`: hands 112 to 225 mm long."""
+MAX_SCALE = 1.25
+"""Largest scale of the average hand."""
+GATE_M = 0.016
+"""Reach of the first, rough laying-over, for a hand of the average length."""
+MAX_REFINED_FITS = 24
+"""So many of the best rough fits are refined; more only cost time."""
+MAX_FIT_DISTANCE_M = 0.011
+"""A disc farther from where the fitted hand has it is not given its name."""
+MIN_LABEL_MARGIN_M = 0.006
+"""By so much another disc must be farther away than the named one."""
+MAX_PROPOSED_MISFIT = 0.12
+"""Share of the palm's size from which one of its discs is something else: simulated hands leave up to 0.05, discs
+stuck 4 mm off up to 0.12."""
+MAX_DEPTH_OFFSET_M = 0.030
+"""A disc farther from the depth of the others lies on something else."""
+DEFAULT_DEPTH_M = 0.7
+"""Distance of the hand where no depth is read."""
+
+
+@dataclass(frozen=True, slots=True)
+class LabelProposal:
+    """``blob`` (M,) index of the blob proposed for each marker, -1 for none; ``is_sure`` (M,) where no other name is
+    nearly as good; ``misfit_m`` (M,) how far the blob lies from where the average hand has it, NaN without one.
+    """
+
+    blob: IntArray
+    is_sure: NDArray[np.bool_]
+    misfit_m: FloatArray
+
+
+def propose_labels(
+    blobs: Detections,
+    camera: Camera,
+    side: Side,
+    protocol: MarkerProtocol,
+    given_labels: Mapping[int, int] | None = None,
+) -> LabelProposal:
+    """Names for the blobs of a flat, neutral hand with its back to the camera.
+
+    ``given_labels``: blobs (values) that a person has named already (keys, rows of ``protocol``); they keep their
+    names and
+    decide between hands that fit alike. Without a likely hand nothing but these is named.
+    """
+    fixed = dict(given_labels or {})
+    rows = np.array(protocol.sites)
+    place = _image_plane_positions(blobs, camera, DEFAULT_DEPTH_M)
+    fits = _find_rough_fits(place, rows, side, fixed)
+    chains = [np.array(chain[1:]) for chain in protocol.chains.values()]
+    refined = [_refine_fit(place, fit, fixed, chains) for fit in fits]
+    if not refined:
+        return _proposal_from_given(fixed, rows.size)
+    best = min(refined, key=lambda one: one.cost)
+    if np.count_nonzero(best.blob >= 0) < max(4, rows.size // 2):
+        return _proposal_from_given(fixed, rows.size)
+    sure = best.is_sure.copy()
+    for other in refined:
+        # Another hand that explains the blobs nearly as well: where it disagrees, nothing is sure.
+        if other.cost < best.cost + 0.5:
+            sure &= other.blob == best.blob
+    if not protocol.has_fingers and (best.blob >= 0).all():
+        # Six discs of the other hand, turned round, may lie within reach too: then a person looks at each name.
+        plan = np.stack((place[best.blob].real, place[best.blob].imag), axis=1)
+        sure &= is_plausible_palm(side, plan)
+    sure[list(fixed)] = True
+    blob = _drop_implausible_palm_labels(best.blob, place, blobs.depth_m, fixed, side, protocol)
+    return LabelProposal(blob, sure & (blob >= 0), np.where(blob >= 0, best.misfit_m, np.nan))
+
+
+def _drop_implausible_palm_labels(
+    blob: IntArray,
+    position: FloatArray,
+    depth_m: FloatArray,
+    given_labels: Mapping[int, int],
+    side: Side,
+    protocol: MarkerProtocol,
+) -> IntArray:
+    """Names (M,) without those on spots that lie where no palm has the disc, which is not in the picture; a person's
+    own names stay. Four discs fit too many things to say which of them is odd."""
+    out, rows = blob.copy(), np.array(protocol.palm)
+    free = np.array([row not in given_labels for row in rows])
+    while np.count_nonzero(out[rows] >= 0) > 4:
+        named = out[rows] >= 0
+        spots = out[rows[named]]
+        off_m = np.abs(depth_m[spots] - np.median(depth_m[spots]))
+        if (off_m > MAX_DEPTH_OFFSET_M).any():
+            badness = off_m
+        else:
+            average, plan = average_palm(side)[named], np.stack((position[spots].real, position[spots].imag), axis=1)
+            if misfit(average, plan) < MAX_PROPOSED_MISFIT:
+                break
+            badness = 1.0 - leave_one_out_misfit(average, plan)
+        badness = np.where(free[named], badness, -1.0)
+        if badness.max() < 0.0:
+            break
+        out[rows[named][int(badness.argmax())]] = -1
+    return out
+
+
+def _proposal_from_given(given_labels: Mapping[int, int], count: int) -> LabelProposal:
+    blob = np.full(count, -1, dtype=np.int64)
+    blob[list(given_labels)] = list(given_labels.values())
+    return LabelProposal(blob, blob >= 0, np.full(count, np.nan))
+
+
+def _image_plane_positions(blobs: Detections, camera: Camera, default_depth_m: float) -> FloatArray:
+    """Places (D,) as complex numbers x - iy in metres, x right and y down in the camera's axes."""
+    known = np.isfinite(blobs.depth_m)
+    usual_m = float(np.median(blobs.depth_m[known])) if known.any() else default_depth_m
+    point = camera.backproject(camera.undistort(blobs.pixel), np.where(known, blobs.depth_m, usual_m))
+    return np.asarray(point[:, 0] - 1j * point[:, 1])
+
+
+@dataclass(frozen=True, slots=True)
+class _HandFit:
+    """A posture laid over the blobs: places (M,) of the markers, complex, and the scale it took."""
+
+    position: FloatArray
+    scale: float
+
+
+@dataclass(frozen=True, slots=True)
+class _LabelledFit:
+    blob: IntArray
+    is_sure: NDArray[np.bool_]
+    misfit_m: FloatArray
+    cost: float
+
+
+@lru_cache(maxsize=4)
+def _flat_postures(side: Side, reference_m: float) -> FloatArray:
+    """Places (P, 21), complex x + iy in W, of the discs of the average hand in usual flat postures."""
+    names = joint_angle_names()
+    hand = anatomy_from_size(reference_m, side=side, nail_discs=True)
+    out = []
+    for spread in (-4.0, 4.0, 12.0):
+        for thumb_extension, thumb_abduction in ((0.0, 5.0), (20.0, 10.0), (35.0, 25.0), (-10.0, 30.0)):
+            angles = dict.fromkeys(names, 0.0)
+            angles |= {"CMC1_extension": thumb_extension, "CMC1_abduction": thumb_abduction}
+            angles |= {"MCP2_abduction": spread, "MCP4_abduction": -spread, "MCP5_abduction": -1.5 * spread}
+            disc = disc_centres(hand, np.radians([angles[name] for name in names]))
+            out.append(disc[:, 0] + 1j * disc[:, 1])
+    return np.array(out)
+
+
+def _find_rough_fits(
+    position: FloatArray, rows: IntArray, side: Side, given_labels: Mapping[int, int]
+) -> list[_HandFit]:
+    """The likeliest ways to lay a posture over the blobs, best first: two of its discs on two of the blobs."""
+    if position.size < 3:
+        return []
+    first, second = (
+        grid.ravel() for grid in np.meshgrid(np.arange(position.size), np.arange(position.size), indexing="ij")
+    )
+    apart = first != second
+    first, second = first[apart], second[apart]
+    found: list[tuple[float, _HandFit]] = []
+    for posture in _flat_postures(side, REFERENCE_HAND_M)[:, rows]:
+        for a, b in _anchor_pairs(rows, given_labels):
+            ends = _anchor_blobs(a, b, first, second, given_labels)
+            turn = (position[ends[1]] - position[ends[0]]) / (posture[b] - posture[a])
+            scale = np.abs(turn)
+            usable = (scale > MIN_SCALE) & (scale < MAX_SCALE)
+            turn, start, scale = turn[usable], position[ends[0]][usable], scale[usable]
+            if not turn.size:
+                continue
+            laid = start[:, None] + turn[:, None] * (posture - posture[a])
+            near2 = (np.abs(laid[:, :, None] - position).min(axis=2) / (GATE_M * scale[:, None])) ** 2
+            # A marker counts the more the nearer a blob is; a hand of the usual size a little more.
+            score = np.maximum(1.0 - near2, 0.0).sum(axis=1) - 2.0 * np.log(scale) ** 2
+            for row, blob in given_labels.items():
+                score -= 4.0 * (np.abs(laid[:, row] - position[blob]) > 2.0 * GATE_M)
+            for i in np.argsort(-score)[:6]:
+                found.append((float(score[i]), _HandFit(laid[i], float(scale[i]))))
+    found.sort(key=lambda one: -one[0])
+    return [fit for _, fit in found[:MAX_REFINED_FITS]]
+
+
+def _anchor_pairs(rows: IntArray, given_labels: Mapping[int, int]) -> list[tuple[int, int]]:
+    """Pairs of markers, far apart, on which a posture is laid; those already named where there are two."""
+    if len(given_labels) >= 2:
+        named = list(given_labels)
+        return [(named[0], other) for other in named[1:]]
+    at = {int(row): i for i, row in enumerate(rows)}
+    names = (("WRIST", "TIP3"), ("WRIST", "MCP3"), ("CMC1", "TIP4"), ("MCP2", "MCP5"), ("TIP2", "TIP5"))
+    pairs = [(at.get(SITES.index(a), -1), at.get(SITES.index(b), -1)) for a, b in names]
+    return [(a, b) for a, b in pairs if a >= 0 and b >= 0]
+
+
+def _anchor_blobs(
+    a: int, b: int, first: IntArray, second: IntArray, given_labels: Mapping[int, int]
+) -> tuple[IntArray, IntArray]:
+    """Blobs on which the markers a and b are laid."""
+    if a in given_labels and b in given_labels:
+        return np.array([given_labels[a]]), np.array([given_labels[b]])
+    return first, second
+
+
+def _refine_fit(
+    position: FloatArray, fit: _HandFit, given_labels: Mapping[int, int], chains: Sequence[IntArray]
+) -> _LabelledFit:
+    """Named by the nearest overall; the whole hand, then each of its digits, moved to what was named."""
+    laid = fit.position
+    reach = 2.2 * GATE_M * fit.scale
+    for step in range(6):
+        blob = _assign_blobs(position, laid, reach, given_labels)
+        laid = _fit_similarity(laid, position, blob) if step < 3 else _fit_digits(laid, position, blob, chains)
+        reach = max(0.7 * reach, MAX_FIT_DISTANCE_M * fit.scale)
+    blob = _assign_blobs(position, laid, reach, given_labels)
+    distance = np.abs(laid[:, None] - position)
+    own = np.where(blob >= 0, distance[np.arange(blob.size), blob], np.nan)
+    others = distance.copy()
+    others[np.arange(blob.size)[blob >= 0], blob[blob >= 0]] = np.inf
+    sure = (blob >= 0) & (others.min(axis=1, initial=np.inf) - own > MIN_LABEL_MARGIN_M * fit.scale)
+    size = math.log(fit.scale)
+    cost = float(np.where(blob >= 0, (own / (MAX_FIT_DISTANCE_M * fit.scale)) ** 2, 2.0).sum()) + 2.0 * size**2
+    return _LabelledFit(blob, sure, own, cost)
+
+
+def _assign_blobs(
+    position: FloatArray, predicted: FloatArray, gate: float, given_labels: Mapping[int, int]
+) -> IntArray:
+    """Blob of every marker (M,), -1 where none is within ``gate``; each blob once, nearest overall."""
+    from scipy.optimize import linear_sum_assignment  # a third of a second to load
+
+    distance = np.abs(predicted[:, None] - position)
+    cost = np.minimum(distance, gate) ** 2
+    for row, blob in given_labels.items():
+        cost[row, :] = cost[:, blob] = 4.0 * gate**2
+        cost[row, blob] = -1.0
+    markers, blobs = linear_sum_assignment(cost)
+    out = np.full(predicted.size, -1, dtype=np.int64)
+    near = distance[markers, blobs] < gate
+    out[markers[near]] = blobs[near]
+    for row, blob in given_labels.items():
+        out[out == blob] = -1
+        out[row] = blob
+    return out
+
+
+def _fit_similarity(predicted: FloatArray, position: FloatArray, blob: IntArray) -> FloatArray:
+    """The markers turned, shifted and scaled as one, so that the named ones lie on their blobs as well as they can."""
+    named = blob >= 0
+    if np.count_nonzero(named) < 2:
+        return predicted
+    mine, theirs = predicted[named], position[blob[named]]
+    centre, middle = mine.mean(), theirs.mean()
+    spread = float((np.abs(mine - centre) ** 2).sum())
+    turn = ((theirs - middle) * np.conj(mine - centre)).sum() / spread if spread > 0.0 else 1.0
+    return np.asarray(middle + turn * (predicted - centre))
+
+
+def _fit_digits(predicted: FloatArray, position: FloatArray, blob: IntArray, chains: Sequence[IntArray]) -> FloatArray:
+    """Each digit turned and stretched about its first named disc, the rest of it following."""
+    out = predicted.copy()
+    if not chains:
+        return _fit_similarity(predicted, position, blob)
+    for chain in chains:
+        named = chain[blob[chain] >= 0]
+        if named.size >= 2:
+            out[chain] = _fit_similarity(predicted[chain], position, blob[chain])
+        elif named.size == 1:
+            out[chain] += position[blob[named[0]]] - predicted[named[0]]
+    return out

@@ -1,0 +1,197 @@
+"""A source with what is kept of its camera: a stored calibration (intrinsics, and depth put right), and the name that a
+person gave to one that does not tell its serial number."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from datetime import UTC, datetime
+from itertools import chain, count
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info
+from carpus.core.capture.source import SERIAL, SERIAL_GIVEN, FrameSource, SourceInfo
+from carpus.core.model.dates import is_moment
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.names import CAMERAS_FOLDER, file_stem
+from carpus.core.model.types import DepthImage, Frame
+from carpus.core.platform.durable import replace_text, write_fault
+
+SUFFIX = ".camera_info.yaml"
+ORIGIN = "calibration"
+_DEPTH_STEP_M = 1e-4
+"""Corrected depth is kept in steps of this: 16 bits reach 6.5 m."""
+_MAX_COUNT = 65535
+_REPLACEABLE_ORIGINS = ("default", "driver", "factory")
+
+
+class CalibratedSource:
+    """``source`` with the intrinsics of ``info``, its depth corrected, and both said in its settings."""
+
+    def __init__(self, source: FrameSource, info: CameraInfo) -> None:
+        assert info.calibration is not None
+        self._source, self._calibration = source, info.calibration
+        self.info: SourceInfo = replace(
+            source.info,
+            camera=replace(info.camera, origin=ORIGIN, sensor=source.info.sensor),
+            settings={
+                **source.info.settings,
+                **_format_calibration_settings(info.calibration, source.info, datetime.now(UTC)),
+            },
+        )
+        self._correction_table: tuple[float, DepthImage] | None = None
+
+    def frames(self) -> Iterator[Frame]:
+        """As the source's, depth corrected."""
+        for frame in self._source.frames():
+            yield self._correct_depth(frame)
+
+    def close(self) -> None:
+        self._source.close()
+
+    def _correct_depth(self, frame: Frame) -> Frame:
+        made = self._calibration
+        if frame.depth_raw is None or (made.depth_scale == 1.0 and made.depth_offset_m == 0.0):
+            return frame
+        if self._correction_table is None or self._correction_table[0] != frame.depth_unit_m:
+            self._correction_table = (frame.depth_unit_m, compute_correction_table(made, frame.depth_unit_m))
+        depth = self._correction_table[1][frame.depth_raw]
+        depth.flags.writeable = False
+        return replace(frame, depth_raw=depth, depth_unit_m=_DEPTH_STEP_M)
+
+
+def compute_correction_table(calibration: StoredCalibration, unit_m: float) -> DepthImage:
+    """True depth in steps of 0.1 mm for each count (65536,) that a camera may give; 0, no reading, stays 0."""
+    measured_m = np.arange(_MAX_COUNT + 1) * unit_m
+    true_m = (measured_m - calibration.depth_offset_m) / calibration.depth_scale
+    counts = np.round(true_m / _DEPTH_STEP_M)
+    return np.where((counts < 1) | (counts > _MAX_COUNT) | (measured_m == 0.0), 0, counts).astype(np.uint16)
+
+
+def with_stored_calibration(source: FrameSource, data_folder: Path) -> FrameSource:
+    """``source`` as the newest stored calibration of its camera has it; itself where there is none, where nobody
+    knows which camera it was, or where it brings intrinsics of its own."""
+    serial = source.info.serial
+    if not serial or source.info.camera.origin not in _REPLACEABLE_ORIGINS:
+        return source
+    info = load_stored_calibration(data_folder, serial)
+    size = (source.info.camera.width_px, source.info.camera.height_px)
+    if info is None or (info.camera.width_px, info.camera.height_px) != size:
+        return source
+    return CalibratedSource(source, info)
+
+
+def load_stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None:
+    """The newest calibration of a camera that can be read; None where there is none."""
+    for path in reversed(list_calibration_files(data_folder, serial)):
+        try:
+            info = read_camera_info(path)
+        except CarpusFault:
+            continue  # a damaged file must not keep anybody from measuring; the doctor names it
+        if info.calibration is not None and info.calibration.serial == serial:
+            return info
+    return None
+
+
+def list_calibration_files(data_folder: Path, serial: str) -> list[Path]:
+    """All stored calibrations of a camera, the oldest first."""
+    return sorted((data_folder / CAMERAS_FOLDER).glob(f"{file_stem(serial)}_*{SUFFIX}"))
+
+
+def new_calibration_path(data_folder: Path, serial: str, time: datetime) -> Path:
+    """Where a calibration made at a time is stored: a free name; the names sort by time."""
+    first = data_folder / CAMERAS_FOLDER / f"{file_stem(serial)}_{time.astimezone(UTC):%Y-%m-%d_%H%M%S}{SUFFIX}"
+    stem = first.name.removesuffix(SUFFIX)
+    further = (first.with_name(f"{stem}_{number:03d}{SUFFIX}") for number in count(2))  # in the same second
+    return next(path for path in chain((first,), further) if not path.exists())
+
+
+def age_days(moment: str, now: datetime) -> float:
+    """Days from a stored moment to now; NaN where it is none."""
+    if not is_moment(moment):
+        return float("nan")
+    return (now - datetime.fromisoformat(moment)).total_seconds() / 86400.0
+
+
+def _format_calibration_settings(calibration: StoredCalibration, info: SourceInfo, now: datetime) -> dict[str, str]:
+    """What a session says of the calibration that it used; its age counts to when the hand moved."""
+    measured = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else now
+    return {
+        "calibrated": calibration.calibrated,
+        "calibration_age_days": f"{age_days(calibration.calibrated, measured):.1f}",
+        "calibration_error_px": f"{calibration.error_px:.2f}",
+        "depth_scale_corrected": f"{calibration.depth_scale:.5f}",
+        "depth_offset_corrected_mm": f"{calibration.depth_offset_m * 1e3:.2f}",
+    }
+
+
+MAX_NAME_CHARACTERS = 40
+_NAMES_FILE = "names.json"
+
+
+class NamedSource:
+    """``source`` with the name that a person gave to its camera."""
+
+    def __init__(self, source: FrameSource, name: str) -> None:
+        self._source = source
+        settings = {**source.info.settings, SERIAL: name, SERIAL_GIVEN: "yes"}
+        self.info: SourceInfo = replace(source.info, settings=settings)
+
+    def frames(self) -> Iterator[Frame]:
+        return self._source.frames()
+
+    def close(self) -> None:
+        self._source.close()
+
+
+def with_given_name(source: FrameSource, data_folder: Path) -> FrameSource:
+    """``source`` under the name that its kind of camera was given; itself where it tells its number, or has no name."""
+    if source.info.serial:
+        return source
+    name = _load_names(data_folder).get(source.info.name, "")
+    return NamedSource(source, name) if name else source
+
+
+def normalize_name(text: str) -> str:
+    """A name as it is kept.
+
+    >>> tidy_name("  room 3\\t left ")
+    'room 3 left'
+    """
+    return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())[
+        :MAX_NAME_CHARACTERS
+    ].strip()
+
+
+def save_camera_name(data_folder: Path, kind: str, name: str) -> str:
+    """From now on cameras of a kind that do not tell their number are called so: the name as it is kept. A name
+    that another kind has gets the kind added, else one would be seen through the other's calibration.
+
+    Raises :class:`OutputNotWritable` or :class:`DiskFull`.
+    """
+    path = data_folder / CAMERAS_FOLDER / _NAMES_FILE
+    others = {other: taken for other, taken in _load_names(data_folder).items() if other != kind}
+    kept = normalize_name(name)
+    if kept in others.values():
+        of_kind = f" ({normalize_name(kind)[: MAX_NAME_CHARACTERS // 2]})"
+        kept = normalize_name(kept[: MAX_NAME_CHARACTERS - len(of_kind)] + of_kind)
+    names = {**others, kind: kept}
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as cause:
+        raise write_fault(path, cause) from cause
+    replace_text(path, json.dumps(names, ensure_ascii=False))
+    return kept
+
+
+def _load_names(data_folder: Path) -> dict[str, str]:
+    try:
+        known = json.loads((data_folder / CAMERAS_FOLDER / _NAMES_FILE).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return {}
+    if not isinstance(known, dict):
+        return {}
+    return {str(kind): tidy for kind, name in known.items() if isinstance(name, str) and (tidy := normalize_name(name))}

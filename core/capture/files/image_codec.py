@@ -1,0 +1,216 @@
+"""Single pictures as bytes: depth as PNG without loss, colour as JPEG or as PNG without loss; a damaged one is told,
+never half of it given. Or as a grid of tiles, each packed by itself: only what is looked at needs to be unpacked.
+
+Layout of tiles, little-endian: u16 width, u16 height, u32 size of each tile, row by row, then the tiles. One that is
+all zero has no byte. JPEG's blocks are of 8 pixels, so a colour picture is the same by tiles as it is whole.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+import zlib
+from collections.abc import Callable
+from functools import lru_cache
+from itertools import accumulate, pairwise, product
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.model.errors import FrameDamaged, RecordingUnreadable
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import ByteImage, DepthImage, Region
+
+JPEG_QUALITY = 95
+_JPEG = [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY, cv2.IMWRITE_JPEG_SAMPLING_FACTOR, 0x111111]
+"""No chroma subsampling: the markers' edges keep their colour."""
+_PNG = [cv2.IMWRITE_PNG_COMPRESSION, 1, cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
+"""Fast, and what is black or has no depth costs next to nothing; searching for repetitions finds none in noise."""
+
+
+def encode_color(color_rgb: ByteImage, *, lossless: bool = False) -> bytes:
+    """A colour picture (H, W, 3) as JPEG of quality 95, or as PNG."""
+    bgr = cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR)
+    return _encode(".png", bgr, _PNG) if lossless else _encode(".jpg", bgr, _JPEG)
+
+
+def encode_depth(depth_raw: DepthImage) -> bytes:
+    """A depth picture (H, W) uint16 as PNG."""
+    return _encode(".png", depth_raw, _PNG)
+
+
+def decode_color(data: bytes | memoryview) -> ByteImage | None:
+    """Inverse of :func:`encode_color`, read-only; None when it is no colour picture."""
+    picture = _decode(data, cv2.IMREAD_COLOR_RGB)
+    return picture if picture is not None and picture.ndim == 3 and picture.dtype == np.uint8 else None
+
+
+def decode_depth(data: bytes | memoryview) -> DepthImage | None:
+    """Inverse of :func:`encode_depth`, read-only; None when it is no depth picture."""
+    picture = _decode(data, cv2.IMREAD_UNCHANGED)
+    return picture if picture is not None and picture.ndim == 2 and picture.dtype == np.uint16 else None
+
+
+def _encode(kind: str, picture: NDArray[Any], options: list[int]) -> bytes:
+    done, data = cv2.imencode(kind, picture, options)
+    assert done
+    return data.tobytes()
+
+
+def _decode(data: bytes | memoryview, flags: int) -> NDArray[Any] | None:
+    if not data:
+        return None
+    try:
+        picture: NDArray[Any] | None = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
+    except cv2.error:
+        return None
+    if picture is not None:
+        picture.flags.writeable = False
+    return picture
+
+
+TILE_PX = 80
+"""Smaller ones cost more bytes and calls, larger ones more pixels that nobody looks at."""
+MAX_IMAGE_BYTES = 1 << 27
+_SIZE = struct.Struct("<HH")
+
+AnyImage = TypeVar("AnyImage", bound=NDArray[Any])
+
+
+@lru_cache(maxsize=4)
+def _tile_slices(width: int, height: int) -> tuple[tuple[slice, slice], ...]:
+    rows, columns = ([slice(begin, begin + TILE_PX) for begin in range(0, size, TILE_PX)] for size in (height, width))
+    return tuple(product(rows, columns))
+
+
+def pack_tiles(image: NDArray[Any], encode: Callable[[Any], bytes]) -> bytes:
+    """The picture's tiles, each as ``encode`` packs it."""
+    height, width = image.shape[:2]
+    each = (image[row, column] for row, column in _tile_slices(width, height))
+    tiles = [encode(tile) if tile.any() else b"" for tile in each]
+    return b"".join((_SIZE.pack(width, height), struct.pack(f"<{len(tiles)}I", *map(len, tiles)), *tiles))
+
+
+class TiledImage(Generic[AnyImage]):
+    """A packed picture. ``blank`` is an empty one of its kind, ``decode`` the inverse of what packed its tiles.
+
+    Raises :class:`RecordingUnreadable`, which names ``path``, here or where a tile is unpacked.
+    """
+
+    def __init__(
+        self, path: Path, data: bytes, blank: AnyImage, decode: Callable[[memoryview], AnyImage | None]
+    ) -> None:
+        self._path, self._decode, self._data = path, decode, memoryview(data)
+        if len(data) < _SIZE.size:
+            raise self._decode_error()
+        width, height = _SIZE.unpack_from(data)
+        shape = (height, width, *blank.shape[2:])
+        if not 0 < math.prod(shape) * blank.itemsize <= MAX_IMAGE_BYTES:
+            raise self._decode_error()
+        self._tiles = _tile_slices(width, height)
+        self._columns = -(-width // TILE_PX)
+        first = _SIZE.size + 4 * len(self._tiles)
+        if first > len(data):
+            raise self._decode_error()
+        ends = [*accumulate(struct.unpack_from(f"<{len(self._tiles)}I", data, _SIZE.size), initial=first)]
+        if ends[-1] != len(data):
+            raise self._decode_error()
+        self._bounds = [*pairwise(ends)]
+        self._image: Any = np.zeros(shape, blank.dtype)
+        given: Any = self._image.view()
+        given.flags.writeable = False
+        self._read_only_view: AnyImage = given
+
+    @property
+    def size_px(self) -> tuple[int, int]:
+        height, width = self._image.shape[:2]
+        return width, height
+
+    def decode(self, region: Region | None) -> AnyImage:
+        """The picture, read-only, unpacked at least within ``region``, or all of it."""
+        width, height = self.size_px
+        region = Region(0, 0, width, height) if region is None else region.clip(width, height)
+        for row in range(region.top // TILE_PX, -(-region.bottom // TILE_PX)):
+            for column in range(region.left // TILE_PX, -(-region.right // TILE_PX)):
+                number = row * self._columns + column
+                begin, end = self._bounds[number]
+                if begin < end:
+                    self._decode_tile(number, self._data[begin:end])
+                    self._bounds[number] = (end, end)
+        return self._read_only_view
+
+    def _decode_tile(self, number: int, data: memoryview) -> None:
+        tile, place = self._decode(data), self._image[self._tiles[number]]
+        if tile is None or tile.shape != place.shape:
+            raise self._decode_error()
+        place[:] = tile
+
+    def _decode_error(self) -> RecordingUnreadable:
+        return RecordingUnreadable(self._path, phrase("not a picture"))
+
+
+_PNG_START = b"\x89PNG\r\n\x1a\n"
+_GREY_TYPES = (0, 4)
+
+
+def read_color(path: Path) -> ByteImage:
+    """Colour picture (H, W, 3) uint8 RGB, read-only."""
+    data = _read_checked_bytes(path)
+    if data.startswith(_PNG_START):
+        bits, color_type = data[24], data[25]
+        if color_type in _GREY_TYPES:
+            raise FrameDamaged(path, phrase("grey, a colour picture is expected"))
+        if bits > 8:
+            raise FrameDamaged(path, phrase("{bits} bits per colour, 8 are expected", bits=bits))
+    return _decode_or_raise(path, data, cv2.IMREAD_COLOR_RGB)
+
+
+def read_depth(path: Path) -> DepthImage:
+    """Depth picture (H, W) uint16, read-only."""
+    depth = _decode_or_raise(path, _read_checked_bytes(path), cv2.IMREAD_UNCHANGED)
+    if depth.ndim != 2:
+        raise FrameDamaged(path, phrase("in colour, a depth picture of 16 bits is expected"))
+    if depth.dtype != np.uint16:
+        raise FrameDamaged(
+            path, phrase("{value} bits, a depth picture of 16 bits is expected", value=8 * depth.dtype.itemsize)
+        )
+    return depth
+
+
+def _read_checked_bytes(path: Path) -> bytes:
+    """The file's bytes; of a PNG every checksum is compared, for a decoder may fill a damaged rest with grey."""
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError as cause:
+        raise FrameDamaged(path, phrase("missing")) from cause
+    except OSError as cause:
+        raise FrameDamaged(path, cause.strerror or phrase("cannot be opened")) from cause
+    if not data:
+        raise FrameDamaged(path, phrase("empty file"))
+    if data.startswith(_PNG_START) and not _is_png_complete(data):
+        raise FrameDamaged(path, phrase("cut off or altered"))
+    return data
+
+
+def _is_png_complete(data: bytes) -> bool:
+    view = memoryview(data)
+    at = len(_PNG_START)
+    while at + 12 <= len(data):
+        length, name = struct.unpack_from(">I4s", data, at)
+        end = at + 8 + length
+        if end + 4 > len(data) or zlib.crc32(view[at + 4 : end]) != struct.unpack_from(">I", data, end)[0]:
+            return False
+        if name == b"IEND":
+            return True
+        at = end + 4
+    return False
+
+
+def _decode_or_raise(path: Path, data: bytes, flags: int) -> NDArray[Any]:
+    picture = _decode(data, flags)
+    if picture is None:
+        raise FrameDamaged(path, phrase("not a picture"))
+    return picture

@@ -1,0 +1,181 @@
+"""A new file that is whole or not there, and never takes the place of another."""
+
+from __future__ import annotations
+
+import csv
+import errno
+import json
+import math
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any, Protocol
+
+from carpus.core.model.errors import OutputExists, OutputNotWritable
+from carpus.core.platform.durable import open_private, write_fault
+
+PART_SUFFIX = ".half"
+_FORMULA_STARTS = tuple("=+-@\t\r\n")
+_NUMBER_PATTERN = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+
+
+class SupportsWrite(Protocol):
+    """What :mod:`csv` writes to."""
+
+    def write(self, text: str, /) -> int: ...
+
+
+@contextmanager
+def open_new_file(path: Path, *, overwrite: bool = False) -> Iterator[IO[bytes]]:
+    """A file to write, which gets its name only when all of it is written; ``overwrite`` the one that has it.
+
+    Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-done stays.
+    """
+    if path.exists() and not overwrite:
+        raise OutputExists(path)
+    half = path.with_name(path.name + PART_SUFFIX)
+    try:
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            half.unlink(missing_ok=True)  # of a run that was killed
+            with open(half, "xb", opener=open_private) as file:
+                yield file
+            if overwrite:
+                half.replace(path)
+            else:
+                _publish(half, path)
+        except FileExistsError as cause:
+            raise OutputExists(path) from cause
+        except OSError as cause:
+            raise write_fault(path, cause) from cause
+    finally:
+        with suppress(OSError):  # a disk that can only be read says so of what is not there too
+            half.unlink(missing_ok=True)
+
+
+def require_folder(path: Path) -> None:
+    """Where a person names one file its folder is there; none is made: its name may be misspelt.
+
+    Raises :class:`OutputNotWritable`.
+    """
+    if not path.parent.is_dir():
+        raise OutputNotWritable(path, os.strerror(errno.ENOENT))
+
+
+def write_new_text(path: Path, text: str, *, overwrite: bool = False) -> Path:
+    """Write a text as a new file, lines ended by a line feed alone."""
+    with open_new_file(path, overwrite=overwrite) as file:
+        file.write(text.encode("utf-8"))
+    return path
+
+
+def write_new_json(path: Path, content: Any, *, overwrite: bool = False) -> Path:
+    """Write JSON that every reader takes: what is not known is null, never NaN."""
+    return write_new_text(
+        path, json.dumps(nan_to_none(content), indent=2, ensure_ascii=False) + "\n", overwrite=overwrite
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class TableDialect:
+    """How a table of texts is written. ``has_bom``: begins with the byte order mark, by which a spreadsheet knows
+    UTF-8."""
+
+    separator: str = ","
+    decimal: str = "."
+    has_bom: bool = False
+
+    def to_cell(self, text: str) -> str:
+        """A cell as a spreadsheet shows it and does not calculate it, numbers with the form's decimal sign.
+
+        >>> TableForm(";", ",").to_cell("-1.5"), TableForm(";", ",").to_cell("=1+2")
+        ('-1,5', "'=1+2")
+        """
+        text = escape_formula(text)
+        return text.replace(".", self.decimal) if self.decimal != "." and _NUMBER_PATTERN.fullmatch(text) else text
+
+
+MACHINE_DIALECT = TableDialect()
+"""The same in every country."""
+TAB_DIALECT = TableDialect("\t")
+
+
+def write_new_table(
+    path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], dialect: TableDialect = MACHINE_DIALECT, *,
+    overwrite: bool = False,
+) -> Path:  # fmt: skip
+    """Write a table row by row; ``head`` may be empty. No cell is calculated by a spreadsheet that opens it."""
+    with open_new_file(path, overwrite=overwrite) as file:
+        text = _Utf8Writer(file)
+        if dialect.has_bom:
+            text.write("\ufeff")
+        write_rows(text, head, rows, dialect)
+    return path
+
+
+def write_rows(
+    text: SupportsWrite, head: Sequence[str], rows: Iterable[Iterable[str]], dialect: TableDialect = MACHINE_DIALECT
+) -> None:
+    """Write a table into a text; ``head`` may be empty."""
+    table = csv.writer(text, delimiter=dialect.separator, lineterminator="\n")
+    if head:
+        table.writerow(head)
+    table.writerows([dialect.to_cell(cell) for cell in row] for row in rows)
+
+
+def escape_formula(text: str) -> str:
+    """A cell that a spreadsheet shows and does not calculate; numbers are left as they are.
+
+    >>> plain_cell("=1+2"), plain_cell("fist"), plain_cell("-1.5e3")
+    ("'=1+2", 'fist', '-1.5e3')
+    """
+    return text if text[:1] not in _FORMULA_STARTS or not text or _NUMBER_PATTERN.fullmatch(text) else f"'{text}"
+
+
+def format_cell(value: Any) -> str:
+    """A value as a table has it: unknown is empty, numbers to six digits that count."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.6g}" if math.isfinite(value) else ""
+    return str(value)
+
+
+def nan_to_none(value: Any) -> Any:
+    """The same with None for every number that is not finite, and plain numbers for NumPy's.
+
+    >>> without_nan({"a": [1.0, float("nan")]})
+    {'a': [1.0, None]}
+    """
+    if isinstance(value, Mapping):
+        return {str(name): nan_to_none(one) for name, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [nan_to_none(one) for one in value]
+    if hasattr(value, "tolist"):
+        return nan_to_none(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+class _Utf8Writer:
+    """What :mod:`csv` writes to, over a file of bytes."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._file = file
+
+    def write(self, text: str) -> int:
+        return self._file.write(text.encode("utf-8"))
+
+
+def _publish(half: Path, path: Path) -> None:
+    """The name in one step that does not replace; on file systems without links by a look before."""
+    try:
+        os.link(half, path)
+    except FileExistsError:
+        raise
+    except OSError:
+        if path.exists():
+            raise FileExistsError(path) from None
+        half.rename(path)

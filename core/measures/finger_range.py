@@ -1,0 +1,248 @@
+"""Range of the joints of the fingers and total active motion (TAM), clinical reference 4.3; hidden joints do not count.
+
+A joint is seen where both discs that show it, the one over it and the next one outwards, have a blob. Repetitions are
+cut on the tracked angle, also through hidden stretches, because a fist goes out of sight at its very end; figures
+come from seen samples alone, and say where the hidden rest may have gone further.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.measures.motion_range import MIN_REPETITIONS_FOR_SD, MotionRange, RangeStatistics, motion_range
+from carpus.core.measures.noise import MAX_CUTOFF_HZ
+from carpus.core.measures.repetitions import Repetition
+from carpus.core.measures.signals import MAX_ANGLE_SD_RAD, BoolArray, Signal, low_pass, resample_evenly
+from carpus.core.model.hand.anatomy import HARD_LIMITS_RAD
+from carpus.core.model.hand.kinematics import DIP_PER_PIP
+from carpus.core.model.hand.protocols import markers_at_joint
+from carpus.core.model.types import FloatArray, TrackStatus
+
+MIN_VISIBLE_SHARE = 0.3
+"""A repetition in which a joint was seen for less says nothing of that joint."""
+LIMIT_TOLERANCE_RAD = math.radians(15.0)
+"""So far beyond the limits of a joint an error of tracking may carry its angle."""
+MIN_FURTHER_RAD = math.radians(5.0)
+"""How far a hidden joint must have been able to go beyond what was seen to be told."""
+FINGERS = (1, 2, 3, 4, 5)
+
+
+@dataclass(frozen=True, slots=True)
+class JointTrack:
+    """One joint over the recording: ``visible`` low-passed angle and its sd with gaps where hidden, ``tracked`` the
+    filter's angle and sd whether seen or not, all rad; ``visible_share`` of all frames."""
+
+    name: str
+    visible: Signal
+    visible_sd: Signal
+    tracked: Signal
+    tracked_sd: Signal
+    visible_share: float
+    smoothed: bool | None = None
+    """Whether the smoother tracked it, or the filter; None for an angle without noise of tracking."""
+
+    @property
+    def is_known(self) -> bool:
+        return len(self.visible.time_s) > 0 and bool(self.visible.is_finite.any())
+
+
+def visible_joints(joint_names: Sequence[str], markers: Sequence[str], measured_px: FloatArray) -> BoolArray:
+    """Frames and joints (N, J) with a blob at both discs that show the joint; ``measured_px`` (N, M, 2) of
+    ``markers``."""
+    has_blob = np.isfinite(measured_px[..., 0])
+    rows = [[markers.index(disc) for disc in markers_at_joint(name)] for name in joint_names]
+    at, past = np.array(rows, dtype=np.int64).reshape(-1, 2).T
+    return np.asarray(has_blob[:, at] & has_blob[:, past], dtype=np.bool_)
+
+
+def valid_joints(
+    status: NDArray[np.integer], visible: BoolArray, angles_rad: FloatArray, angles_sd_rad: FloatArray
+) -> BoolArray:
+    """Samples (N, J) that count: tracked, seen, known, and sure enough."""
+    with np.errstate(invalid="ignore"):
+        sure = np.isfinite(angles_rad) & (angles_sd_rad <= MAX_ANGLE_SD_RAD)
+    return np.asarray(visible & sure & (status == TrackStatus.TRACKED)[:, None], dtype=np.bool_)
+
+
+def plausible_joints(names: Sequence[str], angles_rad: FloatArray) -> BoolArray:
+    """Angles (N, J) that a hand can have: within the limits of the model or a little beyond. What lies outside is no
+    angle, whatever its standard deviation, such as the first frames after pictures were missing for long."""
+    low, high = np.array([HARD_LIMITS_RAD[name] for name in names]).T
+    with np.errstate(invalid="ignore"):
+        return np.asarray(
+            (angles_rad >= low - LIMIT_TOLERANCE_RAD) & (angles_rad <= high + LIMIT_TOLERANCE_RAD), dtype=np.bool_
+        )
+
+
+def joint_track(
+    name: str,
+    timestamp_s: FloatArray,
+    angle_rad: FloatArray,
+    sd_rad: FloatArray,
+    valid: BoolArray,
+    smoothed: bool | None = None,
+) -> JointTrack:
+    """One joint from its columns (N,) of the session."""
+    both = np.column_stack((angle_rad, sd_rad))
+    seen, tracked = resample_evenly(timestamp_s, both, valid), resample_evenly(timestamp_s, both)
+    return JointTrack(
+        name,
+        low_pass(seen.column(0), MAX_CUTOFF_HZ),
+        seen.column(1),
+        tracked.column(0),
+        tracked.column(1),
+        seen.valid_share,
+        smoothed,
+    )
+
+
+def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionRange:
+    """Largest, smallest angle and arc over the repetitions in which the joint was seen, or over the whole recording
+    where nothing was repeated.
+
+    Three repetitions or more whose extremes were surely seen stand for all; else all count, and ``top_limited`` and
+    ``bottom_limited`` say that the joint may have gone further while hidden.
+    """
+    usable = _usable_repetitions(track.visible, repetitions)
+    if not track.is_known or (repetitions and not usable):
+        nothing = RangeStatistics(np.empty(0), math.nan, math.nan)
+        return MotionRange(nothing, nothing, nothing, 0, True, True)
+    limits = []
+    for start_s, end_s in _windows(track.visible, usable):
+        part = track.visible.crop(start_s, end_s).value
+        hidden = _occluded_samples(track.tracked, track.visible, start_s, end_s)
+        angle, sd = track.tracked.value[hidden], track.tracked_sd.value[hidden]
+        limits.append((_is_exceeded(angle - np.nanmax(part) + sd), _is_exceeded(np.nanmin(part) - angle + sd)))
+    whole = tuple(rep for rep, limit in zip(usable, limits, strict=False) if not any(limit))
+    if len(whole) >= MIN_REPETITIONS_FOR_SD:
+        return replace(
+            motion_range(track.visible, track.visible_sd, whole, smoothed=track.smoothed),
+            top_limited=False,
+            bottom_limited=False,
+        )
+    measured = motion_range(track.visible, track.visible_sd, usable, smoothed=track.smoothed)
+    top, bottom = (any(limit[end] for limit in limits) for end in (0, 1))
+    return replace(measured, top_limited=top, bottom_limited=bottom)
+
+
+def flexion_weights(count: int, *, inferred: bool) -> FloatArray:
+    """Of the joints (count,) of a finger in its bending, base first; an end joint that is inferred counts with the one
+    before it."""
+    weights = np.ones(count)
+    weights[-1] += DIP_PER_PIP if inferred else 0.0
+    return weights
+
+
+def total_active_motion(
+    tracks: Sequence[JointTrack], repetitions: Sequence[Repetition], *, inferred: bool
+) -> MotionRange:
+    """TAM of one finger (``arc``) from its bending joints, base first: MCP, PIP and, if measured, DIP; of the thumb MCP
+    and IP; with the flexion and the deficit that it is made of (``maximum``, ``minimum``).
+
+    In each repetition: the sum of the joints' bending at the moment it is largest, less the sum of what is missing to
+    straight at the moment it is smallest; bending backwards counts 0 in both. Both moments need all joints seen. With
+    ``inferred`` the end joint is taken as two thirds of the last joint given. Limited where hidden stretches may hold
+    more, in more repetitions than may be left out.
+    """
+    weight = flexion_weights(len(tracks), inferred=inferred)
+    nothing = RangeStatistics(np.empty(0), math.nan, math.nan)
+    if not all(track.is_known for track in tracks):
+        return MotionRange(nothing, nothing, nothing, 0, True, True)
+    time_s, seen, seen_sd = _align_signals([track.visible for track in tracks], [track.visible_sd for track in tracks])
+    bend = np.maximum(seen, 0.0) * weight
+    sum_of = Signal(time_s, bend.sum(axis=1), tracks[0].visible.rate_hz, 1.0, np.empty((0, 2)))
+    variance = (seen_sd * weight) ** 2
+    usable = _usable_repetitions(sum_of, repetitions)
+    nowhere = (repetitions and not usable) or not sum_of.is_finite.any()
+    windows = [] if nowhere else _windows(sum_of, usable)
+    found: list[tuple[float, float, float, bool]] = []
+    for start_s, end_s in windows:
+        part = sum_of.crop(start_s, end_s)
+        first = int(np.searchsorted(time_s, part.time_s[0]))
+        top, bottom = first + int(np.nanargmax(part.value)), first + int(np.nanargmin(part.value))
+        bent_back = seen[bottom] <= 0.0
+        error = float(variance[top].sum() + np.where(bent_back, 0.0, variance[bottom]).sum())
+        full, missing = float(sum_of.value[top]), float(sum_of.value[bottom])
+        found.append((full, missing, error, _is_sum_exceeded(tracks, weight, start_s, end_s, sum_of, full, missing)))
+    whole = [item for item in found if not item[3]]
+    kept = whole if len(whole) >= MIN_REPETITIONS_FOR_SD else found
+    flexion, deficit = (np.array([item[k] for item in kept]) for k in (0, 1))
+    sd = math.sqrt(sum(item[2] for item in kept) / len(kept)) if kept else math.nan
+    total, limited = flexion - deficit, not kept or any(item[3] for item in kept)
+    return MotionRange(
+        arc=RangeStatistics(total, float(total.max()) if kept else math.nan, sd),
+        maximum=RangeStatistics(flexion, float(flexion.max()) if kept else math.nan, sd),
+        minimum=RangeStatistics(deficit, float(deficit.min()) if kept else math.nan, sd),
+        repetitions=len(usable),
+        top_limited=limited,
+        bottom_limited=limited,
+    )
+
+
+def _usable_repetitions(signal: Signal, repetitions: Sequence[Repetition]) -> tuple[Repetition, ...]:
+    """The repetitions of which enough was seen, with full marks."""
+    out = []
+    for repetition in repetitions:
+        finite = signal.crop(repetition.start_s, repetition.end_s).is_finite
+        if (
+            finite.sum() >= MIN_VISIBLE_SHARE * (repetition.end_s - repetition.start_s) * signal.rate_hz
+            and finite.any()
+        ):
+            out.append(replace(repetition, valid_share=1.0))
+    return tuple(out)
+
+
+def _windows(signal: Signal, repetitions: Sequence[Repetition]) -> list[tuple[float, float]]:
+    windows = [(rep.start_s, rep.end_s) for rep in repetitions]
+    return windows or [(float(signal.time_s[0]), float(signal.time_s[-1]))]
+
+
+def _is_exceeded(further_rad: FloatArray) -> bool:
+    """Whether a hidden joint may have gone further than was seen; where nothing at all is known it may."""
+    return bool((~np.isfinite(further_rad) | (further_rad > MIN_FURTHER_RAD)).any())
+
+
+def _is_sum_exceeded(
+    tracks: Sequence[JointTrack],
+    weight: FloatArray,
+    start_s: float,
+    end_s: float,
+    visible: Signal,
+    top: float,
+    low: float,
+) -> bool:
+    time_s, angle, sd = _align_signals([t.tracked for t in tracks], [t.tracked_sd for t in tracks])
+    bend = (np.maximum(angle, 0.0) * weight).sum(axis=1)
+    spread = np.sqrt(((sd * weight) ** 2).sum(axis=1))
+    base = Signal(time_s, bend, tracks[0].tracked.rate_hz, 1.0, np.empty((0, 2)))
+    hidden = _occluded_samples(base, visible, start_s, end_s)
+    return _is_exceeded(np.maximum(bend[hidden] - top, low - bend[hidden]) + spread[hidden])
+
+
+def _occluded_samples(base: Signal, visible: Signal, start_s: float, end_s: float) -> NDArray[np.intp]:
+    """Samples of a base inside a window at which a signal has nothing."""
+    inside = np.flatnonzero((base.time_s >= start_s) & (base.time_s <= end_s))
+    known = visible.time_s[visible.is_finite]
+    if not len(known):
+        return np.asarray(inside)
+    right = np.clip(np.searchsorted(known, base.time_s[inside]), 0, len(known) - 1)
+    left = np.maximum(right - 1, 0)
+    nearest = np.minimum(np.abs(known[right] - base.time_s[inside]), np.abs(known[left] - base.time_s[inside]))
+    return np.asarray(inside[nearest > 0.5 / base.rate_hz + 1e-9])
+
+
+def _align_signals(values: Sequence[Signal], sds: Sequence[Signal]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Several signals on the first one's times: times (n,), values (n, k) and sds (n, k), NaN where one has a gap."""
+    time_s = values[0].time_s
+    return time_s, _interpolate_columns(time_s, values), _interpolate_columns(time_s, sds)
+
+
+def _interpolate_columns(time_s: FloatArray, signals: Sequence[Signal]) -> FloatArray:
+    # Linear between two samples of one period; a NaN beside the time stays one.
+    columns = [np.interp(time_s, s.time_s, s.value, left=math.nan, right=math.nan) for s in signals]
+    return np.asarray(np.column_stack(columns), dtype=np.float64)

@@ -1,0 +1,327 @@
+"""What can be measured by hand, one line each; what was entered, what counts of it, and whether a change is one.
+
+Licensed questionnaires are entered as their totals only. ``min_real_change`` is what a change must exceed to be
+called one;
+it is of that way of measuring, and says nothing of ours. NaN where no figure was found: then nothing is judged.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from datetime import date, datetime
+from typing import Literal
+
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import Side
+
+Kind = Literal["angle", "force", "size", "score"]
+Better = Literal["more", "less", ""]
+Unit = Literal["deg", "kg", "cm", "ml", "points"]
+Mode = Literal["active", "passive", ""]
+
+GONIOMETER_DEG = 10.0
+"""A change commonly asked for per joint; two days apart 12 to 30 degrees were found (clinical reference 6.3, C30)."""
+ANGLE_SOURCE = "commonly quoted for one rater"
+SCORE_SOURCE = "Sorensen 2013"
+
+
+@dataclass(frozen=True, slots=True)
+class ManualMeasure:
+    """One thing that can be measured by hand.
+
+    ``min_value`` and ``most`` can be entered at all; outside ``usual_range`` the person is asked to look again.
+    ``tries`` are
+    averaged. ``is_per_hand``: it is of one hand, else of the person. ``measure_id`` is empty of angles: it follows
+    from the id.
+    ``session_measure`` is what Carpus measures of the same: angle or joint, and movement. ``is_default``: on the form
+    without
+    being asked for.
+    """
+
+    id: str
+    kind: Kind
+    unit: Unit
+    min_value: float
+    max_value: float
+    usual_range: tuple[float, float]
+    better_direction: Better
+    min_real_change: float
+    source: str
+    modes: tuple[Mode, ...] = ("",)
+    trial_count: int = 1
+    is_per_hand: bool = True
+    session_measure: tuple[str, str] | None = None
+    is_default: bool = False
+    decimals: int = 0
+    name: str = ""
+
+
+def _angle_measure(
+    name: str, usual_max: float, session_measure: tuple[str, str] | None, *, is_default: bool = False
+) -> ManualMeasure:
+    return ManualMeasure(
+        name, "angle", "deg", -90.0, 180.0, (-20.0, usual_max), "more", GONIOMETER_DEG, ANGLE_SOURCE,
+        modes=("active", "passive"), session_measure=session_measure, is_default=is_default,
+    )  # fmt: skip
+
+
+def _force_measure(
+    id: str, name: str, usual_max: float, min_real_change: float, source: str, *, is_default: bool = False
+) -> ManualMeasure:
+    return ManualMeasure(
+        id,
+        "force",
+        "kg",
+        0.0,
+        150.0,
+        (0.0, usual_max),
+        "more",
+        min_real_change,
+        source,
+        trial_count=3,
+        is_default=is_default,
+        decimals=1,
+        name=name,
+    )
+
+
+def _size_measure(
+    id: str,
+    name: str,
+    min_value: float,
+    max_value: float,
+    usual_range: tuple[float, float],
+    *,
+    is_default: bool = False,
+) -> ManualMeasure:
+    return ManualMeasure(
+        id,
+        "size",
+        "cm",
+        min_value,
+        max_value,
+        usual_range,
+        "",
+        math.nan,
+        "",
+        is_default=is_default,
+        decimals=1,
+        name=name,
+    )
+
+
+def _score_measure(
+    id: str,
+    name: str,
+    max_value: float,
+    better_direction: Better,
+    min_real_change: float,
+    source: str,
+    *,
+    is_default: bool = False,
+) -> ManualMeasure:
+    return ManualMeasure(
+        id,
+        "score",
+        "points",
+        0.0,
+        max_value,
+        (0.0, max_value),
+        better_direction,
+        min_real_change,
+        source,
+        is_per_hand=False,
+        is_default=is_default,
+        decimals=1,
+        name=name,
+    )
+
+
+_WRIST = (
+    _angle_measure("FLEXION", 100.0, ("flexion", "flexion"), is_default=True),
+    _angle_measure("EXTENSION", 95.0, ("flexion", "extension"), is_default=True),
+    _angle_measure("RADIAL", 40.0, ("deviation", "radial"), is_default=True),
+    _angle_measure("ULNAR", 55.0, ("deviation", "ulnar"), is_default=True),
+    _angle_measure("PRONATION", 100.0, ("pronosupination", "pronation")),
+    _angle_measure("SUPINATION", 105.0, ("pronosupination", "supination")),
+)
+_USUAL_MAX_THUMB_DEG = {"MCP": 80.0, "IP": 100.0}
+_USUAL_MAX_FINGER_DEG = {"MCP": 100.0, "PIP": 125.0, "DIP": 100.0}
+_JOINTS = tuple(
+    measure
+    for finger in (1, 2, 3, 4, 5)
+    for joint, most in (_USUAL_MAX_THUMB_DEG if finger == 1 else _USUAL_MAX_FINGER_DEG).items()
+    for measure in (
+        _angle_measure(f"{joint}{finger}_FLEXION", most, (f"{joint}{finger}_flexion", "flexion")),
+        # Carpus's least bent angle is no extension of the joint by itself: the two do not stand beside each other.
+        _angle_measure(f"{joint}{finger}_EXTENSION", 45.0, None),
+    )
+)
+
+MEASURES: tuple[ManualMeasure, ...] = (
+    *_WRIST,
+    _force_measure("GRIP", phrase("Grip"), 80.0, 6.5, "Kim 2014, Bohannon 2019", is_default=True),
+    _force_measure("KEY_PINCH", phrase("Key pinch"), 15.0, math.nan, "", is_default=True),
+    _force_measure("THREE_POINT_PINCH", phrase("Three-point pinch"), 15.0, math.nan, ""),
+    _force_measure("TIP_PINCH", phrase("Tip pinch"), 12.0, math.nan, ""),
+    _size_measure("WRIST_ROUND", phrase("Round the wrist"), 5.0, 40.0, (11.0, 25.0), is_default=True),
+    _size_measure("PALM_ROUND", phrase("Round the palm"), 5.0, 50.0, (14.0, 30.0)),
+    _size_measure("FIGURE_OF_EIGHT", phrase("Figure of eight"), 10.0, 80.0, (30.0, 60.0)),
+    ManualMeasure(
+        "VOLUME", "size", "ml", 50.0, 1500.0, (200.0, 800.0), "", math.nan, "", name=phrase("Volume of the hand")
+    ),
+    _score_measure("PRWE", "PRWE", 100.0, "less", 14.0, SCORE_SOURCE, is_default=True),
+    _score_measure("QUICK_DASH", "QuickDASH", 100.0, "less", 14.0, SCORE_SOURCE),
+    _score_measure("DASH", "DASH", 100.0, "less", 10.0, SCORE_SOURCE),
+    _score_measure("MHQ", "MHQ", 100.0, "more", math.nan, ""),
+    _score_measure("PAIN_AT_REST", phrase("Pain at rest"), 10.0, "less", 2.0, "Farrar 2001", is_default=True),
+    _score_measure("PAIN_MOVING", phrase("Pain when moving"), 10.0, "less", 2.0, "Farrar 2001"),
+    *_JOINTS,
+)
+
+
+def find_manual_measure(measure_id: str) -> ManualMeasure:
+    """A measure by its id. Raises KeyError for one that this Carpus does not know."""
+    for measure in MEASURES:
+        if measure.id == measure_id:
+            return measure
+    raise KeyError(measure_id)
+
+
+ChangeVerdict = Literal["improved", "worse", "within_error", "not_judged"]
+MAX_LOCATION_LENGTH = 60
+"""Letters of where a size was taken."""
+MeasureKey = tuple[str, Mode, str]
+"""Measure, way and hand (empty: of the person)."""
+
+
+@dataclass(frozen=True, slots=True)
+class ManualValue:
+    """One entry. ``tries`` in the measure's unit, none when an earlier entry was taken back; ``side`` empty for what is
+    of the person; ``rater`` initials, ``entered_at`` when it was written down, which is not when it was measured:
+    ``day``."""
+
+    measure: str
+    mode: Mode
+    side: Side | Literal[""]
+    day: date
+    trials: tuple[float, ...]
+    location: str = ""
+    rater: str = ""
+    entered_at: datetime | None = None
+
+    def __post_init__(self) -> None:
+        of = find_manual_measure(self.measure)
+        if self.mode not in of.modes or bool(self.side) != of.is_per_hand or len(self.trials) > of.trial_count:
+            raise ValueError(f"{self.measure}: way {self.mode!r}, side {self.side!r}, {len(self.trials)} tries")
+        if not all(of.min_value <= one <= of.max_value for one in self.trials):
+            raise ValueError(f"{self.measure}: {self.trials} is outside {of.min_value:g} to {of.max_value:g}")
+        if len(self.location) > MAX_LOCATION_LENGTH:
+            raise ValueError(f"{self.measure}: where is longer than {MAX_LOCATION_LENGTH} letters")
+
+    @property
+    def key(self) -> MeasureKey:
+        """What it is a value of."""
+        return self.measure, self.mode, self.side
+
+    @property
+    def value(self) -> float:
+        """Mean of the tries; NaN where it was taken back."""
+        return statistics.fmean(self.trials) if self.trials else math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class ManualChange:
+    """Between two days, by one way: ``min_real_change`` what it had to exceed, NaN for nobody knows."""
+
+    first: ManualValue
+    last: ManualValue
+    min_real_change: float
+    verdict: ChangeVerdict
+
+
+def current_values(entries: Iterable[ManualValue]) -> list[ManualValue]:
+    """Of every measure, way, hand and day what was entered last, by day; without what was taken back.
+
+    ``entries`` are in the order in which they were entered.
+    """
+    return sorted((entry for entry in latest_entries(entries).values() if entry.trials), key=lambda entry: entry.day)
+
+
+def latest_entries(entries: Iterable[ManualValue]) -> dict[tuple[MeasureKey, date], ManualValue]:
+    """Of every measure, way, hand and day what was entered last, also where that took it back."""
+    return {(entry.key, entry.day): entry for entry in entries}
+
+
+def session_values(entries: Iterable[ManualValue], side: Side, day: date) -> tuple[ManualValue, ...]:
+    """What counts of one day, of one hand and of the person."""
+    return tuple(one for one in current_values(entries) if one.day == day and one.side in (side, ""))
+
+
+def value_history(entries: Iterable[ManualValue], key: MeasureKey) -> list[ManualValue]:
+    """What counts of one measure, way and hand, by day."""
+    return [entry for entry in current_values(entries) if entry.key == key]
+
+
+def previous_value(entries: Iterable[ManualValue], key: MeasureKey, day: date) -> ManualValue | None:
+    """What was measured last before a day."""
+    return next((entry for entry in reversed(value_history(entries, key)) if entry.day < day), None)
+
+
+def value_on_day(entries: Iterable[ManualValue], key: MeasureKey, day: date) -> ManualValue | None:
+    """What counts of one day."""
+    found = latest_entries(entries).get((key, day))
+    return found if found is not None and found.trials else None
+
+
+def superseded_entries(entries: Sequence[ManualValue], key: MeasureKey, day: date) -> list[ManualValue]:
+    """What was entered for the same before, in order; it stays readable."""
+    return [entry for entry in entries if entry.key == key and entry.day == day][:-1]
+
+
+def compute_change(history: Sequence[ManualValue]) -> ManualChange | None:
+    """First to last of one course, judged by what that way of measuring must exceed; None with fewer than two."""
+    if len(history) < 2:
+        return None
+    first, last = history[0], history[-1]
+    of = find_manual_measure(first.measure)
+    gain = (last.value - first.value) * (-1.0 if of.better_direction == "less" else 1.0)
+    verdict: ChangeVerdict = "not_judged"
+    if of.better_direction and math.isfinite(of.min_real_change):
+        verdict = "within_error" if abs(gain) <= of.min_real_change else "improved" if gain > 0.0 else "worse"
+    return ManualChange(first, last, of.min_real_change, verdict)
+
+
+def is_unusual(measure: ManualMeasure, value: float) -> bool:
+    """Whether a person should look at a number again before it is kept."""
+    low, high = measure.usual_range
+    return not low <= value <= high
+
+
+COLUMNS = {
+    "day": "when it was measured; empty where days are nobody's business",
+    "hand": "right or left; empty for what is of the person",
+    "measure": "what was measured, by a person and not by Carpus",
+    "way": "active: moved by the patient; passive: moved by somebody else",
+    "unit": "deg, kg, cm, ml or points, of value and tries",
+    "value": "mean of the tries",
+    "tries": "each of them, a blank between",
+    "where": "where a size was taken, in a person's words",
+    "by": "initials of who measured",
+    "entered": "when it was written down",
+}
+
+
+def to_rows(values: Iterable[ManualValue]) -> list[list[str]]:
+    """One row of texts for each value, in the order of :data:`COLUMNS`."""
+    return [
+        [
+            "" if one.day == date.min else one.day.isoformat(), one.side, one.measure, one.mode,
+            find_manual_measure(one.measure).unit, f"{one.value:g}", " ".join(f"{number:g}" for number in one.trials),
+            one.location, one.rater, one.entered_at.isoformat() if one.entered_at else "",
+        ]
+        for one in values
+    ]  # fmt: skip

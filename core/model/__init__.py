@@ -1,0 +1,1 @@
+"""Values that all stages share: types, camera, rotations, hand, errors, names."""

@@ -1,0 +1,173 @@
+"""How a fault and a marker are said: the facts in their sentences, in English or translated before they are filled."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import PureWindowsPath
+
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
+from carpus.core.model.installation import install_hint
+from carpus.core.model.phrase import Phrase, phrase
+
+Translate = Callable[[str], str]
+"""Says a :class:`Phrase` in a language, any other text as it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class MessageText:
+    """The three answers of every message; of a fault also its subject area, its code and ``details`` for IT support.
+
+    ``data_safety`` is empty where nothing is recorded yet.
+    """
+
+    summary: str
+    data_safety: str
+    remedy: str
+    title: str = ""
+    code: str = ""
+    details: tuple[str, ...] = ()
+
+
+_CONNECTIVES = " (for|at|to|in|für|auf|nach|unter|per|su|a) "
+"""What binds a fact to its sentence, in all languages, and goes with it where there is none."""
+
+_FACT_IN_BRACKETS = re.compile(r" \((\{subject\}, )?\{detail\}\)")
+MAX_NAME_CHARACTERS = 32
+"""Of a name in the window."""
+
+_ABOUT_MARKERS = (
+    errors.ClickOutsideImage,
+    errors.ClickOnNoMarker,
+    errors.MarkerWithoutDepth,
+    errors.CalibrationImpossible,
+)
+
+MARKERS: dict[str, Phrase] = {
+    "WRIST": phrase("wrist"),
+    "CMC1": phrase("thumb base"),
+    "MCP1": phrase("thumb knuckle"),
+    "IP1": phrase("thumb end joint"),
+    "TIP1": phrase("thumb tip"),
+    "MCP2": phrase("index knuckle"),
+    "PIP2": phrase("index finger middle joint"),
+    "DIP2": phrase("index finger end joint"),
+    "TIP2": phrase("index tip"),
+    "MCP3": phrase("middle knuckle"),
+    "PIP3": phrase("middle finger middle joint"),
+    "DIP3": phrase("middle finger end joint"),
+    "TIP3": phrase("middle tip"),
+    "MCP4": phrase("ring knuckle"),
+    "PIP4": phrase("ring finger middle joint"),
+    "DIP4": phrase("ring finger end joint"),
+    "TIP4": phrase("ring tip"),
+    "MCP5": phrase("little knuckle"),
+    "PIP5": phrase("little finger middle joint"),
+    "DIP5": phrase("little finger end joint"),
+    "TIP5": phrase("little tip"),
+}
+"""Clinical name of every marker."""
+
+
+def format_fault(
+    fault: CarpusFault, *, marker_names: bool = False, is_brief: bool = False, translate: Translate = str
+) -> MessageText:
+    """Fill the facts of a fault into its sentences.
+
+    Parameters
+    ----------
+    fault
+        The fault.
+    marker_names
+        Add the markers' names of the files to the clinical ones.
+    is_brief
+        For the window: only the end of a path, and the measured fact among the details, where it stands in brackets.
+    translate
+        Translates a phrase, the identity by default.
+    """
+    subject = fault.subject
+    if isinstance(fault, _ABOUT_MARKERS):
+        spoken = join_marker_names(subject.split(", "), translate)
+        subject = f"{spoken}, {subject}" if marker_names and subject else spoken
+    detail = translate(fault.detail)
+    templates = [translate(text) for text in (fault.summary, fault.data_safety, fault.remedy)]
+    support = _support_text(fault, translate)
+    if is_brief:
+        templates = [_FACT_IN_BRACKETS.sub("", text) for text in templates]
+        subject = shorten_path(subject)
+    happened, safe, do = (_fill_template(text, subject, detail) for text in templates)
+    details = tuple(part for part in (fault.subject, " ".join(detail.split()), support) if part)
+    return MessageText(happened, safe, do, translate(fault.title), fault.code, details)
+
+
+def format_fault_line(fault: CarpusFault) -> str:
+    """One line for the command line: what happened, to which file, whether data are safe, what to do, and the code."""
+    words = format_fault(fault, marker_names=True)
+    parts = (words.summary, words.data_safety, words.remedy, _support_text(fault, str), f"({words.code})")
+    return " ".join(part for part in parts if part)
+
+
+def _support_text(fault: CarpusFault, translate: Translate) -> str:
+    """What who installs and repairs can do besides."""
+    if isinstance(fault, errors.ExtraMissing) and fault.subject:
+        return translate(install_hint(fault.subject))
+    return translate(fault.support)
+
+
+def shorten(name: str, max_characters: int = MAX_NAME_CHARACTERS) -> str:
+    """Return the beginning and the end of a long name.
+
+    >>> shorten("Linden-42_2026-11-20_113600_WRIST_FE_right.h5", 24)
+    'Linden-42_20…FE_right.h5'
+    """
+    if len(name) <= max_characters:
+        return name
+    tail = (max_characters - 1) // 2
+    return f"{name[: max_characters - 1 - tail]}…{name[-tail:]}"
+
+
+def shorten_path(text: str) -> str:
+    """Return the last folder and the name of a path; any other text stays."""
+    path = PureWindowsPath(text)  # takes both kinds of stroke
+    if not path.root or len(path.parts) < 3:
+        return text
+    return f"…/{shorten(path.parent.name)}/{shorten(path.name)}"
+
+
+def marker_name(marker: str, translate: Translate = str) -> str:
+    """Clinical name of a marker; any other name stays.
+
+    >>> marker_in_words("MCP2"), marker_in_words("CMC1"), marker_in_words("PIP5")
+    ('index knuckle', 'thumb base', 'little finger middle joint')
+    """
+    return translate(MARKERS[marker]) if marker in MARKERS else marker
+
+
+def join_marker_names(markers: list[str] | tuple[str, ...], translate: Translate = str) -> str:
+    """Several markers as a person says them.
+
+    >>> markers_in_words(("MCP2", "MCP3")), markers_in_words(("WRIST", "CMC1", "MCP4"))
+    ('index and middle knuckle', 'wrist, thumb base and ring knuckle')
+    """
+    names = [marker_name(marker, translate) for marker in markers]
+    if len(names) > 1 and all(name.endswith(" knuckle") for name in names):  # as one says it in English
+        names = [*(name.removesuffix(" knuckle") for name in names[:-1]), names[-1]]
+    if len(names) < 2:
+        return "".join(names)
+    return translate(phrase("{one} and {other}", one=", ".join(names[:-1]), other=names[-1]))
+
+
+def _fill_template(text: str, subject: str, detail: str) -> str:
+    """Put the facts in their places; a place without a fact goes, with what binds it to the sentence."""
+    facts = {"subject": subject, "detail": " ".join(detail.split())}
+    for name, fact in facts.items():
+        if not fact:
+            text = re.sub(rf" \([^()]*\{{{name}\}}\)|(: |{_CONNECTIVES}| )\{{{name}\}}", "", text)
+    return text.format(**facts)
+
+
+def join_sentences(summary: str, remedy: str) -> str:
+    """What happened and what to do as one sentence."""
+    return f"{summary.removesuffix('.')}; {remedy[0].lower()}{remedy[1:]}"

@@ -1,0 +1,249 @@
+"""Every exercise: what is asked of the hand (clinical reference 8.2), what is told of it, and its words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from typing import Literal
+
+from carpus.core.model.hand import protocols
+from carpus.core.model.hand.protocols import DIGITS, MarkerProtocol
+from carpus.core.model.phrase import Phrase, phrase
+
+DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2
+"""Columns of the wrist angles, as in every file."""
+
+Movement = Literal["radial", "ulnar", "flexion", "extension", "supination", "pronation", "arc"]
+
+DIRECTIONS: tuple[tuple[Movement, Movement], ...] = (
+    ("radial", "ulnar"), ("flexion", "extension"), ("supination", "pronation"),
+)  # fmt: skip
+"""Name of the positive and of the negative direction of each angle."""
+
+
+@dataclass(frozen=True, slots=True)
+class MovementWords:
+    """A movement in a word, with its noun where that word alone is none, and what is missing to neutral that way."""
+
+    name: Phrase
+    noun: Phrase
+    deficit: Phrase
+
+
+_FLEXION, _EXTENSION, _ARC = phrase("Flexion"), phrase("Extension"), phrase("Whole arc")
+MOVEMENTS: Mapping[str, MovementWords] = {
+    "radial": MovementWords(phrase("Radial"), phrase("Radial deviation"), phrase("Radial deviation deficit")),
+    "ulnar": MovementWords(phrase("Ulnar"), phrase("Ulnar deviation"), phrase("Ulnar deviation deficit")),
+    "flexion": MovementWords(_FLEXION, _FLEXION, phrase("Flexion deficit")),
+    "extension": MovementWords(_EXTENSION, _EXTENSION, phrase("Extension deficit")),
+    "supination": MovementWords(phrase("Supination"), phrase("Forearm supination"), phrase("Supination deficit")),
+    "pronation": MovementWords(phrase("Pronation"), phrase("Forearm pronation"), phrase("Pronation deficit")),
+    "arc": MovementWords(_ARC, _ARC, _ARC),
+}
+ARC_NAMES = (phrase("Side arc"), phrase("Bending arc"), phrase("Forearm rotation"))
+"""The whole arc of each angle, where more than one is shown."""
+STILL_NAMES = (phrase("Side movement"), phrase("Up and down"), phrase("Rotation from the start"))
+"""Each angle where it should stay still."""
+
+AXIS_TICK_DEG = (40.0, 80.0, 80.0)
+AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)
+"""Outermost tick and end of the fixed axis of each angle on every screen and page."""
+
+
+_RETURN_CUE, _TASK_TITLE = phrase("Come back to the middle"), phrase("Further figures")
+
+TaskMeasureKind = Literal["reaches", "touches", "spans", "together", "thumb beside"]
+"""What is told beside ranges: ways of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the
+thumb moves with the fingers while it is hidden."""
+
+
+@dataclass(frozen=True, slots=True)
+class Exercise:
+    """One exercise. ``angle`` is the trained column or None (free movement: all three are reported);
+    ``trick_limit_deg`` within which the other angles should stay, NaN for none."""
+
+    id: str
+    angle: int | None
+    repetitions: int
+    trick_limit_deg: float
+    is_forearm_fixed: bool
+    """Whether the forearm must lie still (WRIST disc within a ball of 15 mm)."""
+    digits: tuple[int, ...] = ()
+    """Thumb (1) to little finger (5): those it moves, which then need their discs; none where the wrist alone does."""
+    joint: str = ""
+    """The joint angle of the whole hand that is trained, by its name in every file; empty where ``angle`` counts.
+
+    Of a fist the knuckle: seen from above its discs stay in view longest.
+    """
+    _: KW_ONLY
+    name: Phrase
+    instruction: Phrase
+    """What the patient is asked to do, as the therapist reads it."""
+    position: Phrase
+    """How the arm lies before the start."""
+    visibility_note: str = ""
+    """What the camera will not see of it, said before it begins; empty where it sees all."""
+    adult_cues: tuple[str, str]
+    child_cues: tuple[str, str]
+    """What the patient's own screen asks for, in the positive direction and in the negative one."""
+    return_cue: Phrase = _RETURN_CUE
+    simulated_motion: str
+    """The simulated patient's movement when it is practised."""
+    has_free_dip: bool = False
+    """Whether the end joints of the fingers usually do not follow the middle joints in it."""
+    has_total_motion: bool = True
+    """Whether the sum of a finger's bending is its total active motion: not where no fist is asked for."""
+    task_measures: tuple[TaskMeasureKind, ...] = ()
+    task_title: Phrase = _TASK_TITLE
+    is_task: bool = False
+    """Whether it is about what is told beside the ranges: that comes first then."""
+
+    @property
+    def protocol(self) -> MarkerProtocol:
+        """The discs that are put on for it, where nothing else was chosen: the first protocol that allows it."""
+        return next(protocol for protocol in protocols.PROTOCOLS if self.is_allowed_by(protocol))
+
+    def is_allowed_by(self, protocol: MarkerProtocol) -> bool:
+        """Whether a protocol has the discs it needs, and not those of fingers that it does not move."""
+        return protocol.has_fingers == bool(self.digits) and set(self.digits) <= set(protocol.digits)
+
+    @property
+    def has_repetitions(self) -> bool:
+        return self.angle is not None or bool(self.joint)
+
+
+_FINGERS = DIGITS[1:]
+
+EXERCISES = (
+    Exercise(
+        "WRIST_FE", FLEXION, 10, 10.0, True,
+        name=phrase("Wrist flexion–extension"),
+        instruction=phrase("Bend the wrist up, then down, as far as is comfortable. Keep the forearm still."),
+        position=phrase("Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed."),
+        adult_cues=(phrase("Bend your hand down"), phrase("Lift your hand up")), child_cues=(phrase("Down"), phrase("Up")),  # noqa: E501
+        simulated_motion="flexion",
+    ),
+    Exercise(
+        "WRIST_RU", DEVIATION, 10, 10.0, True,
+        name=phrase("Wrist side to side"),
+        instruction=phrase("Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still."),
+        position=phrase("Palm flat on a smooth sheet, forearm strapped."),
+        adult_cues=(phrase("Tilt your hand towards your thumb"), phrase("Tilt your hand towards your little finger")),
+        child_cues=(phrase("To the thumb"), phrase("To the little finger")),
+        simulated_motion="deviation",
+    ),
+    Exercise(
+        "FOREARM_PS", PRONOSUPINATION, 10, math.nan, False,
+        name=phrase("Pronation–supination"),
+        instruction=phrase("Turn the palm up as far as the markers stay visible, then back."),
+        position=phrase("Elbow at the side, forearm free, palm down under the camera."),
+        visibility_note=phrase(
+            "Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers "
+            "go out of sight at about 25° of pronation. A target short of thumb up has a minus: supination −25°."
+        ),
+        adult_cues=(phrase("Turn your palm up"), phrase("Turn your palm down")),
+        child_cues=(phrase("Turn up"), phrase("Turn down")),
+        return_cue=phrase("Turn your hand back"), simulated_motion="palm_up",
+    ),
+    Exercise(
+        "FIST_COMPOSITE", None, 10, math.nan, False, _FINGERS, "MCP3_flexion",
+        name=phrase("Full fist"),
+        instruction=phrase("Close all fingers into a full fist, then open flat."),
+        position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
+        visibility_note=phrase(
+            "At the end of a fist the middle and end joints go out of the camera's sight: repetitions are "
+            "counted all the same, and those ranges are given as “at least”. To see more, turn the thumb side "
+            "up."
+        ),
+        adult_cues=(phrase("Close your hand to a fist"),) * 2, child_cues=(phrase("Close"),) * 2,
+        return_cue=phrase("Open your hand"), simulated_motion="fist",
+        task_measures=("together",), task_title=phrase("Fingers together"),
+    ),
+    Exercise(
+        "FIST_HOOK", None, 10, math.nan, False, _FINGERS, "PIP3_flexion",
+        name=phrase("Hook fist"),
+        instruction=phrase("Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten."),
+        position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
+        visibility_note=phrase(
+            "About half-way the middle joints go out of the camera's sight: repetitions are counted all the "
+            "same, and their range is given as “at least”. To see more, raise the wrist or turn the thumb side "
+            "up."
+        ),
+        adult_cues=(phrase("Bend your fingers to a hook"),) * 2, child_cues=(phrase("Hook"),) * 2,
+        return_cue=phrase("Straighten your fingers"), simulated_motion="hook",
+        has_free_dip=True,
+        has_total_motion=False,
+        task_measures=("together",), task_title=phrase("Fingers together"),
+    ),
+    Exercise(
+        "FINGER_ABAD", None, 10, math.nan, False, _FINGERS, "MCP2_abduction",
+        name=phrase("Spread the fingers"),
+        instruction=phrase("Spread the fingers wide, then close them."),
+        position=phrase("Palm flat on the table, fingers straight and closed."),
+        adult_cues=(phrase("Spread your fingers wide"),) * 2, child_cues=(phrase("Wide"),) * 2,
+        return_cue=phrase("Close your fingers"), simulated_motion="abduction",
+        has_total_motion=False,
+        task_measures=("spans",), task_title=phrase("Spans"),
+    ),
+    Exercise(
+        "THUMB_OPP", None, 10, math.nan, False, DIGITS, "CMC1_abduction",
+        name=phrase("Thumb across the palm"),
+        instruction=phrase("Touch each fingertip with the thumb in turn, opening it wide in between."),
+        position=phrase("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
+        visibility_note=phrase(
+            "Under the palm the thumb's tip goes out of the camera's sight: what is trained here is its lift "
+            "away from the palm, which stays in view."
+        ),
+        adult_cues=(phrase("Open your thumb wide"),) * 2, child_cues=(phrase("Thumb wide"),) * 2,
+        return_cue=phrase("Touch the next fingertip"), simulated_motion="opposition",
+        has_total_motion=False,
+        task_measures=("touches", "thumb beside"), task_title=phrase("Thumb to the finger tips"),
+        is_task=True,
+    ),
+    Exercise(
+        "REACH_GRASP", None, 5, math.nan, False, DIGITS,
+        name=phrase("Reach and grasp"),
+        instruction=phrase("Reach, take the cup, lift it a little, put it back, return."),
+        position=phrase("Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm."),
+        adult_cues=(phrase("Take the cup, lift it a little, put it back"),) * 2, child_cues=(phrase("Take the cup"),) * 2,  # noqa: E501
+        simulated_motion="reach_grasp",
+        has_total_motion=False,
+        task_measures=("reaches", "thumb beside"), task_title=phrase("Reach and grasp"),
+        is_task=True,
+    ),
+    Exercise(
+        "FREE_HAND", None, 0, math.nan, False, DIGITS,
+        name=phrase("Free movement of the fingers"),
+        instruction=phrase("Move the fingers freely. All joint angles are recorded; no repetitions are counted."),
+        position=phrase("Hand in view of the camera, back of the hand up, fingers straight."),
+        adult_cues=(phrase("Move your fingers as you like"),) * 2, child_cues=(phrase("Move your fingers"),) * 2,
+        simulated_motion="fingers",
+        task_measures=("reaches",),
+    ),
+    Exercise(
+        "FREE", None, 0, math.nan, False,
+        name=phrase("Free movement"),
+        instruction=phrase("Move the wrist freely. All three angles are recorded; no repetitions are counted."),
+        position=phrase("Hand in view of the camera, back of the hand up."),
+        adult_cues=(phrase("Move your hand as you like"),) * 2, child_cues=(phrase("Move your hand"),) * 2,
+        simulated_motion="mixed",
+        task_measures=("reaches",),
+    ),
+)  # fmt: skip
+STILL_RADIUS_MM = 15.0
+
+
+def exercises_for_protocol(protocol: MarkerProtocol) -> tuple[Exercise, ...]:
+    """What can be trained with these discs."""
+    return tuple(exercise for exercise in EXERCISES if exercise.is_allowed_by(protocol))
+
+
+def find_exercise(name: str) -> Exercise | None:
+    """The exercise of that id; None where there is none."""
+    return next((exercise for exercise in EXERCISES if exercise.id == name), None)
+
+
+def get_exercise(name: str) -> Exercise:
+    """The exercise of that id; anything unknown is free movement, so every old session can be opened."""
+    return find_exercise(name) or EXERCISES[-1]

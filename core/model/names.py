@@ -1,0 +1,100 @@
+"""What a person may type: pseudonyms and names by one rule for window, commands, store and files, with
+what is told of one that nobody knows; least and largest numbers; and where what is known of cameras lies, by serial
+number."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+
+from carpus.core.model.errors import NameUnsuited, SettingsInvalid
+from carpus.core.model.phrase import phrase
+
+MAX_NAME_CHARACTERS = 100
+_INVISIBLE = {"\u034f", "\u115f", "\u1160", "\u2800", "\u3164", "\uffa0", *map(chr, range(0xFE00, 0xFE10))}
+"""Fillers, joiners and selectors, which count as letters or marks and show nothing."""
+
+
+def normalize_name(text: str) -> str:
+    """The text as it is kept: composed (NFC), blanks single and none around it. Raises :class:`NameUnsuited`.
+
+    Signs that nobody sees (soft hyphens, joiners, direction marks, controls) are refused: two names that look the same
+    would be two.
+
+    >>> name_of(" Linden 42 ")
+    'Linden 42'
+    """
+    name = re.sub(" +", " ", unicodedata.normalize("NFC", text).strip())
+    if sign := next((one for one in name if not one.isprintable() or one in _INVISIBLE), ""):
+        called = unicodedata.name(sign, f"U+{ord(sign):04X}").lower()
+        raise NameUnsuited(called, phrase("it holds a sign that cannot be seen"))
+    if len(name) > MAX_NAME_CHARACTERS:
+        raise NameUnsuited(str(len(name)), phrase("more than {count} signs", count=MAX_NAME_CHARACTERS))
+    return name
+
+
+def fold_name(text: str) -> str:
+    """A name as it is compared: capitals and kinds of the same letter do not count."""
+    return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", text).casefold()).strip()
+
+
+MAX_LISTED_NAMES = 24
+MIN_SIMILARITY = 0.6
+
+
+def find_similar_name(word: str, names: Iterable[str]) -> str | None:
+    """The known name that a mistyped one most likely means, None where none is near.
+
+    >>> nearest("trak", ["track", "info"]), nearest("Ferm 12", ["Fern 12"]), nearest("xyz", ["track"])
+    ('track', 'Fern 12', None)
+    """
+    written = {name.casefold(): name for name in names}
+    found = get_close_matches(word.casefold(), written, n=1, cutoff=MIN_SIMILARITY)
+    return written[found[0]] if found else None
+
+
+def describe_known_names(word: str, names: Iterable[str]) -> str:
+    """What was meant by ``word`` and the names that there are, as one sentence for a person.
+
+    >>> known_names("slwo", ["slow", "brisk"])
+    'did you mean “slow”? There are: slow, brisk'
+    >>> known_names("x", [])
+    'there are none yet'
+    """
+    names = list(dict.fromkeys(names))
+    if not names:
+        return phrase("there are none yet")
+    listed = ", ".join(names[:MAX_LISTED_NAMES]) + (", …" if len(names) > MAX_LISTED_NAMES else "")
+    meant = find_similar_name(word, names)
+    if meant is None:
+        return phrase("there are: {names}", names=listed)
+    return phrase("did you mean “{meant}”? There are: {names}", meant=meant, names=listed)
+
+
+CAMERAS_FOLDER = "cameras"
+"""Folder of stored calibrations and checks inside the data folder, where back-ups find it."""
+
+
+def file_stem(serial: str) -> str:
+    """A serial number as part of a file's name.
+
+    >>> file_stem("1206/a b")
+    '1206-a-b'
+    """
+    return re.sub(r"[^A-Za-z0-9.]+", "-", serial).strip("-.") or "camera"
+
+
+Limits = Mapping[str, tuple[float, float]]
+"""Least and largest value by the name of the field."""
+
+
+def check_limits(section: str, settings: object, limits: Limits) -> None:
+    """Raise :class:`SettingsInvalid` for a number beyond its limits, also one of several, and for no number of several.
+    None is no number."""
+    for name, (low, high) in limits.items():
+        value = getattr(settings, name)
+        several = value if isinstance(value, tuple) else (value,)
+        if not several or not all(one is None or low <= one <= high for one in several):  # a NaN lies nowhere
+            raise SettingsInvalid(section, f"{name} = {value}, from {low:g} to {high:g}")

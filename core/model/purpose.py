@@ -1,0 +1,14 @@
+"""The five things that Carpus does, in the words of the command line's help, of the first start and of the README."""
+
+from __future__ import annotations
+
+from carpus.core.model.phrase import phrase
+
+PURPOSE = (
+    (phrase("Measure"), phrase("wrist and finger angles while the patient moves")),
+    (phrase("Review"), phrase("the curves and camera images, and correct single repetitions")),
+    (phrase("Progress"), phrase("over weeks, compared with the measurement error (MDC95)")),
+    (phrase("Report"), phrase("a session or the progress as a PDF in English, German or Italian")),
+    (phrase("Export"), phrase("to CSV, JSON, C3D, TRC, MOT and BIDS")),
+)
+"""A word for each, and what it means; together one sentence."""

@@ -1,0 +1,111 @@
+"""Pictures stored compactly: the hand and its surroundings as they are, the room about it black and without depth."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import Frame, Region, TrackedFrame, TrackStatus
+
+MARGIN_SHARE = {False: 1.5, True: 0.6}
+"""How far the area reaches beyond the box of the discs, in its larger side: of the palm's alone to the finger tips and
+past them, of the whole hand's a hand's breadth."""
+MIN_MARGIN_PX = 48.0
+STALE_S = 0.5
+"""A hand that was seen longer ago may have left the area."""
+MAX_REGIONS = 2048
+"""Areas: a minute and more, longer than a picture waits for a slow disk."""
+
+
+class FrameSink(Protocol):
+    """The raw recording in the making."""
+
+    @property
+    def path(self) -> Path: ...
+
+    def append_frame(self, frame: Frame) -> None: ...
+
+    def close(self) -> None: ...
+
+    def abandon(self) -> None: ...
+
+    def discard(self) -> None: ...
+
+
+class HandRegions:
+    """Where the hand was last seen; told in the tracking thread, asked in the storing one."""
+
+    def __init__(self, camera: Camera, protocol: MarkerProtocol) -> None:
+        self._camera, self._protocol = camera, protocol
+        self._regions: deque[tuple[float, Region | None]] = deque(maxlen=MAX_REGIONS)
+
+    def update(self, tracked: TrackedFrame) -> None:
+        self._regions.append((tracked.timestamp_s, compute_hand_region(tracked, self._camera, self._protocol)))
+
+    def find_region(self, time_s: float) -> Region | None:
+        """Where the hand is in a picture of that time, which may have waited for the disk; None while it is lost, or
+        not yet tracked nearly so far: then whole pictures are kept."""
+        for known_s, area in reversed(self._regions.copy()):
+            if known_s <= time_s:
+                return area if time_s - known_s <= STALE_S else None
+        return None
+
+
+def compute_hand_region(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Region | None:
+    """The hand and its surroundings in the picture of a frame; None where the hand is not known."""
+    places = tracked.marker_position_cam_m
+    known = places[np.isfinite(places).all(axis=1)]
+    if tracked.status is TrackStatus.LOST or len(known) < len(protocol.palm) or (known[:, 2] < 0.1).any():
+        return None
+    pixel = camera.distort(camera.project(known))
+    seen = tracked.marker_measured_px[np.isfinite(tracked.marker_measured_px).all(axis=1)]
+    pixel = np.concatenate((pixel, seen))
+    low, high = pixel.min(axis=0), pixel.max(axis=0)
+    reach = max(MARGIN_SHARE[protocol.has_fingers] * float((high - low).max()), MIN_MARGIN_PX)
+    left, top = np.clip(low - reach, 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
+    right, bottom = np.clip(np.ceil(high + reach), 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
+    return Region(left, top, right, bottom) if right - left > 1 and bottom - top > 1 else None
+
+
+def mask_outside(frame: Frame, region: Region | None) -> Frame:
+    """The frame with nothing outside the area; colours black and depth 0 there."""
+    if region is None:
+        return frame
+    part = np.s_[region.top : region.bottom, region.left : region.right]
+    color = np.zeros_like(frame.color_rgb)
+    color[part] = frame.color_rgb[part]
+    depth = None
+    if frame.depth_raw is not None:
+        depth = np.zeros_like(frame.depth_raw)
+        depth[part] = frame.depth_raw[part]
+    return replace(frame, color_rgb=color, depth_raw=depth)
+
+
+class HandCropWriter:
+    """Hands pictures on to a raw recording, each with the hand's surroundings alone."""
+
+    def __init__(self, sink: FrameSink, find_region: Callable[[float], Region | None]) -> None:
+        self._sink, self._find_region = sink, find_region
+
+    @property
+    def path(self) -> Path:
+        return self._sink.path
+
+    def append_frame(self, frame: Frame) -> None:
+        self._sink.append_frame(mask_outside(frame, self._find_region(frame.timestamp_s)))
+
+    def close(self) -> None:
+        self._sink.close()
+
+    def abandon(self) -> None:
+        self._sink.abandon()
+
+    def discard(self) -> None:
+        self._sink.discard()

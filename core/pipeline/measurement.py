@@ -1,0 +1,456 @@
+"""An open source with a patient before it: tracking begun from a calibration, recorded, smoothed and stored."""
+
+from __future__ import annotations
+
+import logging
+import shutil
+import threading
+import uuid
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from carpus.core.calibration.calibrate import CalibrationOutcome
+from carpus.core.calibration.result import Calibration
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.capture.files.raw import RawWriter
+from carpus.core.capture.source import SourceInfo, compute_recording_id, find_recording_date, is_simulated
+from carpus.core.model.camera import Camera
+from carpus.core.model.dates import to_iso
+from carpus.core.model.errors import (
+    CarpusFault,
+    DiskFull,
+    ExtraMissing,
+    OutputNotWritable,
+    RecordingEmpty,
+    SmoothingFailed,
+)
+from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg
+from carpus.core.model.phrase import phrase
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import OPERATOR_LABEL, ByteImage, FloatArray, Frame, MarkerLabel, TrackedFrame
+from carpus.core.pipeline.hand_crop import HandCropWriter, HandRegions
+from carpus.core.pipeline.live import Listener, LiveSession
+from carpus.core.pipeline.queues import BoundedQueue, QueueFullError
+from carpus.core.pipeline.smoothing import SmoothingProcess, TrackedHand
+from carpus.core.pipeline.track import (
+    SMOOTHING_FAILED,
+    FramePipeline,
+    NeutralNoise,
+    TrackSettings,
+    build_pipeline,
+    describe_source,
+    format_parameters,
+    noise_from_neutral,
+)
+from carpus.core.records.new_sessions import SessionIntake
+from carpus.core.records.recordings import SessionDraft
+from carpus.core.records.session_setup import MARKERS_SUFFIX, SessionSetup
+from carpus.core.session.file_layout import ROWS_AT_ONCE
+from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
+from carpus.core.session.journal import RecordingJournal
+from carpus.core.session.reader import READING_PROCESS
+from carpus.core.session.values import Motion, new_header
+from carpus.core.tracking.smoother.smoother_record import FilterSteps
+from carpus.core.tracking.tracker import Tracker
+
+log = logging.getLogger(__name__)
+
+_MARGIN_SHARE = 0.6
+"""The picture of the markers reaches this share of their box beyond it."""
+MIN_FREE_BYTES = 100_000_000
+"""A recording does not begin with less: five minutes of a whole hand's rows, or ten seconds of pictures."""
+_MAX_LABELS_WAITING = 16
+
+
+class LivePipeline:
+    """That of the live session, begun at the neutral pose. Hands on what looking back needs, if wanted."""
+
+    def __init__(self, pipeline: FramePipeline[Tracker], neutral_ends_s: float) -> None:
+        self._pipeline = pipeline
+        self._neutral_ends_s = neutral_ends_s
+        self._has_started = False
+        self.on_steps: Callable[[FilterSteps], None] | None = None
+        """Called in the tracking thread with the step of every frame; must not wait."""
+        self.on_frame: Callable[[TrackedFrame], None] | None = None
+        """Called in the tracking thread with every frame; must not wait."""
+        self.on_label: Callable[[MarkerLabel, float], object] | None = None
+        """Called in the tracking thread with every answer that a frame has taken up, and that frame's time."""
+        self._labels: BoundedQueue[MarkerLabel] = BoundedQueue(_MAX_LABELS_WAITING)
+        self._labelled: set[str] = set()
+        self._to_repeat: set[str] = set()
+        self._is_repeating = False
+
+    def repeat_labels(self) -> None:
+        """A recording begins: which spots were shown to be markers before it is told once more, of its own pictures."""
+        self._is_repeating = True
+
+    def add_label(self, label: MarkerLabel) -> None:
+        """What a person says of blue spots; from any thread, taken up with the next frame. Dropped where a dozen wait
+        already, as when no pictures come."""
+        with suppress(QueueFullError):
+            self._labels.push(label)
+
+    def __call__(self, frame: Frame) -> TrackedFrame:
+        tracker = self._pipeline.tracker
+        if not self._has_started and frame.timestamp_s > self._neutral_ends_s:
+            # The still frames made the calibration; counted twice they would make it too sure of itself.
+            tracker.begin_at_neutral()
+            self._has_started = True
+        for answer in self._labels.drain():
+            tracker.add_operator_label(answer)
+        tracked = self._pipeline(frame)
+        self._report_labels(tracker.pop_applied_labels(), tracked)
+        if self.on_frame is not None:
+            self.on_frame(tracked)
+        kept, keep = tracker.pop_steps(), self.on_steps
+        if keep is not None:
+            keep(kept)
+        return tracked
+
+    def _report_labels(self, heard: list[MarkerLabel], tracked: TrackedFrame) -> None:
+        if self._is_repeating:
+            self._is_repeating, self._to_repeat = False, set(self._labelled)
+        markers = self._pipeline.tracker.markers
+        for name in sorted(self._to_repeat):
+            u, v = tracked.marker_measured_px[markers.index(name)]
+            if np.isfinite(u):
+                self._to_repeat.remove(name)
+                heard.append(MarkerLabel(tracked.index, name, (float(u), float(v))))
+        for answer in heard:
+            if answer.pixel is not None:
+                self._labelled.add(answer.marker)
+            if self.on_label is not None:
+                self.on_label(answer, tracked.timestamp_s)
+
+
+class RecordedSession:
+    """A session while it is recorded: its journal, looked back at while that grows, and at the end its file."""
+
+    def __init__(self, journal: RecordingJournal, smoothing: SmoothingProcess | None) -> None:
+        self._journal, self._smoothing = journal, smoothing
+        self._draft: SessionDraft | None = None
+        self._draft_rows = 0.0
+        self._times_s: list[float] = []
+        self._early_events: list[tuple[str, str]] = []
+        self.path = journal.path.with_suffix(".h5")
+
+    def append(self, tracked: TrackedFrame) -> None:
+        self._times_s.append(tracked.timestamp_s)
+        self._journal.append(tracked)
+        if self._smoothing is not None and self._smoothing.has_results:
+            self._add_smoothed(self._smoothing.pop_smoothed(self._pending_times_s()))
+        for kind, text in self._early_events:
+            self._journal.add_event(tracked.timestamp_s, kind, text)
+        self._early_events.clear()
+        if len(self._times_s) - self._draft_rows >= ROWS_AT_ONCE:
+            self._draft_rows = len(self._times_s)
+            try:
+                self._update_draft()
+            except CarpusFault:  # told at the end, if it still holds then: the rows are in the journal
+                self._draft_rows = np.inf  # all over again it would hold up the journal
+
+    def add_event(self, time_s: float, kind: str, text: str) -> None:
+        """One event; before the first picture there is no time to put it at, so it waits for the first row."""
+        if np.isfinite(time_s):
+            self._journal.add_event(time_s, kind, text)
+        else:
+            self._early_events.append((kind, text))
+
+    def prepare(self) -> None:
+        """No more rows come: all of them go into the session file while the rest is looked back at."""
+        self._journal.flush()
+        with suppress(CarpusFault):
+            self._update_draft(is_final=True)
+
+    def _update_draft(self, *, is_final: bool = False) -> None:
+        """What is in the journal goes into the session file, so that the end is quick."""
+        draft, self._draft = self._draft or SessionDraft(self._journal.path), None
+        try:
+            draft.read()
+            if is_final:
+                draft.flush()
+            self._draft = draft
+        finally:
+            if self._draft is None:
+                draft.discard()
+
+    def close(self) -> None:
+        """Finish the session file; the journal goes. A session without a single frame is none."""
+        if not self._times_s:
+            self.discard()
+            raise RecordingEmpty(self.path.name)
+        if self._smoothing is not None:
+            try:
+                self._add_smoothed(self._smoothing.finish(self._pending_times_s()))
+            except SmoothingFailed as fault:
+                log.warning("%s", format_fault_line(SmoothingFailed(self.path, fault.detail)))
+                self._journal.add_event(self._times_s[-1], SMOOTHING_FAILED, fault.detail)
+        self._journal.flush()
+        draft = self._draft or SessionDraft(self._journal.path)
+        try:
+            draft.read()
+            if draft.frame_count != len(self._times_s):  # else the journal would go with what is only in it
+                raise OutputNotWritable(self.path.parent, phrase("what was written is not what is read"))
+            self.path = draft.finish() or self.path
+        finally:
+            draft.discard()
+        self._journal.discard()
+
+    def _add_smoothed(self, motion: Motion | None) -> None:
+        if motion is not None:
+            self._journal.add_smoothed(motion)
+
+    def _pending_times_s(self) -> list[float]:
+        """Times of the frames that are not smoothed yet."""
+        return self._times_s[self._journal.smoother_row_count :]
+
+    def abandon(self) -> None:
+        self._cancel()
+        self._journal.abandon()
+
+    def discard(self) -> None:
+        self._cancel()
+        self._journal.discard()
+
+    def _cancel(self) -> None:
+        if self._smoothing is not None:
+            self._smoothing.cancel()
+        if self._draft is not None:
+            self._draft.discard()
+
+
+class MeasurementController:
+    """A running source: from the chosen calibration to stored sessions, as many as wanted.
+
+    ``recording`` is the stored one that is played, None of a camera: it plays from its first picture when recording
+    starts, so that none is missed; a camera has been running since it was opened. ``on_tracking_started`` is called
+    when
+    tracking begins,
+    ``on_recording_started`` when a recording has begun, ``on_exercise_changed`` when the same hand is to do another
+    exercise.
+    ``listener`` is asked who else hears what is tracked.
+    """
+
+    def __init__(
+        self,
+        session: LiveSession,
+        info: SourceInfo,
+        set_up: SessionSetup,
+        settings: TrackSettings,
+        new_sessions: SessionIntake,
+        *,
+        recording: Path | None = None,
+        on_tracking_started: Callable[[], None] = lambda: None,
+        on_recording_started: Callable[[], None] = lambda: None,
+        on_exercise_changed: Callable[[SessionSetup], None] = lambda _: None,
+        listener: Callable[[Calibration], Listener | None] = lambda _: None,
+    ) -> None:
+        self._listener = listener
+        self._session, self._info, self._set_up, self._settings = session, info, set_up, settings
+        self._new_sessions, self._recording, self._is_playback = new_sessions, recording, recording is not None
+        self._on_tracking_started, self._on_recording_started, self._on_exercise_changed = (
+            on_tracking_started,
+            on_recording_started,
+            on_exercise_changed,
+        )
+        self._played = False
+        self._identity: tuple[str, str] | None = None
+        self._pipeline: LivePipeline | None = None
+        self._noise: NeutralNoise | None = None
+        self._calibration: Calibration | None = None
+        self._marker_image_rgb: ByteImage | None = None
+
+    @property
+    def feed(self) -> LiveSession:
+        return self._session
+
+    @property
+    def camera(self) -> Camera:
+        return self._info.camera
+
+    @property
+    def calibration(self) -> Calibration | None:
+        return self._calibration
+
+    @property
+    def is_playback(self) -> bool:
+        """Whether the source is a stored recording, which is recorded from its first picture to its last."""
+        return self._is_playback
+
+    @property
+    def is_simulated(self) -> bool:
+        """Whether the pictures are of a simulated hand."""
+        return is_simulated(self._info)
+
+    def start_tracking(self, outcome: CalibrationOutcome, frames: Sequence[Frame]) -> None:
+        """Track from a calibration; ``frames`` are the pictures it was made from, the clicked one first."""
+        if self._recording is not None:
+            recorded = find_recording_date(self._info, frames[0].timestamp_s, self._recording)
+            self._identity = recorded.time if recorded else "", compute_recording_id(self._info, frames[0])
+        used = frames[: max(outcome.capture_frames, 1)]
+        neutral_ends_s = max(frame.timestamp_s for frame in used)
+        self._noise = noise_from_neutral(outcome.noise, neutral_ends_s, self._settings.tracker)
+        pipeline = build_pipeline(outcome, self.camera, self._settings, self._noise, keep_history=self._settings.smooth)
+        self._pipeline = LivePipeline(pipeline, neutral_ends_s)
+        self._pipeline.on_label = lambda answer, time_s: self._session.add_event(
+            OPERATOR_LABEL, answer.to_json(), time_s
+        )
+        self._calibration = outcome.calibration
+        self._marker_image_rgb = _crop_markers(frames[0].color_rgb, outcome.pixel)
+        try:
+            self._session.set_listener(self._listener(self._calibration) if self._calibration is not None else None)
+        except ExtraMissing as fault:
+            self._session.handle_notice(fault)
+        self._session.start_tracking(self._pipeline)
+        self._on_tracking_started()
+
+    def set_exercise(self, set_up: SessionSetup) -> None:
+        """What is recorded next: another exercise of the same hand with the same discs. Not while a recording runs."""
+        assert not self._session.is_recording
+        assert set_up.protocol == self._set_up.protocol
+        self._set_up = set_up
+        self._on_exercise_changed(set_up)
+
+    def add_label(self, label: MarkerLabel) -> None:
+        """What a person says of blue spots of a picture shown: the tracker takes it up in its own thread, with the next
+        frame, and the recording notes it."""
+        if self._pipeline is not None:
+            self._pipeline.add_label(label)
+
+    def start_recording(self) -> None:
+        """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
+        calibration, pipeline, learnt = self._calibration, self._pipeline, self._noise
+        assert calibration is not None
+        assert pipeline is not None
+        assert learnt is not None
+        path = self._new_sessions.new_path(self._set_up)
+        _check_free_space(path.parent)
+        now = datetime.now().astimezone()
+        recorded, identity = self._identity or (to_iso(now), str(uuid.uuid4()))
+        header = new_header(
+            hand=calibration.clicks.side,
+            protocol=calibration.clicks.protocol,
+            subject_id=self._set_up.subject_id,
+            exercise=self._set_up.exercise.id,
+            parameters=self._format_parameters(learnt),
+            dip_free=self._settings.tracker.dip == "free",
+            now=now,
+            recorded=recorded,
+            recording_id=identity,
+        )
+        said = replace(self._info, recorded=recorded, recording_id=identity)
+        looking_back, finish_smoothing = None, lambda: None
+        if self._settings.smooth:
+            looking_back = SmoothingProcess(
+                TrackedHand(calibration, self.camera, learnt.adapt_settings(self._settings.tracker))
+            )
+            pipeline.on_steps, looked_back = looking_back.add_steps, looking_back.join
+
+            def finish_smoothing() -> None:
+                pipeline.on_steps = None  # the hand is followed meanwhile: what comes now is not of the recording
+                looked_back()
+
+        journal_path, patient_id = path.with_suffix(JOURNAL_SUFFIX), self._set_up.patient_id
+        try:
+            self._session.start_recording(
+                lambda: RecordedSession(
+                    RecordingJournal(journal_path, header, self.camera, calibration, patient_id), looking_back
+                ),
+                self._frame_writer_opener(path.with_suffix(RAW_SUFFIX), said) if self._set_up.stores_frames else None,
+                finish_smoothing,
+            )
+        except BaseException:
+            pipeline.on_steps = None
+            if looking_back is not None:
+                looking_back.cancel()
+            raise
+        # Asked for the outline when the recording ends, for which a person waits.
+        threading.Thread(target=READING_PROCESS.start, name="reading", daemon=True).start()
+        pipeline.repeat_labels()
+        if self._is_playback and not self._played:
+            self._played = True
+            self._session.start()
+        self._on_recording_started()
+
+    def _frame_writer_opener(self, path: Path, info: SourceInfo) -> Callable[[], HandCropWriter]:
+        """A raw recording of the hand and its surroundings, beside the session."""
+        assert self._pipeline is not None
+        hand = HandRegions(self.camera, self._set_up.protocol)
+        self._pipeline.on_frame = hand.update
+        return lambda: HandCropWriter(RawWriter(path, info), hand.find_region)
+
+    def _format_parameters(self, noise: NeutralNoise) -> str:
+        """All settings as JSON, with what the exercise aimed at."""
+        read = self._set_up.target_positive_deg, self._set_up.target_negative_deg
+        aims = from_clinical_targets_deg(read, self._set_up.exercise)
+        set_up = {
+            "repetitions": self._set_up.repetitions,
+            "targets_deg": [aim if np.isfinite(aim) else None for aim in aims],
+        }
+        course = self._set_up.set_run
+        if course is not None:
+            set_up["set"] = {
+                "run": course.run_id,
+                "part": course.part_index + 1,
+                "of": len(course.parts),
+                "seconds": course.part.seconds,
+            }
+        return format_parameters(self._settings, describe_source(self._info), noise, set_up)
+
+    def stop_recording(self) -> str:
+        """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""
+        try:
+            path = self._session.stop_recording()
+        except RecordingEmpty:
+            raise
+        except Exception:
+            self._new_sessions.recover_interrupted()
+            raise
+        finally:
+            if self._pipeline is not None:
+                self._pipeline.on_steps = self._pipeline.on_frame = None
+        if self._marker_image_rgb is not None:
+            _save_image(path.with_suffix(MARKERS_SUFFIX), self._marker_image_rgb)
+        return self._new_sessions.register(self._set_up, path)
+
+    def close(self) -> None:
+        """End the source; a running recording is finished."""
+        self._session.stop()
+        self._session.set_listener(None)
+
+
+def _crop_markers(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:
+    """The picture about the markers, for the patient's card: the hand and nothing of the room."""
+    known = pixel[np.isfinite(pixel).all(axis=1)]
+    if not len(known):
+        return None
+    low, high = known.min(axis=0), known.max(axis=0)
+    margin = _MARGIN_SHARE * float((high - low).max())
+    left, top = (int(max(0.0, value - margin)) for value in low)
+    right, bottom = (int(value + margin) + 1 for value in high)
+    return np.ascontiguousarray(color_rgb[top:bottom, left:right])
+
+
+def _save_image(path: Path, color_rgb: ByteImage) -> None:
+    """A small picture beside the session; without it nothing is lost, so nothing is told."""
+    done, data = cv2.imencode(".jpg", cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR))
+    if done:
+        with suppress(OSError):
+            path.touch(mode=0o600)
+            path.write_bytes(data.tobytes())
+
+
+def _check_free_space(folder: Path) -> None:
+    """Raise :class:`DiskFull` where no recording should begin."""
+    free = shutil.disk_usage(folder).free
+    if free < MIN_FREE_BYTES:
+        free_mb, least_mb = format_rounded(free / 1e6), format_rounded(MIN_FREE_BYTES / 1e6)
+        why = phrase("{free} MB free, {least_free_bytes} MB are needed", free=free_mb, least_free_bytes=least_mb)
+        raise DiskFull(folder, why)

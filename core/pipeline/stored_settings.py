@@ -1,0 +1,73 @@
+"""The settings that a session was tracked with, read back from its parameters, and how others differ from them."""
+
+from __future__ import annotations
+
+import json
+import typing
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, is_dataclass
+from typing import Any, NamedTuple, TypeVar
+
+from carpus.core.model.errors import SettingsInvalid
+from carpus.core.model.setting_values import convert_value
+from carpus.core.pipeline.track import TrackSettings
+
+T = TypeVar("T")
+
+
+class StoredSettings(NamedTuple):
+    """``settings`` as the session was tracked, ``unknown`` the names of those that this Carpus does not have."""
+
+    settings: TrackSettings
+    unknown: tuple[str, ...]
+
+
+def settings_from_json(parameters: str, kind: type[TrackSettings] = TrackSettings) -> StoredSettings | None:
+    """The settings that a session's parameters tell, as those of a ``kind`` of filter; None where they do not.
+
+    A setting that is newer than the session keeps its default; one that is gone is named.
+    """
+    try:
+        told = json.loads(parameters)["settings"]
+    except (KeyError, TypeError, ValueError):
+        return None
+    if not isinstance(told, Mapping):
+        return None
+    unknown: list[str] = []
+    return StoredSettings(_parse_settings(kind, told, "", unknown), tuple(unknown))
+
+
+def list_differences(before: TrackSettings, after: TrackSettings) -> list[str]:
+    """What differs, one text each: the setting's name, its value now and what it was."""
+    return list(_iter_differences(asdict(before), asdict(after)))
+
+
+def _parse_settings(kind: type[T], stored: Mapping[str, Any], prefix: str, unknown: list[str]) -> T:
+    hints = typing.get_type_hints(kind)
+    found: dict[str, Any] = {}
+    for name, value in stored.items():
+        hint, place = hints.get(name), f"{prefix}{name}"
+        if hint is None:
+            unknown += [place] if value is not None else []
+        elif isinstance(hint, type) and is_dataclass(hint) and isinstance(value, Mapping):
+            found[name] = _parse_settings(hint, value, f"{place}.", unknown)
+        else:
+            try:
+                found[name] = convert_value(hint, value, place)
+            except SettingsInvalid:
+                unknown.append(place)
+    return kind(**found)
+
+
+def _iter_differences(before: dict[str, Any], after: dict[str, Any], prefix: str = "") -> Iterator[str]:
+    for name in before | after:
+        old, new = before.get(name), after.get(name)
+        if isinstance(new, dict) and isinstance(old, dict):
+            yield from _iter_differences(old, new, f"{prefix}{name}.")
+        elif new != old:
+            yield f"{prefix}{name} {_format_value(new)} (was {_format_value(old)})"
+
+
+def _format_value(value: Any) -> Any:
+    """A whole part of the settings is there or not."""
+    return "on" if isinstance(value, Mapping) else "off" if value is None else value

@@ -1,0 +1,1 @@
+"""The computer around the program: disks, durable writing, child processes, version."""

@@ -1,0 +1,170 @@
+"""The disk of a folder, as far as it tells without rights: whether the system encrypts it, whether two share one."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Literal
+
+from carpus.core.model.installation import Finding
+from carpus.core.model.phrase import phrase
+
+EncryptionState = Literal["encrypted", "plain", "unknown"]
+
+ENCRYPTED_FILE_SYSTEMS = ("ecryptfs", "fuse.gocryptfs", "fuse.cryfs", "fuse.encfs")
+"""File systems that encrypt by themselves, whatever lies under them."""
+TIMEOUT_S = 20.0
+_BITLOCKER = (
+    "(New-Object -ComObject Shell.Application).NameSpace('{drive}').Self"
+    ".ExtendedProperty('System.Volume.BitLockerProtection')"
+)
+_ENCRYPTED_FLAG, _GET_FLAGS = 0x800, 0x80086601
+"""Of a folder of ext4 and its like that is encrypted by itself (fscrypt)."""
+
+
+def detect_encryption(folder: Path) -> EncryptionState:
+    """Of the disk that a folder lies on, or will lie on; ``unknown`` wherever the system does not tell."""
+    there = next((one for one in (folder, *folder.parents) if one.exists()), Path.cwd()).resolve()
+    try:
+        if sys.platform == "win32":
+            return detect_bitlocker(there)
+        if sys.platform == "darwin":
+            return detect_filevault(there)
+        return "encrypted" if _is_encrypted_folder(there) else detect_linux_encryption(there)
+    except (OSError, ValueError, subprocess.SubprocessError):
+        return "unknown"
+
+
+def check_disk_encryption(state: EncryptionState) -> Finding:
+    """For ``carpus doctor`` and the settings: how it stands, and how it is switched on."""
+    name = phrase("Disk encryption")
+    if state == "encrypted":
+        return Finding(name, "good", phrase("The disk of the data folder is encrypted by the system."))
+    if state == "plain":
+        return Finding(
+            name, "warning", phrase("The disk of the data folder is not encrypted."), format_encryption_advice()
+        )
+    remedy = phrase("Ask whoever looks after this computer. {how}", how=format_encryption_advice())
+    return Finding(name, "warning", phrase("Whether the disk of the data folder is encrypted is not known."), remedy)
+
+
+def format_encryption_advice(platform: str = sys.platform) -> str:
+    """How this system's encryption is switched on."""
+    if platform == "win32":
+        return phrase(
+            "Switch it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control "
+            "Panel. Keep the recovery key away from this computer."
+        )
+    if platform == "darwin":
+        return phrase(
+            "Switch it on: System Settings → Privacy and Security → FileVault. Keep the recovery key away from this "
+            "computer."
+        )
+    return phrase(
+        "Linux encrypts a disk when it is set up (LUKS): choose it when the system is installed, or move the data "
+        "folder to a disk that was set up so. Keep its passphrase away from this computer."
+    )
+
+
+def detect_linux_encryption(folder: Path, root: Path = Path("/")) -> EncryptionState:
+    """By the mounted file system and the layers of devices under it: the dm-crypt layer of LUKS may lie under volumes.
+    ``root`` is that of the system looked at. Raises OSError, ValueError."""
+    number, kind, source = _find_mount(folder, (root / "proc/self/mountinfo").read_text(encoding="utf-8"))
+    if kind in ENCRYPTED_FILE_SYSTEMS:
+        return "encrypted"
+    device = root / "sys/dev/block" / number
+    if number.startswith("0:"):  # file systems of several devices, and such without one
+        device = root / "sys/class/block" / (root / source.lstrip("/")).resolve().name
+    return _detect_device_encryption(device.resolve()) if source.startswith("/dev/") else "unknown"
+
+
+def detect_bitlocker(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
+    """As Windows tells everybody: 1 on, 3 being switched on, 5 on but its key lies open. Raises OSError and more."""
+    command = ["powershell", "-NoProfile", "-Command", _BITLOCKER.format(drive=folder.drive)]
+    said = (run_command or _run_command)(command).strip()
+    return "encrypted" if said == "1" else "plain" if said in ("2", "3", "4", "5") else "unknown"
+
+
+def detect_filevault(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
+    """Of the volume, as macOS tells everybody. Raises OSError and more."""
+    mount = next((one for one in (folder, *folder.parents) if os.path.ismount(one)), Path("/"))
+    told = (run_command or _run_command)(["diskutil", "info", str(mount)])
+    said = re.findall(r"^\s*(?:FileVault|Encrypted):\s+(Yes|No)", told, re.MULTILINE)
+    return "unknown" if not said else "encrypted" if "Yes" in said else "plain"
+
+
+def _find_mount(folder: Path, mounts: str) -> tuple[str, str, str]:
+    """Number of the device, kind of file system and source of the mount that a folder lies in."""
+    found = ("0:0", "", "")
+    longest = -1
+    for line in mounts.splitlines():
+        before, _, after = line.partition(" - ")
+        number, place = before.split()[2], re.sub(r"\\(\d{3})", lambda code: chr(int(code[1], 8)), before.split()[4])
+        if folder.is_relative_to(place) and len(place) >= longest:  # of two on one place the later one is seen
+            longest, found = len(place), (number, after.split()[0], after.split()[1])
+    return found
+
+
+def _detect_device_encryption(device: Path) -> EncryptionState:
+    """Encrypted by itself, or because all that it lies on is."""
+    if not device.is_dir() or (device / "loop").is_dir():
+        return "unknown"
+    uuid = device / "dm/uuid"
+    if uuid.is_file() and uuid.read_text(encoding="utf-8").startswith("CRYPT-"):
+        return "encrypted"
+    under = [_detect_device_encryption(one.resolve()) for one in sorted((device / "slaves").glob("*"))]
+    if "unknown" in under:
+        return "unknown"
+    return "encrypted" if under and "plain" not in under else "plain"
+
+
+def _is_encrypted_folder(folder: Path) -> bool:
+    import fcntl
+
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        flags = fcntl.ioctl(descriptor, _GET_FLAGS, b"\0" * 8)
+    except OSError:  # a file system without such flags
+        return False
+    finally:
+        os.close(descriptor)
+    return bool(int.from_bytes(flags[:4], sys.byteorder) & _ENCRYPTED_FLAG)
+
+
+def _run_command(command: Sequence[str]) -> str:
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=TIMEOUT_S).stdout
+
+
+SYSTEM_DEVICES = Path("/sys/dev/block")
+
+
+def is_same_disk(one: Path, other: Path, devices: Path = SYSTEM_DEVICES) -> bool:
+    """Whether the disks below two folders that are there have one in common; False where one of them is not there.
+
+    Two partitions lie on one disk, and so does what is encrypted or joined on top of it. Where the system says nothing
+    of its disks, two folders of one file system do.
+    """
+    try:
+        first, second = one.stat().st_dev, other.stat().st_dev
+    except OSError:
+        return False
+    return first == second or bool(_find_disks(first, devices) & _find_disks(second, devices))
+
+
+def _find_disks(device: int, devices: Path) -> set[str]:
+    if not hasattr(os, "major"):  # Windows has no such table
+        return set()
+    found = devices / f"{os.major(device)}:{os.minor(device)}"
+    return _physical_disks(found.resolve()) if found.exists() else set()
+
+
+def _physical_disks(block: Path) -> set[str]:
+    """The disks that a block device is made of."""
+    slaves = sorted((block / "slaves").glob("*"))
+    if slaves:
+        return {disk for slave in slaves for disk in _physical_disks(slave.resolve())}
+    return {(block.parent if (block / "partition").exists() else block).name}

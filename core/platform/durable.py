@@ -1,0 +1,163 @@
+"""What is written stays, and stays its owner's: brought to the disk, readable by nobody else whatever the system's
+habit is; and the fault behind a write that failed."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Self
+
+from carpus.core.model.errors import CarpusFault, DiskFull, OutputNotWritable
+
+DISK_FULL_ERRNOS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+
+
+class FileWriter:
+    """A file in the making: closed where its block ends, abandoned where that ends by a fault, with what was taken."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, fault: BaseException | None, _: TracebackType | None) -> None:
+        if kind is None:
+            self.close()
+        else:
+            self.abandon()
+
+    def close(self) -> None:
+        raise NotImplementedError
+
+    def abandon(self) -> None:
+        raise NotImplementedError
+
+
+def write_fault(path: Path, cause: OSError | RuntimeError) -> CarpusFault:
+    """The fault behind an exception of a write; h5py hides some error numbers in the text."""
+    found = re.search(r"errno = (\d+)", str(cause))
+    number = getattr(cause, "errno", None) or (int(found[1]) if found else None)
+    if number in DISK_FULL_ERRNOS:
+        return DiskFull(path, os.strerror(number))
+    return OutputNotWritable(path, os.strerror(number) if number else "")
+
+
+def is_disk_full(folder: Path) -> bool:
+    """Whether the disk of a folder takes nothing more."""
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(1 << 16))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as cause:
+        return cause.errno in DISK_FULL_ERRNOS
+    return False
+
+
+def sync_folder(folder: Path) -> None:
+    """Bring a new name to the disk, where the system can (Windows cannot open a folder)."""
+    try:
+        descriptor = os.open(folder, os.O_RDONLY)
+    except OSError:
+        return
+    try:
+        os.fsync(descriptor)
+    except OSError:
+        pass  # some network shares refuse; the file itself has been synchronised
+    finally:
+        os.close(descriptor)
+
+
+def replace_file(path: Path, write: Callable[[Path], object]) -> None:
+    """Have a file written beside an old one, bring it to the disk and put it in its place, so that a fault never costs
+    the old one.
+
+    Raises what ``write`` raises, and :class:`DiskFull` or :class:`OutputNotWritable`; then nothing is left.
+    """
+    part = path.with_name(f".{path.name}.part")
+    try:
+        part.unlink(missing_ok=True)  # of a program that was killed
+        try:
+            write(part)
+            part.chmod(0o600)
+            with part.open("r+b") as written:
+                os.fsync(written.fileno())
+            part.replace(path)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as cause:
+        raise write_fault(path, cause) from cause
+    sync_folder(path.parent)
+
+
+def replace_text(path: Path, text: str) -> None:
+    """As :func:`replace_file`, with a text that nobody else may read at any time."""
+
+    def write(part: Path) -> None:
+        with open(part, "x", encoding="utf-8", opener=open_private) as file:
+            file.write(text)
+
+    replace_file(path, write)
+
+
+def open_private(name: str, flags: int) -> int:
+    """An opener for :func:`open`: a file that it opens to write can be read and written by its owner alone, whatever
+    the umask takes or gives."""
+    descriptor = os.open(name, flags, 0o600)
+    if flags & os.O_CREAT and hasattr(os, "fchmod"):
+        with contextlib.suppress(OSError):  # a disk without rights, or another's file that may be written
+            os.fchmod(descriptor, 0o600)
+    return descriptor
+
+
+def make_private_folder(folder: Path) -> None:
+    """Make a folder that only its owner may enter. Raises :class:`OutputNotWritable`."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        folder.chmod(0o700)
+    except OSError as cause:
+        raise write_fault(folder, cause) from cause
+
+
+def make_private_file(path: Path) -> None:
+    """An empty file for its owner only, unless it is there already. Raises :class:`OutputNotWritable`."""
+    try:
+        os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
+        path.chmod(0o600)
+    except OSError as cause:
+        raise write_fault(path, cause) from cause
+
+
+def link_or_copy(path: Path, target: Path) -> None:
+    """The same file under another name as well, or a private copy that is on the disk. Raises OSError."""
+    try:
+        os.link(path, target)
+    except OSError:  # no hard links here, or another disk
+        shutil.copyfile(path, target)
+        target.chmod(0o600)
+        with target.open("r+b") as copy:
+            os.fsync(copy.fileno())
+
+
+def lock_file(file: IO[bytes]) -> None:
+    """Until it is closed, or the program dies. Raises OSError where another program holds it."""
+    if os.name == "nt":
+        import msvcrt
+
+        file.seek(1 << 40)  # beyond what anybody reads
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+        file.seek(0)
+    else:
+        import fcntl
+
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise
+        except OSError:
+            pass  # a disk without locks

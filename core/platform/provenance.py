@@ -1,0 +1,96 @@
+"""Of what, by what and with what something was made: version, revision, and full hashes."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator
+from contextlib import suppress
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from carpus.core.platform.version import __version__
+
+_REVISION_LENGTH = 40
+REVISION_FILE = "revision.txt"
+"""Beside the other resources of an installed program; a checkout knows its revision itself."""
+HASHED_LISTS = ("rgb.txt", "depth.txt", "camera_info.yaml")
+
+
+def source_revision() -> str:
+    """The source revision of this program, 40 digits; empty where nobody knows."""
+    root = Path(__file__).resolve().parent.parent
+    with suppress(OSError, ValueError):
+        git = root / ".git"
+        if git.is_file():  # a second checkout of the same repository
+            git = root / git.read_text(encoding="utf-8").split(":", 1)[1].strip()
+        if git.is_dir():
+            return _head_revision(git)
+    with suppress(OSError, ModuleNotFoundError):
+        return resources.files("carpus.resources").joinpath(REVISION_FILE).read_text(encoding="utf-8").strip()
+    return ""
+
+
+def version_with_revision() -> str:
+    """``0.1.0 (1a2b3c4)``; the version alone where nobody knows the revision."""
+    known = source_revision()
+    return f"{__version__} ({known[:7]})" if known else __version__
+
+
+def parameter_section(parameters: str, section: str) -> dict[str, Any]:
+    """A part of a session's parameters, as ``provenance`` or ``source``; empty where it says nothing."""
+    try:
+        said = json.loads(parameters)[section]
+    except (KeyError, TypeError, ValueError):
+        return {}
+    return said if isinstance(said, dict) else {}
+
+
+def sha256_of_file(path: Path) -> str:
+    """Of all its bytes. Raises OSError."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def sha256_of_settings(settings: Any) -> str:
+    """Of settings as JSON with sorted names and no spaces."""
+    return hashlib.sha256(json.dumps(settings, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+
+
+def sha256_of_recording(path: Path) -> str:
+    """Of a recording: of its file; of a folder over the names and SHA-256 of its lists and of the pictures in them.
+
+    The line of each file is ``SHA256 NAME`` with a line feed, in the order of the names, as ``sha256sum`` writes it but
+    with one space. What else lies in the folder (clicks, truth) does not count. Raises OSError.
+    """
+    if path.is_file():
+        return sha256_of_file(path)
+    lines = (f"{sha256_of_file(path / name)} {name}\n" for name in sorted(set(_listed_files(path))))
+    return hashlib.sha256("".join(lines).encode()).hexdigest()
+
+
+def _listed_files(folder: Path) -> Iterator[str]:
+    for name in HASHED_LISTS:
+        if (folder / name).is_file():
+            yield name
+            if name.endswith(".txt"):
+                for line in (folder / name).read_text(encoding="utf-8", errors="replace").splitlines():
+                    words = line.split()
+                    if len(words) > 1 and not line.startswith("#") and (folder / words[1]).is_file():
+                        yield words[1]
+
+
+def _head_revision(git: Path) -> str:
+    head = (git / "HEAD").read_text(encoding="utf-8").strip()
+    if not head.startswith("ref:"):
+        return head if len(head) == _REVISION_LENGTH else ""
+    name = head.split(":", 1)[1].strip()
+    common = git / (git / "commondir").read_text(encoding="utf-8").strip() if (git / "commondir").exists() else git
+    for place in (git, common):
+        if (place / name).is_file():
+            return (place / name).read_text(encoding="utf-8").strip()
+    for line in (common / "packed-refs").read_text(encoding="utf-8").splitlines():
+        if line.endswith(f" {name}"):
+            return line.split()[0]
+    return ""

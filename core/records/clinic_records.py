@@ -1,0 +1,134 @@
+"""What belongs to the clinic and to no patient: its form of reports, to whom letters are written, the diagnoses to
+choose from, the back-ups that were made, and where on this computer things were last opened and saved."""
+
+from __future__ import annotations
+
+import base64
+import json
+import time
+import uuid
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import Row, select
+
+from carpus.core.model.errors import ConcurrentChange
+from carpus.core.model.names import fold_name
+from carpus.core.platform.durable import replace_text
+from carpus.core.records.changes import insert_row, update_row, upsert_row
+from carpus.core.records.schema import BACKUP, RECIPIENT, REPORT_FORM, SESSION
+from carpus.core.records.store import Store, new_id
+from carpus.core.records.values import parse_time
+from carpus.core.results.report_form import Letterhead, Paper, ReportForm
+
+MAX_RECIPIENTS = 50
+PLACES_FILE = "places.json"
+"""In the data folder: of this computer alone."""
+
+
+def read_recipients(store: Store) -> list[str]:
+    """Addresses of letters, the last used first."""
+    query = select(RECIPIENT.c.address).order_by(RECIPIENT.c.used_s.desc()).limit(MAX_RECIPIENTS)
+    return [str(row.address) for row in store.rows(query)]
+
+
+def save_recipient(store: Store, address: str) -> None:
+    """Take down an address."""
+    row_id = uuid.uuid5(uuid.NAMESPACE_OID, address).hex
+    store.apply([upsert_row(RECIPIENT, row_id, address=address, used_s=time.time())])
+
+
+@dataclass(frozen=True, slots=True)
+class BackupRecord:
+    """The last back-up of a store; ``later_sessions`` counts sessions made since."""
+
+    made: datetime
+    place: str
+    sessions: int
+    size_bytes: int
+    later_sessions: int
+
+
+def save_backup_record(store: Store, made: datetime, place: str, sessions: int, size_bytes: int) -> None:
+    """Take down that a back-up was made."""
+    row = {"made": made.isoformat(), "place": place, "sessions": sessions, "size_bytes": size_bytes}
+    store.apply([insert_row(BACKUP, new_id(), **row)])
+
+
+def read_last_backup(store: Store) -> BackupRecord | None:
+    """None before the first."""
+    row = max(store.rows(select(BACKUP)), key=lambda one: parse_time(one.made, 0.0), default=None)
+    if row is None:
+        return None
+    made = parse_time(row.made, 0.0)
+    later = store.rows(select(SESSION.c.id).where(SESSION.c.created_s > made.timestamp(), SESSION.c.erasing == 0))
+    return BackupRecord(made, row.place, row.sessions, row.size_bytes, len(later))
+
+
+def read_last_place(folder: Path, name: str) -> str:
+    """Where that was last on this computer; empty before the first time."""
+    return str(_read_places(folder).get(name, ""))
+
+
+def save_place(folder: Path, name: str, place: str) -> None:
+    """Remember where. Raises the faults of writing."""
+    replace_text(folder / PLACES_FILE, json.dumps({**_read_places(folder), name: place}, ensure_ascii=False))
+
+
+def clear_places(folder: Path, names: Iterable[str]) -> None:
+    """Forget those that have one of these folded names in them."""
+    for name, place in _read_places(folder).items():
+        if any(one in fold_name(str(place)) for one in names):
+            save_place(folder, name, "")
+
+
+def _read_places(folder: Path) -> dict[str, Any]:
+    with suppress(OSError, ValueError):
+        found = json.loads((folder / PLACES_FILE).read_text(encoding="utf-8"))
+        if isinstance(found, dict):
+            return found
+    return {}
+
+
+_FORM_ID = "clinic"
+
+
+def read_form(store: Store, default_paper: Paper = "a4") -> ReportForm:
+    """The form of a clinic; where there is none, no letterhead and the ``default_paper`` paper."""
+    row = _form_row(store)
+    return ReportForm(paper=default_paper) if row is None else _form_from_row(row)
+
+
+def save_form(store: Store, form: ReportForm, previous: ReportForm) -> None:
+    """Store it in place of the one that was read ``previous``.
+
+    Raises :class:`ConcurrentChange` where somebody else changed it, and the faults of writing.
+    """
+    head = form.letterhead
+    values = {
+        "name": head.name, "address": json.dumps(head.address, ensure_ascii=False), "paper": form.paper,
+        "logo": base64.b64encode(head.logo_png).decode("ascii"), "left_out": json.dumps(sorted(form.excluded_sections)),
+        "sentences": json.dumps(form.sentences, ensure_ascii=False),
+    }  # fmt: skip
+    row = _form_row(store)
+    if row is None:
+        store.apply([insert_row(REPORT_FORM, _FORM_ID, **values)])
+    elif _form_from_row(row) != previous:
+        raise ConcurrentChange(REPORT_FORM.name)
+    else:
+        store.apply([update_row(REPORT_FORM, _FORM_ID, row.version, **values)])
+
+
+def _form_row(store: Store) -> Row[Any] | None:
+    return store.row(select(REPORT_FORM).where(REPORT_FORM.c.id == _FORM_ID))
+
+
+def _form_from_row(row: Row[Any]) -> ReportForm:
+    return ReportForm(
+        Letterhead(row.name, tuple(json.loads(row.address)), base64.b64decode(row.logo)), row.paper,
+        frozenset(json.loads(row.left_out)), tuple(json.loads(row.sentences)),
+    )  # fmt: skip

@@ -1,0 +1,170 @@
+"""Erasing, archiving, what is due and the log, of the whole data folder. How many years records must be kept is the
+clinic's to say: laws differ."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import date, datetime
+
+from sqlalchemy import func, select
+
+from carpus.core.model.errors import SessionUnreadable
+from carpus.core.model.phrase import phrase
+from carpus.core.records import erasure
+from carpus.core.records.changes import PRACTICE, fingerprint
+from carpus.core.records.erasure import ErasurePlan
+from carpus.core.records.library import Library
+from carpus.core.records.log import AuditEntry, read_log
+from carpus.core.records.schema import PATIENT, SESSION
+from carpus.core.records.session_setup import PRACTICE_PATIENT
+from carpus.core.records.store import Store
+from carpus.core.records.values import parse_time
+
+RETENTION_YEARS = (0, 3, 5, 10, 15, 20, 30)
+"""To choose from; 0 is not set."""
+
+
+@dataclass(frozen=True, slots=True)
+class DuePatient:
+    """A patient whose last session is so old that nothing of it need be kept; ``keep_until`` when that day was."""
+
+    patient_id: str
+    pseudonym: str
+    sessions: int
+    last_session: date
+    keep_until: date
+    is_archived: bool
+
+
+def retention_end(recorded: datetime, years: int) -> date | None:
+    """The last day on which a record of that day must be there; None where no years are set.
+
+    >>> kept_until(datetime(2024, 2, 29), 10)
+    datetime.date(2034, 3, 1)
+    """
+    if years <= 0:
+        return None
+    day = recorded.date()
+    try:
+        return day.replace(year=day.year + years)
+    except ValueError:  # the 29th of February
+        return date(day.year + years, 3, 1)
+
+
+def find_due_patients(store: Store, years: int, today: date) -> list[DuePatient]:
+    """Patients of whom nothing need be kept any more, the oldest first: their last session decides, also one that is
+    archived or simulated."""
+    last, last_s = (
+        func.max(SESSION.c.recorded).label("last_of_all"),
+        func.max(SESSION.c.recorded_s).label("last_of_all_s"),
+    )
+    recordings = func.count(SESSION.c.recording_id.distinct()).label("recordings")
+    query = (
+        select(PATIENT, last, last_s, recordings)
+        .join(SESSION, SESSION.c.patient_id == PATIENT.c.id)
+        .where(PATIENT.c.id != PRACTICE, PATIENT.c.erasing == 0, SESSION.c.erasing == 0)
+        .group_by(PATIENT.c.id)
+    )
+    found = []
+    for row in store.rows(query):
+        recorded = parse_time(row.last_of_all, row.last_of_all_s)
+        until = retention_end(recorded, years)
+        if until is not None and until < today:
+            found.append(DuePatient(row.id, row.pseudonym, row.recordings, recorded.date(), until, bool(row.archived)))
+    return sorted(found, key=lambda one: one.keep_until)
+
+
+@dataclass(frozen=True, slots=True)
+class ArchivedItem:
+    """A patient or a session in the archive: ``item_id`` brings it back; ``recorded`` None for a patient;
+    ``patient_id`` whose it is."""
+
+    item_id: str
+    pseudonym: str
+    since: datetime
+    sessions: int
+    patient_id: str
+    recorded: datetime | None = None
+    session_id: str = ""
+
+
+class RecordRetention:
+    """Plans are made first and shown; what a plan says is what goes."""
+
+    def __init__(self, library: Library) -> None:
+        self._library, self._store = library, library.store
+
+    def plan_session(self, session_id: str) -> ErasurePlan:
+        """What goes with a session. Raises :class:`SessionUnreadable` for one that is not there."""
+        try:
+            return erasure.plan_session(self._store, session_id)
+        except KeyError:
+            raise SessionUnreadable(session_id, phrase("not in the list of patients")) from None
+
+    def plan_patient(self, patient_id: str) -> ErasurePlan:
+        """What goes with a patient. Raises :class:`SessionUnreadable` for one that is not there."""
+        try:
+            return erasure.plan_patient(self._store, patient_id)
+        except KeyError:
+            raise SessionUnreadable(patient_id, phrase("not in the list of patients")) from None
+
+    def erase(self, plan: ErasurePlan) -> int:
+        """Do what a plan says. Raises what :func:`erasure.erase` does."""
+        for one in plan.results:
+            self._library.drop_cached_results(one.session_id)
+        self._library.frame_cache.clear()
+        return erasure.erase(self._store, plan, self._library.log_writer)
+
+    def archive_session(self, session_id: str) -> None:
+        self._library.session_list.archive(session_id)
+        self._library.audit_log.log_session("archived", session_id)
+
+    def archive_patient(self, patient_id: str) -> None:
+        self._library.patients.archive(patient_id)
+        self._library.audit_log.log_patient("archived", patient_id)
+
+    def unarchive(self, item_id: str) -> None:
+        """A patient or a session, by :attr:`ArchivedItem.item_id`."""
+        if item_id in self._library.patients.archive_times():
+            self._library.patients.unarchive(item_id)
+            self._library.audit_log.log_patient("brought_back", item_id)
+        else:
+            self._library.session_list.unarchive(item_id)
+            self._library.audit_log.log_session("brought_back", item_id)
+
+    def list_archived(self) -> list[ArchivedItem]:
+        """What can be brought back, last archived first."""
+        library, found = self._library, []
+        for patient_id, since in library.patients.archive_times().items():
+            entries = library.session_list.patient_sessions(patient_id, include_archived=True)
+            pseudonym = library.patients.get(patient_id).pseudonym
+            found.append(
+                ArchivedItem(patient_id, pseudonym, since, len({one.recording_id for one in entries}), patient_id)
+            )
+        for entry, owner, since in library.session_list.list_archived():
+            if owner:
+                pseudonym, session_id = library.patients.get(owner).pseudonym, entry.session_id
+                found.append(ArchivedItem(session_id, pseudonym, since, 1, owner, entry.recorded, session_id))
+        return sorted(found, key=lambda one: one.since, reverse=True)
+
+    def due_patients(self, years: int, today: date) -> list[DuePatient]:
+        """Patients of whom nothing need be kept any more."""
+        return find_due_patients(self._store, years, today)
+
+    def read_log(self) -> tuple[AuditEntry, ...]:
+        """The log of what was done; that it was read is in it too, after what is returned."""
+        found = read_log(self._store)
+        self._library.audit_log.log_program("read_log")
+        return found
+
+    def subject_names(self) -> dict[str, str]:
+        """Pseudonyms of the patients, and of those whose sessions there are, by what stands for them in the log: of who
+        was erased there is none."""
+        known = {}
+        for record in self._library.patients.search(include_archived=True):
+            pseudonym = record.pseudonym
+            known[fingerprint(record.patient_id)] = pseudonym
+            for entry in self._library.session_list.patient_sessions(record.patient_id, include_archived=True):
+                known[fingerprint(entry.session_id)] = f"{pseudonym}, {entry.recorded:%Y-%m-%d %H:%M}"
+        known[fingerprint(PRACTICE_PATIENT)] = "practice"
+        return known

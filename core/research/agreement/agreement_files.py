@@ -1,0 +1,281 @@
+"""From two files to an agreement, and from it to a table, plain values, and lines for a terminal. Degrees; Carpus less
+reference."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carpus.core.formats.export_item import format_number
+from carpus.core.formats.export_provenance import build_provenance
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect, write_new_json, write_new_table
+from carpus.core.model.hand.forearm_rotation import to_clinical_rad
+from carpus.core.model.rounding import format_rounded
+from carpus.core.platform.provenance import sha256_of_file
+from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, AnglePairs, Comparison, compare_session
+from carpus.core.research.agreement.reference import read_reference
+from carpus.core.research.agreement.statistics import (
+    MIN_PAIRS,
+    MIN_PAIRS_TO_JUDGE,
+    Agreement,
+    judge_agreement,
+    max_absolute_limit,
+)
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.session.reader import read_session
+from carpus.core.session.values import Session
+
+
+@dataclass(frozen=True, slots=True)
+class FileComparison:
+    """An agreement and the files it is of."""
+
+    comparison: Comparison
+    session: Session
+    reference: Path
+
+    @property
+    def stem(self) -> str:
+        """Of the files that say it."""
+        return f"{self.session.path.stem}-against-{self.reference.stem}"
+
+
+def compare_files(
+    session_path: Path,
+    reference_path: Path,
+    *,
+    columns: Mapping[str, str] | None = None,
+    markers: Mapping[str, str] | None = None,
+    radians: bool | None = None,
+    smoothed: bool = False,
+    max_shift_s: float = DEFAULT_MAX_SHIFT_S,
+    lag_s: float = math.nan,
+    drift: float = 0.0,
+    choices: RepetitionChoices | None = None,
+) -> FileComparison:
+    """Read both and compare. ``choices`` are what a person left out, for readings of the whole range.
+
+    Raises the faults of reading, and :class:`ReferenceUnsuited`.
+    """
+    session = read_session(session_path)
+    reference = read_reference(reference_path, columns, markers, radians, smoothed, session.header.hand)
+    figures = compute_session_results(session, choices) if reference.readings else None
+    compared = compare_session(
+        session, reference, smoothed=smoothed, max_shift_s=max_shift_s, lag_s=lag_s, drift=drift, figures=figures
+    )  # fmt: skip
+    return FileComparison(compared, session, reference_path)
+
+
+def write_comparison(comparison: FileComparison, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
+    """Write the tables into a folder; the files. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
+    said = build_provenance(comparison.session)
+    said["reference"] = {"file": comparison.reference.name, "sha256": sha256_of_file(comparison.reference)}
+    return write_tables(comparison.comparison, folder, comparison.stem, said, comparison.reference.name, form)
+
+
+COLUMNS = (
+    "angle", "count", "independent", "bias_deg", "bias_low_deg", "bias_high_deg", "sd_deg",
+    "limit_low_deg", "limit_low_from_deg", "limit_low_to_deg", "limit_high_deg", "limit_high_from_deg",
+    "limit_high_to_deg", "rmse_deg", "largest_deg", "correlation", "icc_2_1", "icc_2_1_low", "icc_2_1_high",
+    "icc_3_1", "icc_3_1_low", "icc_3_1_high", "cmc",
+)  # fmt: skip
+
+
+def to_row(pairs: AnglePairs) -> dict[str, Any]:
+    """The figures of one angle by the names of :data:`COLUMNS`."""
+    f = pairs.agreement_deg
+    values = (
+        pairs.name,
+        f.count,
+        f.effective_count,
+        f.bias,
+        *f.bias_interval,
+        f.sd,
+        f.limits[0],
+        *f.lower_interval,
+        f.limits[1],
+        *f.upper_interval,
+        f.rmse,
+        f.largest_difference,
+        f.correlation,
+        f.icc,
+        *f.icc_interval,
+        f.icc_3_1,
+        *f.icc_3_1_interval,
+        f.cmc,
+    )
+    return dict(zip(COLUMNS, values, strict=True))
+
+
+def to_json(comparison: Comparison, provenance: Mapping[str, Any], reference: str) -> dict[str, Any]:
+    """All of it for JSON."""
+    shift, alignment = comparison.shift, comparison.alignment
+    return {
+        "reference": reference,
+        "reference_kind": comparison.kind,
+        "differences": "Carpus less reference",
+        "angles": [to_row(pairs) for pairs in comparison.pairs],
+        "lag_s": None if shift is None else shift.lag_s,
+        "lag_means": "what happens at t in the session happens at t (1 + drift) + lag_s in the reference, each from "
+        "its first",
+        "match": None if shift is None else shift.match,
+        "lag_was_given": None if shift is None else shift.is_given,
+        "lag_rivals": None if shift is None else [{"lag_s": lag, "match": match} for lag, match in shift.rivals],
+        "drift": None if shift is None else shift.drift,
+        "drift_found": None if shift is None else shift.residual_drift,
+        "remarks": comparison.remarks,
+        "alignment": None
+        if alignment is None
+        else {
+            "turn_deg": math.degrees(alignment.rotation_rad),
+            "residual_mm": 1e3 * alignment.residual_m,
+            "markers": alignment.markers,
+            "zero": alignment.zero,
+        },
+        "pictures": comparison.frame_count,
+        "left_out": comparison.excluded_count,
+        "overlap_s": comparison.overlap_s,
+        "reference_rate_hz": comparison.rate_hz,
+        "not_used": comparison.unused,
+        "provenance": provenance,
+    }
+
+
+def write_tables(
+    comparison: Comparison,
+    folder: Path,
+    stem: str,
+    provenance: Mapping[str, Any],
+    reference: str,
+    form: TableDialect = MACHINE_DIALECT,
+) -> list[Path]:
+    """Write ``STEM.agreement.csv``, ``.json`` and the pairs as ``STEM.pairs.csv``; the files."""
+    rows = (
+        [*(format_cell(value) for value in to_row(pairs).values()), "; ".join(comparison.angle_remarks(pairs.name))]
+        for pairs in comparison.pairs
+    )
+    pairs = (
+        (one.name, format_number(float(t), 6), format_number(float(a), 4), format_number(float(b), 4))
+        for one in comparison.pairs
+        for t, a, b in zip(one.time_s, np.degrees(one.measured_rad), np.degrees(one.reference_rad), strict=True)
+    )
+    return [
+        write_new_table(folder / f"{stem}.agreement.csv", (*COLUMNS, "remarks"), rows, form),
+        write_new_json(folder / f"{stem}.agreement.json", to_json(comparison, provenance, reference)),
+        write_new_table(folder / f"{stem}.pairs.csv", ("angle", "time_s", "carpus_deg", "reference_deg"), pairs, form),
+    ]
+
+
+def format_comparison(comparison: Comparison) -> list[str]:
+    """What a terminal shows: what to look at first, how they were brought together, each angle, what was not used."""
+    out = [f"LOOK FIRST   {remark}." for remark in comparison.remarks]
+    if comparison.remarks and comparison.shift is not None:
+        out.append(
+            "             --columns ANGLE=-COLUMN turns a sign, --lag and --drift take what is known of the clocks."
+        )
+    out.append(f"Reference    {comparison.kind}")
+    if comparison.shift is not None:
+        shift = comparison.shift
+        later = "reference" if shift.lag_s >= 0.0 else "Carpus"
+        found = "as given" if shift.is_given else "found by the curves"
+        drifts = f", drift {100.0 * shift.drift:+.2f} % taken out" if shift.drift else ""
+        out.append(
+            f"Time shift   {format_rounded(1e3 * abs(shift.lag_s))} ms, {later} later, {found}{drifts}; "
+            f"curves match {format_rounded(shift.match, 3)}"
+        )
+    if comparison.alignment is not None:
+        turn = math.degrees(comparison.alignment.rotation_rad)
+        off = 1e3 * comparison.alignment.residual_m
+        names = " ".join(comparison.alignment.markers)
+        out.append(
+            f"Alignment    {format_rounded(turn, 1)}° as one rigid body, {format_rounded(off, 1)} mm apart ({names})"
+        )
+        out.append(f"Zero         {comparison.alignment.zero}")
+    what = "readings" if comparison.shift is None else "pictures"
+    why = "predicted, doubtful, lost or not still"
+    out.append(f"Left out     {comparison.excluded_count} of {comparison.frame_count} {what}: {why}")
+    out.append("Differences  Carpus less reference, degrees; in brackets 95 % intervals, repeated values allowed for")
+    out.append("")
+    if comparison.shift is None:
+        out += [*_format_pairs(comparison.pairs), ""]
+    figures = [
+        (pairs.name, pairs.agreement_deg) for pairs in comparison.pairs if math.isfinite(pairs.agreement_deg.bias)
+    ]
+    if figures:
+        out += [*format_agreements(figures), ""]
+    few = [pairs.name for pairs in comparison.pairs if not math.isfinite(pairs.agreement_deg.bias)]
+    out += [f"Not judged: {name}, of which there are fewer than {MIN_PAIRS} pairs." for name in few]
+    out += [f"Not used: {reason}." for reason in comparison.unused]
+    return out
+
+
+_READ_NAMES = {"pronosupination": "supination, from thumb up"}
+
+
+def _format_pairs(pairs: Sequence[AnglePairs]) -> list[str]:
+    """Each reading beside what Carpus has for it."""
+    names = {one.name: _READ_NAMES.get(one.name, one.name) for one in pairs}
+    width = max(map(len, names.values()))
+    out = [f"{'':{width}}  {'at':>9}  {'Carpus':>8}  {'reading':>8}  {'difference':>10}"]
+    for one in pairs:
+        mine, theirs = (to_clinical_rad(one.name, angle) for angle in (one.measured_rad, one.reference_rad))
+        columns = one.time_s, np.degrees(mine), np.degrees(theirs)
+        for time_s, mine, other in zip(*columns, strict=True):
+            at = f"{format_rounded(time_s, 2)} s" if math.isfinite(time_s) else "range"
+            out.append(f"{names[one.name]:{width}}  {at:>9}  {mine:8.2f}  {other:8.2f}  {mine - other:10.2f}")
+    return out
+
+
+def format_agreements(agreements: Sequence[tuple[str, Agreement]]) -> list[str]:
+    """One row for each named agreement under its heads."""
+    width = max(len(name) for name, _ in agreements)
+    heads = ("bias", "limits of agreement", "RMSE", "r", "ICC(2,1)", "ICC(3,1)", "CMC")
+    out = ["{:{}}  {:>6}  {:24}  {:19}  {:>5}  {:>6}  {:25}  {:25}  {}".format("", width, "pairs", *heads)]
+    for name, f in agreements:
+        bias = f"{f.bias:6.2f} ({format_rounded(f.bias_interval[0], 2)} to {format_rounded(f.bias_interval[1], 2)})"
+        limits = f"{f.limits[0]:7.2f} to {format_rounded(f.limits[1], 2)}"
+        iccs = (_format_with_interval(f.icc, f.icc_interval), _format_with_interval(f.icc_3_1, f.icc_3_1_interval))
+        few = "  too few to judge" if f.count < MIN_PAIRS_TO_JUDGE else ""
+        out.append(
+            f"{name:{width}}  {f.count:6d}  {bias:24}  {limits:19}  {f.rmse:5.2f}  {_format_coefficient(f.correlation):>6}"  # noqa: E501
+            f"  {iccs[0]:25}  {iccs[1]:25}  {_format_coefficient(f.cmc)}{few}"
+        )
+    return out
+
+
+def format_limit_verdicts(all_pairs: Sequence[AnglePairs], limit_deg: float) -> list[str]:
+    """Say of each angle whether both limits of agreement lie within a limit that was set before."""
+    said = {
+        "agree": "agrees within {limit:g}°",
+        "apart": "up to {apart}° apart",
+        "few": "too few pairs to say",
+    }
+    return [
+        f"Limit        {pairs.name} {said[verdict].format(limit=limit_deg, apart=apart)}"
+        for pairs in all_pairs
+        if (verdict := judge_agreement(pairs.agreement_deg, limit_deg)) in said
+        and (apart := format_rounded(max_absolute_limit(pairs.agreement_deg), 1))
+    ]
+
+
+def _format_with_interval(value: float, interval: tuple[float, float]) -> str:
+    return (
+        f"{_format_coefficient(value)} ({_format_coefficient(interval[0])} to {_format_coefficient(interval[1])})"
+        if math.isfinite(value)
+        else "–"
+    )
+
+
+def _format_coefficient(value: float) -> str:
+    return format_rounded(value, 3) if math.isfinite(value) else "–"
+
+
+def format_cell(value: Any) -> str:
+    """A figure of a table as text; unknown is empty."""
+    return format_number(value, 6) if isinstance(value, float) else str(value)

@@ -1,0 +1,369 @@
+"""Another measurement of the same movement: points, angles over time, or single readings."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.formats.c3d_read import read_c3d
+from carpus.core.formats.opensim_read import TimeTable, read_mot, read_trc
+from carpus.core.formats.table_read import TextTable, is_non_numeric, parse_number, parse_times, read_table, split_unit
+from carpus.core.model.errors import ReferenceUnreadable
+from carpus.core.model.hand.forearm_rotation import pronosupination_from_palm_down
+from carpus.core.model.hand.protocols import SITES, WRIST_ANGLES, joint_angle_names
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import FloatArray, Side
+from carpus.core.results.valid_data import motion_estimate
+from carpus.core.session.reader import read_session
+
+POINT_FILES, ANGLE_FILES, TABLE_FILES = (".c3d", ".trc"), (".mot", ".sto"), (".csv", ".tsv", ".txt")
+TIME_NAMES = (
+    *("time_s", "timestamp_s", "time", "since_start_s", "t", "time_ms", "timestamp_ms", "timestamp"),
+    *("zeit", "tempo"),
+)
+SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "msec": 1e-3, "us": 1e-6, "µs": 1e-6, "μs": 1e-6, "min": 60.0}
+TIME_UNITS_BY_STEP = ((500.0, 1e-6, "µs"), (0.5, 1e-3, "ms"))
+"""Of times that do not say their unit: from this step between two rows on they are in these parts of a second."""
+SIDE_PATTERN = re.compile(
+    r"^(?:(r|right|rechts|re|destra|dx)|(l|left|links|li|sinistra|sx))[:_ .]|"
+    r"[_ .](?:(r|right|rechts|re|destra|dx)|(l|left|links|li|sinistra|sx))$",
+    re.IGNORECASE,
+)
+"""How the names of markers and columns say which hand they are of."""
+MAX_LISTED = 24
+ANGLE_NAMES = (*WRIST_ANGLES, *joint_angle_names(True))
+MOVEMENTS = {
+    "flexion": ("flexion", 1.0),
+    "extension": ("flexion", -1.0),
+    "radial": ("deviation", 1.0),
+    "ulnar": ("deviation", -1.0),
+    "supination": ("pronosupination", 1.0),
+    "pronation": ("pronosupination", -1.0),
+}
+"""What a goniometer's list calls the two ways of each angle."""
+KNOWN_NAMES = frozenset((*TIME_NAMES, "angle", "movement", *(name.lower() for name in ANGLE_NAMES)))
+
+
+@dataclass(frozen=True, slots=True)
+class GoniometerReading:
+    """One reading of a goniometer, radians with the signs of Carpus; ``time_s`` after the first picture, NaN where it
+    is of the whole session's range in the way of ``movement``. ``pronosupination`` is from the palm down, as in every
+    file, also where a goniometer's supination or pronation was read from thumb up."""
+
+    angle: str
+    movement: str
+    value_rad: float
+    time_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """``kind`` in words; times from the reference's own clock. Either ``angles_rad`` over ``time_s``, or ``points_m``
+    by marker (K, 3), or ``readings``. ``unused`` says what was left aside, and why."""
+
+    path: Path
+    kind: str
+    time_s: FloatArray = field(default_factory=lambda: np.empty(0))
+    angles_rad: Mapping[str, FloatArray] = field(default_factory=dict)
+    points_m: Mapping[str, FloatArray] = field(default_factory=dict)
+    readings: tuple[GoniometerReading, ...] = ()
+    unused: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    """Of all its markers or columns."""
+    remarks: tuple[str, ...] = ()
+    """What was taken for granted in reading it."""
+    same_clock: bool = False
+    """Whether its times are those of the session's own pictures."""
+
+
+def read_reference(
+    path: Path,
+    columns: Mapping[str, str] | None = None,
+    markers: Mapping[str, str] | None = None,
+    radians: bool | None = None,
+    smoothed: bool = False,
+    hand: Side | None = None,
+) -> Reference:
+    """A reference by its ending. ``columns`` angle (or ``time``) to column, a minus before it turns the sign;
+    ``markers`` ours to theirs; ``radians`` overrules what the file says; ``smoothed``: of a
+    session the smoother's result where there is one, else the filter's; ``hand``: whose markers or columns are meant
+    where the file has both hands'. Raises :class:`ReferenceUnreadable`, and for a
+    session what reading it raises."""
+    suffix = path.suffix.lower()
+    if suffix in POINT_FILES:
+        return _from_points(path, suffix, markers or {}, hand)
+    if suffix in ANGLE_FILES:
+        return _from_angles(
+            path, phrase("angles by {format}", format=suffix[1:].upper()), read_mot(path), columns or {}, radians, hand
+        )
+    if suffix in TABLE_FILES:
+        return _from_table(path, columns or {}, radians, hand)
+    if suffix == ".h5":
+        return _from_session(path, smoothed)
+    raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
+
+
+def _from_session(path: Path, smoothed: bool) -> Reference:
+    session = read_session(path)
+    motion = motion_estimate(session) if smoothed else session.motion
+    names = (*WRIST_ANGLES, *session.header.joint_names)
+    values = np.column_stack((motion.angles_rad, motion.joint_angles_rad))
+    words = f"session {session.header.session_id}" + (", simulated" if session.header.is_simulated else "")
+    return Reference(
+        path, words, session.timestamp_s, {name: values[:, k] for k, name in enumerate(names)}, same_clock=True
+    )
+
+
+def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side | None) -> Reference:
+    track = read_c3d(path) if suffix == ".c3d" else read_trc(path)
+    by_whole, by_plain = defaultdict[str, list[int]](list), defaultdict[str, list[int]](list)
+    for k, name in enumerate(track.names):
+        by_whole[name.strip().upper()].append(k)
+        by_plain[_bare_marker_name(name)].append(k)
+    taken: dict[str, int] = {}
+    for name in SITES:
+        wanted = markers.get(name, name).strip().upper()
+        found = by_whole[wanted] or by_plain[wanted]
+        if found:
+            taken[name] = _select_hand(path, wanted, found, track.names, hand)
+        elif name in markers:
+            raise ReferenceUnreadable(
+                path,
+                phrase(
+                    "it has no marker {wanted}; it has {names}", wanted=markers[name], names=list_names(track.names)
+                ),
+            )
+    taken = {name: k for name, k in taken.items() if np.isfinite(track.position_m[:, k]).any()}
+    left = [name for k, name in enumerate(track.names) if k not in taken.values()]
+    unused = _unused_remarks(
+        phrase("markers"), left, phrase("none of the discs by their names, of the other hand, or never seen")
+    )
+    return Reference(
+        path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s,
+        points_m={name: track.position_m[:, k] for name, k in taken.items()}, unused=unused, names=track.names,
+        remarks=_hand_remarks([track.names[k] for name, k in taken.items() if name not in markers], track.names, hand),
+    )  # fmt: skip
+
+
+def _bare_marker_name(name: str) -> str:
+    """A marker without the subject before it, in large letters."""
+    return name.split(":")[-1].strip().upper()
+
+
+def _select_hand(path: Path, wanted: str, candidates: Sequence[int], names: Sequence[str], hand: Side | None) -> int:
+    """Of the places of several of one name that of the hand. Raises :class:`ReferenceUnreadable` where none or more
+    than one is."""
+    if len(candidates) == 1:
+        return candidates[0]
+    of_hand = [k for k in candidates if _parse_side(names[k]) == hand]
+    if hand is None or len(of_hand) != 1:
+        several = list_names([names[k] for k in candidates])
+        raise ReferenceUnreadable(
+            path, phrase("it has {several} for {wanted}: say which it is", several=several, wanted=wanted)
+        )
+    return of_hand[0]
+
+
+def _parse_side(name: str) -> Side | None:
+    found = SIDE_PATTERN.search(split_unit(name)[0])
+    return None if found is None else "right" if found[1] or found[3] else "left"
+
+
+def _hand_remarks(used_names: Sequence[str], names: Sequence[str], hand: Side | None) -> tuple[str, ...]:
+    """What is said where the names of those ``used_names`` tell a hand: of which of two it is, or of the other one."""
+    others = [name for name in used_names if hand is not None and _parse_side(name) not in (None, hand)]
+    if others:
+        return (phrase("{names}: by their names of the other hand than the session", names=list_names(others)),)
+    if hand is not None and any(map(_parse_side, used_names)) and {"left", "right"} <= set(map(_parse_side, names)):
+        return (phrase("both hands are in the reference, taken are {names}", names=list_names(used_names)),)
+    return ()
+
+
+def list_names(names: Sequence[str]) -> str:
+    """Names, as many as a sentence bears."""
+    if not names:
+        return phrase("nothing")
+    shown = ", ".join(names[:MAX_LISTED])
+    return (
+        shown
+        if len(names) <= MAX_LISTED
+        else phrase("{names} and {count} more", names=shown, count=len(names) - MAX_LISTED)
+    )
+
+
+def _from_angles(
+    path: Path, kind: str, table: TimeTable, columns: Mapping[str, str], radians: bool | None, hand: Side | None
+) -> Reference:
+    in_radians = radians if radians is not None else table.in_degrees is False
+    names = list(table.values)
+    found, taken = {}, set[str]()
+    for name in ANGLE_NAMES:
+        wanted = columns.get(name, "")
+        sign, said = -1.0 if wanted.startswith("-") and wanted not in names else 1.0, wanted
+        if wanted:
+            said = wanted if sign > 0.0 else wanted[1:]
+            candidates = [one for one in names if one.lower() == said.lower()]
+            candidates = candidates or [one for one in names if split_unit(one)[0].lower() == said.lower()]
+            if not candidates:
+                raise ReferenceUnreadable(
+                    path, phrase("it has no column {wanted}; it has {names}", wanted=said, names=list_names(names))
+                )
+        else:
+            candidates = _find_columns(name, names)
+        if candidates:
+            column = names[_select_hand(path, said or name, [names.index(one) for one in candidates], names, hand)]
+            taken.add(column)
+            values = sign * table.values[column]
+            found[name] = values if in_radians else np.radians(values)
+    left = [name for name in names if name not in taken]
+    unused = _unused_remarks(phrase("columns"), left, phrase("no angles by their names, or of the other hand"))
+    by_name = [column for column in names if column in taken and column not in map(_strip_sign, columns.values())]
+    return Reference(
+        path, kind, table.time_s, found, unused=unused, names=tuple(names), remarks=_hand_remarks(by_name, names, hand)
+    )
+
+
+def _strip_sign(wanted: str) -> str:
+    return wanted.removeprefix("-")
+
+
+def _unused_remarks(kind: str, names: Sequence[str], reason: str) -> tuple[str, ...]:
+    if not names:
+        return ()
+    shown = phrase("{names}", names=", ".join(names[:4]))
+    if len(names) > 4:
+        shown = phrase("{names} and {count} more", names=shown, count=len(names) - 4)
+    return (phrase("{what} {names}: {why}", what=kind, names=shown, why=reason),)
+
+
+def _find_columns(name: str, columns: Iterable[str]) -> list[str]:
+    """The columns that an angle's name fits, whatever their hand and unit."""
+    own = {f"{before}{name}{end}".lower() for before in ("", "wrist_") for end in ("", "_deg", "_rad")}
+    return [column for column in columns if SIDE_PATTERN.sub("", split_unit(column)[0]).lower() in own]
+
+
+def _find_time_column(table: TextTable) -> str:
+    by_base = {split_unit(name)[0].lower(): name for name in reversed(table.names)}
+    return next((by_base[name] for name in TIME_NAMES if name in by_base), "")
+
+
+def _is_reading_list(table: TextTable) -> bool:
+    return bool({"angle", "movement"} & {split_unit(name)[0].lower() for name in table.names})
+
+
+def _from_table(path: Path, columns: Mapping[str, str], radians: bool | None, hand: Side | None) -> Reference:
+    table = read_table(path, {*KNOWN_NAMES, *(split_unit(_strip_sign(name))[0].lower() for name in columns.values())})
+    if _is_reading_list(table):
+        return _from_readings(path, table)
+    time_name = columns.get("time") or _find_time_column(table)
+    time_name = next((name for name in table.names if time_name in (name, split_unit(name)[0])), time_name)
+    if time_name not in table.names:
+        raise ReferenceUnreadable(
+            path, phrase("it has no column of times; say which of {names} it is", names=list_names(table.names))
+        )
+    time_s, remarks = _parse_times(path, time_name, table.column(time_name))
+    # A row that comes no later than the one before is left out: of two at one time the first counts.
+    known = np.flatnonzero(np.isfinite(time_s))
+    rises = np.append(True, np.diff(time_s[known]) > 0.0) if len(known) else np.empty(0, bool)
+    if len(known) < 2 or (np.diff(time_s[known]) < 0.0).any():
+        raise ReferenceUnreadable(path, phrase("its times do not rise"))
+    if not rises.all():
+        remarks.append(phrase("rows with the time of the row before are left out ({count})", count=int((~rises).sum())))
+    known = known[rises]
+    values = {}
+    for name in table.names:
+        cells = table.column(name)
+        if name != time_name:
+            column = np.array([parse_number(cells[k]) for k in known])
+            if np.isfinite(column).any():
+                values[name] = column
+            is_angle = np.isfinite(column).any() or any(_find_columns(angle, (name,)) for angle in ANGLE_NAMES)
+            if is_angle and (bad := _number_remark(name, cells, table.line_numbers)):
+                remarks.append(bad)
+    if radians is None and any(_has_unit(name, "rad") for name in values):
+        radians = not any(_has_unit(name, "deg") for name in values)
+    found = _from_angles(
+        path, phrase("angles by table"), TimeTable(time_s[known], values, None), columns, radians, hand
+    )
+    return replace(found, remarks=(*found.remarks, *remarks))
+
+
+def _has_unit(name: str, unit: str) -> bool:
+    return name.lower().endswith(f"_{unit}") or split_unit(name)[1] == unit
+
+
+def _number_remark(name: str, cells: Sequence[str], line: Sequence[int]) -> str:
+    """How many cells of a column are no number, and which is the first; empty where all are."""
+    bad = [(number, cell) for number, cell in zip(line, cells, strict=True) if is_non_numeric(cell)]
+    if not bad:
+        return ""
+    return phrase(
+        "{name}: cells that are no number are left out ({count}), the first is “{cell}” in line {line}",
+        name=name, count=len(bad), cell=bad[0][1][:20], line=bad[0][0],
+    )  # fmt: skip
+
+
+def _parse_times(path: Path, name: str, cells: Sequence[str]) -> tuple[FloatArray, list[str]]:
+    """Times (K,) in seconds by what the column's name, or else their step, says; and what is to be said of it."""
+    times, are_clocks = parse_times(cells)
+    time_s, base = np.array(times), split_unit(name)
+    known = time_s[np.isfinite(time_s)]
+    if len(known) < len(cells) / 2:
+        raise ReferenceUnreadable(path, phrase("the cells of {name} are no times", name=name))
+    if are_clocks:
+        return time_s, []
+    unit = base[1] or base[0].lower().rpartition("_")[2]
+    if unit in SECONDS:
+        return time_s * SECONDS[unit], []
+    step = float(np.median(np.diff(known))) if len(known) > 1 else 0.0
+    for least, scale, named in TIME_UNITS_BY_STEP:
+        if step >= least:
+            words = phrase(
+                "{name}: taken as {unit}, since a row comes every {step}", name=name, unit=named, step=f"{step:g}"
+            )
+            return time_s * scale, [words]
+    return time_s, []
+
+
+def _from_readings(path: Path, table: TextTable) -> Reference:
+    """A goniometer's list: ``angle`` or ``movement``, ``reading_deg``, and ``time_s`` where it was noted."""
+    low = {split_unit(name)[0].lower(): name.lower() for name in reversed(table.names)}
+    value_name = next(
+        (low[n] for n in ("reading_deg", "value_deg", "deg", "reading", "value", "angle_deg") if n in low), ""
+    )
+    time_name = _find_time_column(table)
+    if not value_name:
+        raise ReferenceUnreadable(
+            path, phrase("it has no column reading_deg; it has {names}", names=list_names(table.names))
+        )
+    times_s = parse_times(table.column(time_name))[0] if time_name else [math.nan] * len(table.rows)
+    scale = SECONDS.get(split_unit(time_name)[1] or time_name.lower().rpartition("_")[2], 1.0)
+    readings, unused = [], []
+    for k, line in enumerate(table.line_numbers):
+        row = table.row(k)
+        said = (row.get(low.get("movement", ""), "") or row.get(low.get("angle", ""), "")).strip()
+        value = parse_number(row[value_name])
+        name = next((one for one in ANGLE_NAMES if one.lower() == said.lower()), "")
+        movement, sign = said.lower(), 1.0
+        if movement in MOVEMENTS and (name in ("", "flexion")):
+            name, sign = MOVEMENTS[movement]
+        if not name or not math.isfinite(value):
+            unused.append(
+                phrase("line {line}: “{cell}” is no reading", line=line, cell=row[value_name])
+                if name
+                else phrase("line {line}: no angle is called {said}", line=line, said=said or phrase("nothing"))
+            )
+            continue
+        value_rad = sign * math.radians(value)
+        if movement in ("supination", "pronation"):
+            value_rad = float(pronosupination_from_palm_down(np.array(value_rad)))
+        readings.append(GoniometerReading(name, movement, value_rad, scale * times_s[k]))
+    if not readings:
+        raise ReferenceUnreadable(path, phrase("it holds no reading"))
+    return Reference(path, phrase("goniometer list"), readings=tuple(readings), unused=tuple(unused))

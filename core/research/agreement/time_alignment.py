@@ -1,0 +1,300 @@
+"""Two recordings of one movement in one time: the shift between their clocks, what would do as well, and drift."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from carpus.core.model.types import FloatArray
+
+STEP_S = 1.0 / 100.0
+"""Of the times on which a shift is looked for."""
+MIN_OVERLAP_S, MIN_OVERLAP_SHARE = 1.0, 0.6
+"""What both must have in common, in seconds and of the shorter of the two: a short piece fits anywhere."""
+MAX_LOG_LIKELIHOOD_DROP, RESIDUAL_FLOOR = 3.0, 0.003
+"""A match is as good as the best where its log-likelihood is less by no more than this, of what both leave unexplained
+and a bit that sampling alone does."""
+MAX_RIVAL_DROP, MAX_RIVALS = 0.03, 3
+"""Another shift is named where it matches less well by no more than this."""
+MAX_DRIFT_DROP, MAX_COMPARED_PEAKS = 0.1, 5
+"""Drift may cost a match so much: the nearest tops within this are compared without it."""
+MIN_PEAK_DISTANCE_S = 0.3
+"""Two tops nearer than this are of one hill."""
+MAX_INTERPOLATED_GAP_S = 0.12
+"""Between two readings of a reference that are interpolated."""
+MIN_DRIFT_RECORDING_S, MAX_DRIFT = 10.0, 0.03
+"""Drift is looked for in recordings of this length on, up to this share."""
+MAX_DRIFT_FRAMES = 1000
+"""Are enough to find it."""
+MIN_DRIFT_S, MIN_DRIFT_SDS = 0.05, 3.0
+"""Drift is spoken of where it adds up to so much, and is so many times its own standard deviation."""
+INDEPENDENT_HZ = 2.0
+"""Of a hand's movement about as many values a second are independent."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClockShift:
+    """``lag_s``: what happens at t in the session happens at t (1 + ``drift``) + this on the reference's
+    clock, both counted from their first picture; ``match`` the correlation there, below nothing where the curves run
+    against each other.
+
+    ``rivals`` are the nearest other shifts that match nearly as well, each with its match, and ``has_more_rivals``
+    whether
+    there are others; ``same_sign_shift``, where ``match`` is below nothing, the shift up to ``max_shift_s`` at which
+    the curves run
+    together best, with its match; ``is_at_search_limit`` whether the search ended
+    where this was found; ``is_given`` by a person. ``residual_drift`` is what is left, with ``drift_free_lag_s``
+    the shift that goes with it; NaN where there is none to speak of.
+    """
+
+    lag_s: float
+    match: float
+    rivals: tuple[tuple[float, float], ...] = ()
+    has_more_rivals: bool = False
+    same_sign_shift: tuple[float, float] | None = None
+    max_shift_s: float = math.nan
+    is_at_search_limit: bool = False
+    is_given: bool = False
+    drift: float = 0.0
+    residual_drift: float = math.nan
+    drift_free_lag_s: float = math.nan
+
+    def reference_time_s(self, time_s: FloatArray) -> FloatArray:
+        """Times (N,) of the session on the reference's clock."""
+        return np.asarray(time_s * (1.0 + self.drift) + self.lag_s)
+
+
+def interpolate(query_s: FloatArray, time_s: FloatArray, values: FloatArray) -> FloatArray:
+    """``values`` (K, ...) at other times (N, ...), on the line between two known neighbours; NaN elsewhere."""
+    known = np.isfinite(values) if values.ndim == 1 else np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
+    t, v = time_s[known], values[known]
+    if len(t) < 2:
+        return np.full((len(query_s), *values.shape[1:]), np.nan)
+    after = np.clip(np.searchsorted(t, query_s), 1, len(t) - 1)
+    before = after - 1
+    share = (query_s - t[before]) / (t[after] - t[before])
+    column = share.reshape(-1, *(1,) * (values.ndim - 1))
+    out = v[before] + column * (v[after] - v[before])
+    longest = max(MAX_INTERPOLATED_GAP_S, 2.5 * float(np.median(np.diff(time_s))))
+    near = 0.25  # of a step: clocks waver
+    inside = (share >= -near) & (share <= 1.0 + near) & (t[after] - t[before] <= longest)
+    out[~inside] = np.nan
+    return np.asarray(out)
+
+
+@dataclass(frozen=True, slots=True)
+class AlignmentCurves:
+    """Signals (N, S) at ``time_s`` (N,) and (K, S) at ``reference_s`` (K,), the same quantities in both."""
+
+    time_s: FloatArray
+    values: FloatArray
+    reference_s: FloatArray
+    reference_values: FloatArray
+
+    @property
+    def weight(self) -> FloatArray:
+        """What counts in a match: how far each signal moves in both."""
+        with np.errstate(invalid="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # what is known nowhere has no spread
+            spread = np.nanstd(self.values, axis=0) * np.nanstd(self.reference_values, axis=0)
+        return np.where(np.isfinite(spread), spread, 0.0)
+
+    ignores_sign: bool = False
+    """Whether curves that run against each other are the same all the same."""
+
+    def match(self, shift: ClockShift) -> float:
+        """How well they go together on the pictures of the session."""
+        at_s = shift.reference_time_s(self.time_s)
+        there = np.column_stack([interpolate(at_s, self.reference_s, one) for one in self.reference_values.T])
+        return _mean_correlation(self.values, there, self.weight, 8, self.ignores_sign)
+
+
+def find_shift(curves: AlignmentCurves, max_shift_s: float, same_clock_tolerance: float = 0.0) -> ClockShift:
+    """The shift at which the curves go together best, by cross-correlation over what they share: of several that do as
+    well, as repetitions do, the smallest. None where without it the correlation is less by no more than
+    ``same_clock_tolerance``."""
+    time_s, other_s, weight = curves.time_s, curves.reference_s, curves.weight
+    if not curves.values.shape[1] or len(time_s) < 8 or len(other_s) < 8:
+        return ClockShift(0.0, math.nan)
+    even, theirs_s = np.arange(0.0, time_s[-1], STEP_S), np.arange(other_s[0], other_s[-1], STEP_S)
+    shorter_s = float(min(even[-1], theirs_s[-1] - theirs_s[0])) if len(even) and len(theirs_s) else 0.0
+    if shorter_s < MIN_OVERLAP_S - 2.0 * STEP_S or not weight.sum() > 0.0:
+        return ClockShift(0.0, math.nan)
+    a = np.column_stack([interpolate(even, time_s, one) for one in curves.values.T])
+    b = np.column_stack([interpolate(theirs_s, other_s, one) for one in curves.reference_values.T])
+    first, furthest = round(theirs_s[0] / STEP_S), round(max_shift_s / STEP_S)
+    least = min(round(max(MIN_OVERLAP_S, MIN_OVERLAP_SHARE * shorter_s) / STEP_S), len(a), len(b))
+    shifts = np.arange(-furthest, furthest + 1)
+    alike = np.full((len(shifts), a.shape[1]), np.nan)
+    for k in range(a.shape[1]):
+        alike[:, k] = _correlations(a[:, k], b[:, k], shifts - first, least)
+    match = _weighted_mean(alike, weight, ignores_sign=curves.ignores_sign)
+    if not np.isfinite(match).any():
+        return ClockShift(0.0, math.nan)
+    score = np.where(np.isfinite(match), np.abs(match) if curves.ignores_sign else match, -np.inf)
+    tops = _find_peaks(score)
+    best = float(score[tops[0]])
+    if score[furthest] >= best - same_clock_tolerance:
+        return ClockShift(0.0, float(match[furthest]))
+    # Drift blurs a match the more, the longer the two overlap: the tops are compared without it.
+    near = sorted((k for k in tops if score[k] >= best - MAX_DRIFT_DROP), key=lambda k: abs(shifts[k]))
+    near = list(dict.fromkeys((tops[0], *near[:MAX_COMPARED_PEAKS])))
+    fits = [
+        _estimate_drift(curves, ClockShift(_refine_peak_s(shifts, score, k), float(match[k])))
+        if len(near) > 1
+        else None
+        for k in near
+    ]
+    cleared = np.array([max(fit.match if fit else 0.0, score[k]) for k, fit in zip(near, fits, strict=True)])
+    worse = (
+        0.5
+        * INDEPENDENT_HZ
+        * shorter_s
+        * np.log((1.0 - cleared + RESIDUAL_FLOOR) / (1.0 - cleared.max() + RESIDUAL_FLOOR))
+    )
+    at = min(
+        (k for k, less in zip(near, worse, strict=True) if less <= MAX_LOG_LIKELIHOOD_DROP),
+        key=lambda k: abs(shifts[k]),
+    )
+    rivals = sorted((k for k in tops if k != at and score[k] >= best - MAX_RIVAL_DROP), key=lambda k: abs(shifts[k]))
+    together = next((k for k in tops if match[k] > 0.0), None) if match[at] < 0.0 else None
+    return ClockShift(
+        _refine_peak_s(shifts, score, at),
+        float(match[at]),
+        tuple((_refine_peak_s(shifts, score, k), float(match[k])) for k in rivals[:MAX_RIVALS]),
+        has_more_rivals=len(rivals) > MAX_RIVALS,
+        same_sign_shift=None if together is None else (_refine_peak_s(shifts, score, together), float(match[together])),
+        max_shift_s=max_shift_s,
+        is_at_search_limit=at in (0, len(shifts) - 1),
+    )
+
+
+def _find_peaks(score: FloatArray) -> list[int]:
+    """Places of the hills' tops, the highest first."""
+    padded = np.concatenate(([-np.inf], score, [-np.inf]))
+    is_top = (score >= padded[:-2]) & (score >= padded[2:]) & np.isfinite(score)
+    out: list[int] = []
+    for k in sorted(np.flatnonzero(is_top).tolist(), key=lambda k: -score[k]):
+        if all(abs(k - other) * STEP_S > MIN_PEAK_DISTANCE_S for other in out):
+            out.append(k)
+    return out
+
+
+def _refine_peak_s(shifts: np.ndarray, score: FloatArray, peak: int) -> float:
+    """The shift of a top, between the steps."""
+    fine = 0.0
+    if 0 < peak < len(score) - 1 and np.isfinite(score[peak - 1 : peak + 2]).all():
+        left, top, right = score[peak - 1 : peak + 2]
+        bend = left - 2.0 * top + right
+        fine = float(0.5 * (left - right) / bend) if bend < 0.0 else 0.0
+    return float((shifts[peak] + fine) * STEP_S)
+
+
+@dataclass(frozen=True, slots=True)
+class _DriftEstimate:
+    """Drift beyond that of a shift, its sd, the lag that goes with both, and the match then; over ``length_s``."""
+
+    drift: float
+    sd: float
+    lag_s: float
+    match: float
+    length_s: float
+
+
+def _estimate_drift(curves: AlignmentCurves, shift: ClockShift) -> _DriftEstimate | None:
+    """The drift with which the curves go together best; None where they are too short for one."""
+    at_s = shift.reference_time_s(curves.time_s)
+    shared = curves.time_s[(at_s >= curves.reference_s[0]) & (at_s <= curves.reference_s[-1])]
+    length_s = float(np.ptp(shared)) if len(shared) else 0.0
+    if length_s < MIN_DRIFT_RECORDING_S or not abs(shift.match) > 0.0:
+        return None
+    few = max(1, len(curves.time_s) // MAX_DRIFT_FRAMES)
+    curves = replace(curves, time_s=curves.time_s[::few], values=curves.values[::few])
+    middle_s, sign = float(shared[0]) + 0.5 * length_s, math.copysign(1.0, shift.match)
+
+    def shift_about_middle(drift: float, later_s: float) -> ClockShift:
+        """About the middle, so that drift and lag are found apart."""
+        return ClockShift(shift.lag_s + later_s - drift * middle_s, 0.0, drift=shift.drift + drift)
+
+    def match(drift: float, later_s: float) -> float:
+        found = sign * curves.match(shift_about_middle(drift, later_s))
+        return found if math.isfinite(found) else -1.0
+
+    step = 0.1 / length_s
+    grid = step * np.arange(-math.ceil(MAX_DRIFT / step), math.ceil(MAX_DRIFT / step) + 1)
+    start = max(grid.tolist(), key=lambda drift: match(drift, 0.0))
+    simplex = np.array([[start, 0.0], [start + step, 0.0], [start, 0.05]])
+    options = {"initial_simplex": simplex, "xatol": 1e-5, "fatol": 1e-7, "maxiter": 200}
+    found = scipy.optimize.minimize(lambda x: -match(*x), simplex[0], method="Nelder-Mead", options=options)  # type: ignore[call-overload]
+    drift, later_s = map(float, found.x)
+    best = -float(found.fun)
+    # A correlation that falls by c d^2 / 2 about its top: the variance of where the top is, by least squares.
+    bend = (2.0 * best - match(drift - step, later_s) - match(drift + step, later_s)) / step**2
+    if not bend > 0.0 or abs(drift) > MAX_DRIFT:
+        return None
+    sd = math.sqrt(2.0 * max(1.0 - best, 0.0) / (INDEPENDENT_HZ * length_s * bend))
+    return _DriftEstimate(drift, sd, shift_about_middle(drift, later_s).lag_s, best, length_s)
+
+
+def with_residual_drift(curves: AlignmentCurves, shift: ClockShift) -> ClockShift:
+    """The same with the drift that is left between the two clocks, where it is sure and adds up to something."""
+    found = _estimate_drift(curves, shift)
+    if found is None or abs(found.drift) < max(MIN_DRIFT_S / found.length_s, MIN_DRIFT_SDS * found.sd):
+        return shift
+    return replace(shift, residual_drift=found.drift, drift_free_lag_s=found.lag_s)
+
+
+def _correlations(a: FloatArray, b: FloatArray, lags: NDArray[np.intp], min_count: int) -> FloatArray:
+    """Correlation (L,) of ``a`` (N,) with ``b`` (K,) begun so many samples ``lags`` (L,), over what both have; NaN
+    where that is fewer than ``min_count``. All shifts at once, by Fourier transforms of the sums that it is made of."""
+    from scipy.signal import correlate, correlation_lags
+
+    has_a, has_b = np.isfinite(a), np.isfinite(b)
+    x, y = (np.where(has, one - np.mean(one[has]), 0.0) for one, has in ((a, has_a), (b, has_b)))
+    all_lags = correlation_lags(len(b), len(a))
+    out = np.full(len(lags), np.nan)
+    inside = (lags >= all_lags[0]) & (lags <= all_lags[-1])
+
+    def lagged_products(from_a: FloatArray, from_b: FloatArray) -> FloatArray:
+        return np.asarray(correlate(from_b, from_a, method="fft")[lags[inside] - all_lags[0]])
+
+    one_a, one_b = has_a.astype(np.float64), has_b.astype(np.float64)
+    count = np.maximum(np.rint(lagged_products(one_a, one_b)), 1.0)
+    mean_x, mean_y = lagged_products(x, one_b) / count, lagged_products(one_a, y) / count
+    power_x, power_y = (
+        lagged_products(x * x, one_b) / count - mean_x**2,
+        lagged_products(one_a, y * y) / count - mean_y**2,
+    )
+    # What a transform leaves of the variance of a curve that stands still is no movement.
+    moves = (count >= min_count) & (power_x > 1e-10 * np.mean(x * x)) & (power_y > 1e-10 * np.mean(y * y))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        alike = (lagged_products(x, y) / count - mean_x * mean_y) / np.sqrt(power_x * power_y)
+    out[inside] = np.where(moves, np.clip(alike, -1.0, 1.0), np.nan)
+    return out
+
+
+def _mean_correlation(
+    a: FloatArray, b: FloatArray, weight: FloatArray, min_count: int, ignores_sign: bool = False
+) -> float:
+    """How well signals (N, S) go together as they are."""
+    alike = np.full((1, a.shape[1]), np.nan)
+    for k, (x, y) in enumerate(zip(a.T, b.T, strict=True)):
+        both = np.isfinite(x) & np.isfinite(y)
+        if both.sum() >= min_count and np.ptp(x[both]) > 0.0 and np.ptp(y[both]) > 0.0:
+            alike[0, k] = np.corrcoef(x[both], y[both])[0, 1]
+    return float(_weighted_mean(alike, weight, ignores_sign=ignores_sign)[0])
+
+
+def _weighted_mean(correlations: FloatArray, weight: FloatArray, *, ignores_sign: bool) -> FloatArray:
+    """Weighted mean (L,) of the signals' correlations (L, S), NaN of those that are not known; with ``ignores_sign`` of
+    their sizes, with the sign of most of it."""
+    weights = np.where(np.isfinite(correlations), weight, 0.0)
+    share = weights * np.nan_to_num(correlations)
+    total, size, used = share.sum(axis=1), np.abs(share).sum(axis=1), weights.sum(axis=1)
+    joined = np.copysign(size, total) if ignores_sign else total
+    return np.asarray(np.divide(joined, used, out=np.full(len(used), np.nan), where=used > 0.0))

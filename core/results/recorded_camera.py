@@ -1,0 +1,39 @@
+"""What a session says of the camera it was measured with."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from carpus.core.model.dates import is_moment
+from carpus.core.platform.provenance import parameter_section
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedCamera:
+    """``serial`` number, empty where nobody knows which camera it was; ``calibrated_at`` when with a board (ISO 8601),
+    empty for not; ``age_days`` how old the calibration was when the hand moved, NaN without one."""
+
+    serial: str = ""
+    calibrated_at: str = ""
+    age_days: float = math.nan
+
+
+UNKNOWN_CAMERA = RecordedCamera()
+
+
+def parse_camera(parameters: str) -> RecordedCamera:
+    """What the parameters of a session say.
+
+    >>> said = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
+    >>> camera_said(said) == CameraSaid("77", "2026-11-20T09:00+00:00", 5.0)
+    True
+    """
+    source = parameter_section(parameters, "source")
+    calibrated = str(source.get("calibrated") or "")
+    try:
+        age_days = float(str(source.get("calibration_age_days")))
+    except ValueError:
+        age_days = math.nan
+    serial = str(source.get("serial") or "")
+    return RecordedCamera(serial, calibrated, age_days) if is_moment(calibrated) else RecordedCamera(serial)

@@ -1,0 +1,370 @@
+"""What review, progress and report say of a session, as figures; the words and the page are the screen's.
+
+Here they are put together to one table of measures (``measure``), with how sure they are and the strokes' speed. The
+rest is made in the file of its topic, on a session as :mod:`core.results.valid_data` has it, by the bare mathematics of
+:mod:`core.measures`, which knows no session: ``ranges``, ``repetition_rows``, ``compute_task_measures``, ``norms``;
+what
+changed between sessions in ``progress`` and ``side_by_side``. Degrees, degrees per second, millimetres and seconds,
+since people read them. NaN is unknown.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+
+import numpy as np
+
+from carpus.core.calibration.result import CalibrationFinding
+from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
+from carpus.core.measures.finger_range import JointTrack
+from carpus.core.measures.repetitions import NoRepetitionReason, explain_no_repetitions
+from carpus.core.measures.signals import low_pass, resample_evenly
+from carpus.core.measures.speed import StrokeMeasures
+from carpus.core.measures.wrist_centre import WristCentre, estimate_wrist_centre, rotation_in_w0
+from carpus.core.model.hand.exercises import STILL_RADIUS_MM, Exercise
+from carpus.core.model.hand.forearm_rotation import to_clinical_targets_deg
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.types import FloatArray, Side, TrackStatus
+from carpus.core.results.measure import Group, Measure, MeasureKey, UnknownReason, summarise_values
+from carpus.core.results.norms import compute_total_shares
+from carpus.core.results.ranges import measure_joint_ranges, measure_still_angles, measure_wrist_ranges
+from carpus.core.results.recorded_camera import UNKNOWN_CAMERA, RecordedCamera, parse_camera
+from carpus.core.results.repetition_rows import (
+    ACTIVE,
+    PASSIVE,
+    MeasuredRepetition,
+    RepetitionChoices,
+    RepetitionResult,
+    TrainedAngle,
+    find_trained_angle,
+    mask_passive,
+    measure_repetitions,
+    to_repetition_results,
+)
+from carpus.core.results.task_measures import GuardedComputation, compute_task_measures
+from carpus.core.results.valid_data import MeasurableSession, motion_estimate
+from carpus.core.session.label_checks import CorrectionSummary, summarize_corrections
+from carpus.core.session.values import AngleOrder, Session
+
+Best = Callable[[Sequence[float]], float] | None
+SPEED_MEASURES: tuple[tuple[str, str, str, Best], ...] = (
+    ("peak speed", "deg/s", "peak_speed_rad_s", max), ("smoothness", "SPARC", "sparc", max),
+    ("mean speed", "deg/s", "mean_speed_rad_s", max), ("movement time", "s", "movement_time_s", min),
+    ("time to peak", "share", "time_to_peak_share", None), ("movement units", "1", "peaks", min),
+    ("jerk", "LDLJ", "ldlj", max), ("pauses", "1", "pauses", min), ("pause time", "s", "pause_s", min),
+)  # fmt: skip
+"""Name, unit and attribute of what is measured of every stroke, and which is its best."""
+
+
+def summarise_strokes(of: str, strokes: Sequence[StrokeMeasures]) -> tuple[Measure, ...]:
+    """Summarise the strokes that count; of those whose speed or smoothness the tracker's noise hides nothing is
+    known."""
+    slow: dict[str, UnknownReason] = {
+        "peak speed": "too_slow" if any(one.too_slow for one in strokes) else "",
+        "smoothness": "too_slow" if any(one.too_slow_to_be_smooth for one in strokes) else "",
+    }
+    out = []
+    for what, unit, name, best in SPEED_MEASURES:
+        read = math.degrees if unit == "deg/s" else float
+        sds = [math.degrees(one.peak_speed_sd_rad_s) for one in strokes] if what == "peak speed" else ()
+        values = [read(getattr(one, name)) for one in strokes]
+        out.append(
+            summarise_values("speed", of, what, unit, values, sds=sds, best=best, unknown_reason=slow.get(what, ""))
+        )
+    return tuple(out) if strokes else ()
+
+
+STILLNESS_CUTOFF_HZ = 3.0
+"""A forearm does not move faster than this; noise does."""
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingQuality:
+    """How sure the figures are. Shares 0 to 1 of all frames; ``hidden_share`` of all looks at markers."""
+
+    frames: int
+    measured_share: float
+    hidden_share: float
+    dropped_frames: int
+    forearm_movement_mm: float
+    angle_sd_deg: float
+    tilt_deg: float
+    distance_m: float
+    residual_mm: float
+    centre_mm: tuple[float, float, float] = (math.nan,) * 3
+    centre_residual_mm: float = math.nan
+    """Where the wrist turns, from the WRIST disc in the hand's axes, and how well that fits."""
+
+    @classmethod
+    def without_data(cls, frames: int) -> RecordingQuality:
+        """Of a session of which nothing of this could be computed."""
+        return cls(frames, math.nan, math.nan, 0, *(math.nan,) * 5)
+
+    @property
+    def has_forearm_moved(self) -> bool:
+        """Whether the wrist's centre left the ball it must stay in."""
+        return self.forearm_movement_mm > STILL_RADIUS_MM
+
+
+def assess_quality(seen: MeasurableSession, repetitions: Sequence[RepetitionResult]) -> RecordingQuality:
+    """Of a session with these repetitions."""
+    session, motion, verdict = seen.session, motion_estimate(seen.session), seen.session.calibration.verdict
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    centre = estimate_wrist_centre(
+        motion.position_m, rotation_in_w0(motion.rotation_w2_w0, motion.w0_turn_rad), seen.is_in_view
+    )
+    within = [one for one in repetitions if one.is_counted] if seen.tracks else ()
+    return RecordingQuality(
+        frames=len(session),
+        measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
+        hidden_share=_occluded_share(session, time_s, within),
+        dropped_frames=int(np.maximum(session.quality.dropped_before, 0).sum()),
+        forearm_movement_mm=_forearm_movement_mm(time_s, centre),
+        centre_mm=tuple((1e3 * centre.centre_w2_m).tolist()),
+        centre_residual_mm=1e3 * centre.residual_m,
+        angle_sd_deg=_median_joint_sd_deg(seen.tracks) if seen.tracks else _median_angle_sd_deg(session, seen.exercise),
+        tilt_deg=verdict.tilt_deg,
+        distance_m=verdict.distance_m,
+        residual_mm=float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan,
+    )
+
+
+def _occluded_share(session: Session, time_s: FloatArray, within: Sequence[RepetitionResult]) -> float:
+    """Share of all looks at markers in which one was hidden, within repetitions if any: rest hides none."""
+    inside = np.ones(len(time_s), dtype=bool)
+    if within:
+        inside = np.any([(time_s >= rep.start_s) & (time_s <= rep.end_s) for rep in within], axis=0)
+    seen = np.isfinite(session.markers.measured_px[inside, :, 0])
+    return float(np.mean(~seen)) if seen.size else math.nan
+
+
+def _forearm_movement_mm(time_s: FloatArray, centre: WristCentre) -> float:
+    """How far the forearm went: what the centre of the wrist's turning moved, without a frame's noise."""
+    known = np.isfinite(centre.displacement_m)
+    if int(known.sum()) < 2:
+        return math.nan
+    moved = low_pass(resample_evenly(time_s, centre.displacement_m, known), STILLNESS_CUTOFF_HZ).value
+    return 1000.0 * float(np.nanmax(moved)) if np.isfinite(moved).any() else math.nan
+
+
+def _median_angle_sd_deg(session: Session, exercise: Exercise) -> float:
+    sds_deg = np.degrees(motion_estimate(session).angles_sd_rad)
+    columns = sds_deg if exercise.angle is None else sds_deg[:, [exercise.angle]]
+    known = columns[(np.asarray(session.status) == TrackStatus.TRACKED)[:, None] & np.isfinite(columns)]
+    return float(np.median(known)) if known.size else math.nan
+
+
+def _median_joint_sd_deg(tracks: Mapping[str, JointTrack]) -> float:
+    known = [track.visible_sd.value[track.visible_sd.is_finite] for track in tracks.values() if track.is_known]
+    return math.degrees(float(np.median(np.concatenate(known)))) if known else math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class SessionResults:
+    """What is said of one session: its ``measures``, and what makes them comparable or doubtful."""
+
+    session_id: str
+    subject_id: str
+    when: datetime
+    side: Side
+    protocol: str
+    exercise: Exercise
+    duration_s: float
+    is_recovered: bool
+    is_smoothed: bool
+    software_version: str
+    start_angles_deg: FloatArray
+    repetitions: tuple[RepetitionResult, ...]
+    measures: tuple[Measure, ...]
+    quality: RecordingQuality
+    pain_scores: tuple[int, ...]
+    notes: tuple[tuple[float, str], ...]
+    findings: tuple[CalibrationFinding, ...] = ()
+    """What was doubtful at the calibration, and measured all the same."""
+    is_simulated: bool = False
+    """Whether a simulated hand was measured: nobody's movement."""
+    is_excluded: bool = False
+    """Whether a person decided that the session shall not count."""
+    is_superseded: bool = False
+    """Whether there is a result of the same recording that was made later."""
+    targets_deg: tuple[float, float] = (math.nan, math.nan)
+    """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
+    pain_times_s: tuple[float, ...] = ()
+    """When each of ``pain_scores`` was said, after the first frame."""
+    no_repetitions_reason: NoRepetitionReason | None = None
+    """Why there is no repetition, None where there are some or none are counted."""
+    occluded_s: float = 0.0
+    """How long nothing was seen, each time for longer than can be counted across."""
+    recording_id: str = ""
+    created: datetime | None = None
+    """Which recording it is a result of, and when that result was made."""
+    angle_order: AngleOrder = "zyx"
+    earlier_results: int = 0
+    """Results of the same recording that were made before this one: they do not count."""
+    error_limits: ErrorLimits = DEFAULT_LIMITS
+    """Against which its changes are judged."""
+    camera: RecordedCamera = UNKNOWN_CAMERA
+    """Which camera it was measured with, and its calibration."""
+    correction: CorrectionSummary | None = None
+    """Since when it stands with markers that a person put right; None as measured."""
+    excludes_passive: bool = False
+    """Whether ranges over the whole recording leave out stretches in which somebody else moved the hand."""
+    _by_key: Mapping[MeasureKey, Measure] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_by_key", {one.key: one for one in self.measures if not one.is_passive})
+
+    @property
+    def study(self) -> RetestStudy | None:
+        """The clinic's own test and retest of such sessions, None where the default limits hold."""
+        return self.error_limits.study(self.protocol, self.exercise.id, self.angle_order)
+
+    @property
+    def repetition_count(self) -> int:
+        return sum(repetition.is_counted for repetition in self.repetitions)
+
+    @property
+    def main_angle(self) -> str:
+        """The joint or the wrist's angle that the exercise trains; empty where it trains none."""
+        exercise = self.exercise
+        return exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
+
+    @property
+    def has_passive(self) -> bool:
+        """Whether there are repetitions in which somebody else moved the hand."""
+        return any(repetition.is_passive for repetition in self.repetitions)
+
+    def find(self, of: str, what: str) -> Measure | None:
+        """The measure of an angle, joint or way, without what was passive."""
+        return self._by_key.get((of, what))
+
+    def measures_in_group(self, group: Group) -> tuple[Measure, ...]:
+        """All measures of a group, without what was passive."""
+        return tuple(one for one in self.measures if one.group == group and not one.is_passive)
+
+    @property
+    def wrist_ranges(self) -> tuple[Measure, ...]:
+        return tuple(one for one in self.measures_in_group("range") if one.wrist_angle >= 0)
+
+    @property
+    def joint_ranges(self) -> tuple[Measure, ...]:
+        """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
+        return tuple(one for one in self.measures_in_group("range") if one.wrist_angle < 0)
+
+    def speed_measure(self, what: str) -> Measure | None:
+        """One of :data:`SPEED_MEASURES`; None where no stroke was measured."""
+        return next((one for one in self.measures_in_group("speed") if one.quantity == what), None)
+
+    def passive_results(self) -> SessionResults | None:
+        """The session as if the repetitions in which somebody else moved the hand were all of it; None without any."""
+        if not self.has_passive:
+            return None
+        repetitions = (
+            replace(one, exclusion_reason="" if one.is_passive else one.exclusion_reason or ACTIVE)
+            for one in self.repetitions
+        )
+        measures = (replace(one, is_passive=False) for one in self.measures if one.is_passive)
+        return replace(self, repetitions=tuple(repetitions), measures=tuple(measures))
+
+
+def compute_session_results(
+    session: Session, choices: RepetitionChoices | None = None, error_limits: ErrorLimits = DEFAULT_LIMITS
+) -> SessionResults:
+    """All figures of one session, with a person's corrections to its repetitions."""
+    choices, header, attempts = choices or RepetitionChoices(), session.header, GuardedComputation()
+    seen = MeasurableSession.from_session(session)
+    trained = attempts.compute("repetitions", lambda: find_trained_angle(seen), None)
+    measured: tuple[MeasuredRepetition, ...] = ()
+    if trained is not None:
+        measured = attempts.compute("repetitions", lambda: measure_repetitions(trained, choices), ())
+    repetitions = to_repetition_results(measured)
+    counted = tuple(one.window for one in measured if one.row.counted)
+    helped = tuple(one.window for one in measured if one.exclusion_reason == PASSIVE and not one.unmeasured_reason)
+    active = mask_passive(session, measured)
+    own = seen if active is session else MeasurableSession.from_session(active)
+    over = seen if counted else own
+    rows = attempts.compute("ranges", lambda: measure_wrist_ranges(over, counted), ())
+    rows += attempts.compute("ranges of joints", lambda: measure_joint_ranges(over.tracks, counted, over.exercise), ())
+    if not counted and any(one.is_whole for one in repetitions):
+        rows = ()  # all were left out: nothing is measured, least of all the whole recording
+    passive: tuple[Measure, ...] = ()
+    if helped:
+        passive = attempts.compute("ranges", lambda: measure_wrist_ranges(seen, helped), ())
+        passive += attempts.compute(
+            "ranges of joints", lambda: measure_joint_ranges(seen.tracks, helped, seen.exercise), ()
+        )
+    strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.is_half]
+    still = attempts.compute("other movements", lambda: measure_still_angles(own), ())
+    speeds: tuple[Measure, ...] = ()
+    if trained is not None:
+        speeds = attempts.compute("speed", lambda: summarise_strokes(trained.name, strokes), ())
+    quality = attempts.compute(
+        "quality", lambda: assess_quality(seen, repetitions), RecordingQuality.without_data(len(session))
+    )
+    shares = attempts.compute("grades", lambda: compute_total_shares(rows, seen.exercise), ())
+    uncounted = attempts.compute("repetitions", lambda: _explain_no_repetitions(seen, trained), None)
+    task = (*compute_task_measures(own), *attempts.to_measures())
+    pains = [(time_s, int(text)) for time_s, text in _events_of_kind(session, "pain") if text.isdigit()]
+    return SessionResults(
+        session_id=header.session_id,
+        subject_id=header.subject_id,
+        when=header.recording_time,
+        side=header.hand,
+        protocol=header.protocol.name,
+        exercise=seen.exercise,
+        duration_s=float(session.timestamp_s[-1] - session.timestamp_s[0]) if len(session) else 0.0,
+        is_recovered=bool(session.recovered),
+        is_smoothed=session.smoothed is not None,
+        software_version=header.software_version,
+        start_angles_deg=np.degrees(session.calibration.start_angles_rad),
+        repetitions=repetitions,
+        measures=(*rows, *(replace(one, is_passive=True) for one in passive), *task, *shares, *speeds, *still),
+        quality=quality,
+        no_repetitions_reason=uncounted,
+        occluded_s=sum(end - start for start, end in trained.detected.occluded_s) if trained is not None else 0.0,
+        pain_scores=tuple(score for _, score in pains),
+        pain_times_s=tuple(time_s for time_s, _ in pains),
+        notes=tuple(said for said in _events_of_kind(session, "note") if said[1] and len(session)),
+        findings=session.calibration.verdict.findings,
+        is_simulated=header.is_simulated,
+        is_excluded=choices.is_session_excluded,
+        targets_deg=to_clinical_targets_deg(header.targets_deg, seen.exercise),
+        recording_id=header.recording_id,
+        created=datetime.fromisoformat(header.created),
+        angle_order=session.angle_order,
+        error_limits=error_limits,
+        camera=parse_camera(header.parameters),
+        correction=summarize_corrections(session),
+        excludes_passive=not counted and own is not seen,
+    )
+
+
+def compute_data_digest(session: Session) -> str:
+    """SHA-256 over times, status and angles as stored: two reports with the same digest show the same measurement."""
+    digest = hashlib.sha256()
+    motion = motion_estimate(session)
+    for array in (
+        session.timestamp_s,
+        np.asarray(session.status, dtype=np.int64),
+        motion.angles_rad,
+        motion.angles_sd_rad,
+    ):
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+def _events_of_kind(session: Session, kind: str) -> list[tuple[float, str]]:
+    """When after the first frame something of a kind was told, and what."""
+    start_s = float(session.timestamp_s[0]) if len(session) else math.nan
+    return [(event.time_s - start_s, event.text) for event in session.events if event.kind == kind]
+
+
+def _explain_no_repetitions(seen: MeasurableSession, trained: TrainedAngle | None) -> NoRepetitionReason | None:
+    """Why there is no repetition of an angle that is one of this session's."""
+    if trained is not None:
+        return explain_no_repetitions(trained.measured, trained.detected)
+    return "nothing_seen" if seen.exercise.angle is not None or seen.exercise.joint in seen.tracks else None

@@ -1,0 +1,375 @@
+"""Measures of a session beside ranges and speeds: reaches, finger tips, moving together, tremor; of the whole hand."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+import numpy as np
+
+from carpus.core.measures.coordination import (
+    co_flexion,
+    digit_coherence,
+    enslaving_share,
+    measure_tremor,
+    synergy_share,
+)
+from carpus.core.measures.finger_range import JointTrack
+from carpus.core.measures.reach import TIP_NOISE, WRIST_NOISE, Reach, distance_m, find_reaches
+from carpus.core.measures.signals import BoolArray, find_runs, resample_evenly
+from carpus.core.measures.wrist_centre import rotation_in_w0
+from carpus.core.model.hand.clinical_angles import side_sign
+from carpus.core.model.hand.kinematics import DIP_PER_PIP
+from carpus.core.model.hand.protocols import DIGITS
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.types import FloatArray
+from carpus.core.results.measure import Measure, UnknownReason, summarise_values
+from carpus.core.results.valid_data import MeasurableSession, motion_estimate
+from carpus.core.session.values import Motion, Session
+
+TOUCH_DISTANCE_M = 0.015
+"""Thumb and finger tip this near touch (clinical reference 8.2; both points lie under the skin)."""
+RELEASE_DISTANCE_M = 0.025
+"""Beyond this they are apart again: what flickers about the limit is one touch."""
+CERTAIN_SDS = 2.0
+"""So many standard deviations nearer a hidden tip may be than it is tracked."""
+MAX_APERTURE_SD_M = 0.015
+"""An aperture of hidden tips known worse than this is not told (looked back at, it is then 10 mm off at times)."""
+_THUMB_JOINTS = ("CMC1", "MCP1", "IP1")
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """What a measure is called, with ``{one}`` and ``{other}`` of two digits, its unit, and its decimals for people."""
+
+    name: Phrase
+    unit: str
+    decimals: int = 0
+
+
+QUANTITIES: Mapping[str, Quantity] = {
+    "movement time": Quantity(phrase("Movement time"), "s", 2),
+    "peak speed": Quantity(phrase("Peak speed"), "mm/s"),
+    "time to peak": Quantity(phrase("Peak reached after"), "share"),
+    "path length": Quantity(phrase("Length of the way"), "mm"),
+    "straightness": Quantity(phrase("Way / straight line"), "length/chord", 2),
+    "movement units": Quantity(phrase("Peaks of speed"), "1", 1),
+    "smoothness": Quantity(phrase("Smoothness (SPARC)"), "SPARC", 2),
+    "largest aperture": Quantity(phrase("Widest opening, thumb–index"), "mm"),
+    "wrist extension at grasp": Quantity(phrase("Wrist at the grasp"), "deg"),
+    "hand span": Quantity(phrase("Hand span, thumb–little"), "mm"),
+    "tip span": Quantity(phrase("Widest span, {one}–{other}"), "mm"),
+    "least distance": Quantity(phrase("Nearest, {one}–{other}"), "mm"),
+    "touches": Quantity(phrase("Touches, {one}–{other}"), "1"),
+    "thumb hidden": Quantity(phrase("Thumb hidden"), "share"),
+    "coherent though hidden": Quantity(phrase("Its pose coherent meanwhile"), "share"),
+    "known though hidden": Quantity(phrase("Its pose known to 15° meanwhile"), "share"),
+    "jump when seen again": Quantity(phrase("Jump when seen again"), "mm"),
+    "co-flexion": Quantity(phrase("Bend together, {one}–{other} (r)"), "r", 2),
+    "lag": Quantity(phrase("Lag of {other} after {one}"), "s", 2),
+    "enslaving": Quantity(phrase("How far {other} moves with {one}"), "share"),
+    "synergy": Quantity(phrase("All fingers as one movement"), "share"),
+    "tremor 3-12 Hz": Quantity(phrase("Tremor, 3 to 12 Hz (rms)"), "deg", 1),
+    # What could not be computed has a row with nothing in it.
+    "repetitions": Quantity(phrase("Repetitions"), ""),
+    "ranges": Quantity(phrase("Range of motion"), ""),
+    "ranges of joints": Quantity(phrase("Range of motion, fingers"), ""),
+    "other movements": Quantity(phrase("Movement of the other angles"), ""),
+    "speed": Quantity(phrase("Speed and smoothness"), ""),
+    "quality": Quantity(phrase("Quality of the recording"), ""),
+    "grades": Quantity(phrase("Grades"), ""),
+    "reaches": Quantity(phrase("Reaching movements"), ""),
+    "opposition": Quantity(phrase("Thumb opposition"), ""),
+}
+"""Everything that stands beside ranges, by its name in every file."""
+
+
+T = TypeVar("T")
+U = TypeVar("U")
+
+
+@dataclass(frozen=True, slots=True)
+class GuardedComputation:
+    """Computes each figure for itself: one that fails takes no other with it, and is ``failed_names`` by its name."""
+
+    failed_names: list[str] = field(default_factory=list)
+
+    def compute(self, name: str, compute: Callable[[], T], default: U) -> T | U:
+        """What ``compute`` returns, or ``default`` where it fails, whatever the reason."""
+        try:
+            return compute()
+        except Exception:
+            logging.getLogger(__name__).exception("%s could not be computed", name)
+            self.failed_names.append(name)
+            return default
+
+    def to_measures(self) -> tuple[Measure, ...]:
+        """A line for each that failed."""
+        return tuple(
+            Measure("task", "session", name, "", (math.nan,), math.nan, unknown_reason="failed")
+            for name in self.failed_names
+        )
+
+
+def _task_measure(quantity: str, subject: str, values: Sequence[float], unknown_reason: UnknownReason = "") -> Measure:
+    return summarise_values("task", subject, quantity, QUANTITIES[quantity].unit, values, unknown_reason=unknown_reason)
+
+
+def compute_task_measures(seen: MeasurableSession) -> tuple[Measure, ...]:
+    """What an exercise has beside its ranges, a held angle's tremor last; nothing that its discs do not show."""
+    session, wanted, attempts = seen.session, seen.exercise.task_measures, GuardedComputation()
+    reaches: tuple[Reach, ...] = ()
+    if "reaches" in wanted:
+        reaches = attempts.compute("reaches", lambda: find_session_reaches(session, seen.is_in_view), ())
+    groups: list[tuple[str, Callable[[], Sequence[Measure]]]] = [("reaches", lambda: summarise_reaches(reaches))]
+    if seen.tracks:
+        tips = _fingertips_m(session, motion_estimate(session))
+        has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
+        if has_tip[0] and has_tip[1]:
+            aperture_m = distance_m(tips[:, 0], tips[:, 1])
+            groups.append(("largest aperture", lambda: _measure_aperture(session, aperture_m, reaches)))
+        if "spans" in wanted:
+            spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
+            there = [(name, a, b) for name, a, b in spans if has_tip[a] and has_tip[b]]
+            groups.append(("hand span", lambda: [_measure_span(session, name, a, b, tips) for name, a, b in there]))
+        if "touches" in wanted and all(has_tip):
+            groups.append(("opposition", lambda: measure_opposition(session, tips)))
+        if "thumb beside" in wanted and has_tip[0]:
+            groups.append(("thumb hidden", lambda: measure_thumb_coherence(session)))
+        if "together" in wanted:
+            groups.append(("synergy", lambda: _measure_coordination(seen.tracks)))
+    angle = 1 if seen.exercise.angle is None else seen.exercise.angle
+    groups.append((TREMOR, lambda: measure_wrist_tremor(session, angle, TREMOR_NOISE_RAD)))
+    found = [one for name, compute in groups for one in attempts.compute(name, compute, ())]
+    return (*found, *attempts.to_measures())
+
+
+def find_session_reaches(session: Session, is_in_view: BoolArray) -> tuple[Reach, ...]:
+    """Ways out and back of the wrist."""
+    if int(np.sum(is_in_view)) < 2:
+        return ()
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    place = resample_evenly(time_s, motion_estimate(session).position_m, np.asarray(is_in_view, dtype=bool))
+    return find_reaches(place, noise=WRIST_NOISE[session.smoothed is not None])
+
+
+def summarise_reaches(reaches: Sequence[Reach], names: tuple[str, str] = ("reach", "return")) -> list[Measure]:
+    """Time, speed, straightness and smoothness of the ways out, and of those back."""
+    out = []
+    for outward, way in zip((True, False), names, strict=True):
+        some = [reach for reach in reaches if reach.is_outward is outward]
+        if not some:
+            continue
+        for name, values in (
+            ("movement time", [reach.movement_time_s for reach in some]),
+            ("peak speed", [1e3 * reach.path.peak_speed_m_s for reach in some]),
+            ("time to peak", [reach.path.time_to_peak_share for reach in some]),
+            ("path length", [1e3 * reach.path.length_m for reach in some]),
+            ("straightness", [reach.path.straightness for reach in some]),
+            ("movement units", [reach.path.peaks for reach in some]),
+            ("smoothness", [reach.path.sparc for reach in some]),
+        ):
+            out.append(_task_measure(name, way, values, _unknown_reason(name, some)))
+    return out
+
+
+def _unknown_reason(name: str, reaches: Sequence[Reach]) -> UnknownReason:
+    seen = [reach for reach in reaches if not reach.is_occluded]
+    if not seen:
+        return "hidden"
+    slow = all(reach.is_too_slow for reach in seen) or name in ("movement units", "smoothness")
+    return "too_slow" if slow else ""
+
+
+def measure_opposition(session: Session, tips_m: FloatArray) -> list[Measure]:
+    """How near the thumb's tip (N, 5, 3) comes to each finger's and how often they touch, and its ways across the palm
+    and back, seen from the hand: what the hand itself moves is no movement of the thumb.
+
+    Tips that touch are mostly hidden from a camera above the hand: a distance counts where both were seen, and nothing
+    is said where they may have been nearer while they were not.
+    """
+    out = []
+    for k in range(1, 5):
+        distance = distance_m(tips_m[:, 0], tips_m[:, k])
+        seen = _is_tip_seen(session, 0) & _is_tip_seen(session, k) & np.isfinite(distance)
+        with np.errstate(invalid="ignore"):
+            nearest = distance - CERTAIN_SDS * _thumb_distance_sd_m(session, k)
+            near = [
+                part
+                for part in find_runs(distance < RELEASE_DISTANCE_M)
+                if (distance[part][seen[part]] < TOUCH_DISTANCE_M).any()
+            ]
+            in_touch = np.zeros(len(distance), dtype=bool)
+            for part in near:
+                in_touch[part] = True
+            maybe = bool((~seen & ~in_touch & (nearest < TOUCH_DISTANCE_M)).any())
+            least = float(distance[seen].min()) if seen.any() else math.nan
+            nearer = not seen.any() or bool((~seen & (nearest < least)).any())
+        if np.isfinite(distance).any():
+            of = f"TIP1-TIP{k + 1}"
+            away = _task_measure("least distance", of, (math.nan,), "hidden")
+            out.append(away if nearer else _task_measure("least distance", of, (1e3 * least,)))
+            unsure = _task_measure("touches", of, (math.nan,), "hidden")
+            out.append(unsure if maybe else _task_measure("touches", of, (float(len(near)),)))
+    place = _to_hand_axes(motion_estimate(session), _marker_index(session, "TIP1"))
+    known = np.isfinite(place).all(axis=1) & (np.asarray(session.status) != 2)
+    if int(known.sum()) >= 2:
+        time_s = session.timestamp_s - session.timestamp_s[0]
+        ulnar = np.array([0.0, -side_sign(session.header.hand), 0.0])
+        hidden_s = resample_evenly(time_s, place, known & _is_tip_seen(session, 0)).gaps_s
+        noise = TIP_NOISE[session.smoothed is not None]
+        reaches = find_reaches(resample_evenly(time_s, place, known), ulnar, noise, hidden_s)
+        out += summarise_reaches(reaches, ("thumb across", "thumb back"))
+    return out
+
+
+def _marker_index(session: Session, marker: str) -> int:
+    return session.header.protocol.markers.index(marker)
+
+
+def _fingertips_m(session: Session, motion: Motion) -> FloatArray:
+    """Tips (N, 5, 3) of thumb and fingers, NaN while lost and of digits that carry no discs."""
+    out = np.full((len(session), len(DIGITS), 3), np.nan)
+    for digit, chain in session.header.protocol.chains.items():
+        out[:, digit - 1] = motion.joint_position_m[:, chain[-1]]
+    out[np.asarray(session.status) == 2] = np.nan
+    return out
+
+
+def _is_tip_seen(session: Session, tip: int) -> BoolArray:
+    """Frames (N,) with a blob at a finger's tip, 0 the thumb's."""
+    return np.asarray(
+        np.isfinite(session.markers.measured_px[:, _marker_index(session, f"TIP{tip + 1}"), 0]), dtype=np.bool_
+    )
+
+
+def _thumb_distance_sd_m(session: Session, tip: int) -> FloatArray:
+    """Standard deviation (N,) of the distance of the thumb's tip to another: that of each joint of both, times how far
+    the tip lies from it. What joints are off together is taken for their own, which is more than it is."""
+    motion, names = motion_estimate(session), session.header.joint_names
+    variance = np.zeros(len(session))
+    for digit in (0, tip):
+        at = motion.joint_position_m[:, _marker_index(session, f"TIP{digit + 1}")]
+        for column, name in enumerate(names):
+            joint = name.split("_")[0]
+            if joint.endswith(str(digit + 1)):
+                arm = distance_m(at, motion.joint_position_m[:, _marker_index(session, joint)])
+                if joint.startswith("PIP") and f"DIP{digit + 1}_flexion" not in names:
+                    end = motion.joint_position_m[:, _marker_index(session, f"DIP{digit + 1}")]
+                    arm = arm + DIP_PER_PIP * distance_m(at, end)
+                variance += (motion.joint_angles_sd_rad[:, column] * arm) ** 2
+    return np.asarray(np.sqrt(variance))
+
+
+def measure_thumb_coherence(session: Session) -> list[Measure]:
+    """How much of the time the thumb was hidden, and whether what was said of it meanwhile holds together.
+
+    ``thumb hidden``: share of the frames without a blob at one of its outer discs; ``coherent`` and ``known though
+    hidden``: shares subject those, as :func:`core.measures.coordination.digit_coherence` has them; ``jump when seen
+    again`` of
+    its tip.
+    """
+    motion, names = session.motion, session.header.joint_names
+    columns = [k for k, name in enumerate(names) if name.split("_")[0] in _THUMB_JOINTS]
+    outer = list(session.header.protocol.rows(("MCP1", "IP1", "TIP1")))
+    hidden: BoolArray = np.any(~np.isfinite(session.markers.measured_px[:, outer, 0]), axis=1)
+    found = digit_coherence(
+        session.timestamp_s,
+        [names[k] for k in columns],
+        motion.joint_angles_rad[:, columns],
+        motion.joint_angles_sd_rad[:, columns],
+        _to_hand_axes(motion, _marker_index(session, "TIP1")),
+        hidden,
+        np.asarray(session.status) != 2,
+    )
+    if not math.isfinite(found.occluded_share):
+        return []
+    out = [_task_measure("thumb hidden", "thumb", (found.occluded_share,))]
+    if math.isfinite(found.coherent_share):
+        out.append(_task_measure("coherent though hidden", "thumb", (found.coherent_share,)))
+        out.append(_task_measure("known though hidden", "thumb", (found.known_share,)))
+    if found.jumps_m:
+        out.append(_task_measure("jump when seen again", "TIP1", [1e3 * jump for jump in found.jumps_m]))
+    return out
+
+
+def _to_hand_axes(motion: Motion, joint: int) -> FloatArray:
+    """A joint centre (N, 3) in the axes of W2."""
+    turned = rotation_in_w0(motion.rotation_w2_w0, motion.w0_turn_rad)
+    return np.asarray(np.einsum("nji,nj->ni", turned, motion.joint_position_m[:, joint] - motion.position_m))
+
+
+TREMOR = "tremor 3-12 Hz"
+
+
+def measure_wrist_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[Measure]:
+    """Tremor of a wrist angle that was held; nothing where none was held for six seconds."""
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    if len(time_s) < 2:
+        return ()
+    found = measure_tremor(
+        resample_evenly(time_s, motion_estimate(session).angles_rad[:, angle], np.asarray(session.status) == 0),
+        noise_rms_rad,
+    )
+    if found.has_few_frames:
+        return (_task_measure(TREMOR, "rms", (math.nan,), "few_frames"),)
+    return (_task_measure(TREMOR, "rms", (math.degrees(found.rms_rad),)),) if found.is_tremor else ()
+
+
+def _measure_aperture(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[Measure]:
+    """NaN of a reach of which a part was not seen, and of an aperture that is a guess."""
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    sure = (_is_tip_seen(session, 0) & _is_tip_seen(session, 1)) | (
+        _thumb_distance_sd_m(session, 1) <= MAX_APERTURE_SD_M
+    )
+    largest, bent = [], []
+    for reach in (reach for reach in reaches if reach.is_outward):
+        inside = (time_s >= reach.start_s) & (time_s <= reach.end_s) & np.isfinite(aperture_m)
+        if inside.any():
+            widest = int(np.argmax(np.where(inside, aperture_m, -math.inf)))
+            known = not reach.is_occluded and bool(sure[widest])
+            largest.append(1e3 * float(aperture_m[widest]) if known else math.nan)
+            at = int(np.searchsorted(time_s, reach.end_s))
+            angle = float(motion_estimate(session).angles_rad[min(at, len(time_s) - 1), 1])
+            bent.append(math.nan if reach.is_occluded else -math.degrees(angle))
+    if not largest:
+        return []
+    return [
+        _task_measure("largest aperture", "TIP1-TIP2", largest, "hidden"),
+        _task_measure("wrist extension at grasp", "wrist", bent),
+    ]
+
+
+def _measure_span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> Measure:
+    """The largest distance of two tips in the frames that show both."""
+    values_m = distance_m(tips_m[:, one], tips_m[:, other])
+    known = values_m[np.isfinite(values_m) & _is_tip_seen(session, one) & _is_tip_seen(session, other)]
+    of = f"TIP{one + 1}-TIP{other + 1}"
+    if not len(known):
+        return _task_measure(name, of, (math.nan,), "hidden")
+    return _task_measure(name, of, (1e3 * float(np.percentile(known, 99.0)),))
+
+
+def _measure_coordination(tracks: Mapping[str, JointTrack]) -> list[Measure]:
+    """Co-flexion of neighbouring middle joints, of index and middle finger's knuckles, and their synergy."""
+    out = []
+    pairs = [(f"PIP{k}_flexion", f"PIP{k + 1}_flexion") for k in range(2, 5)]
+    for one, other in pairs:
+        a, b = tracks[one].tracked, tracks[other].tracked
+        if len(a.value) != len(b.value) or not len(a.value):
+            continue
+        found = co_flexion(a.value, b.value, a.rate_hz)
+        out.append(_task_measure("co-flexion", f"{one}, {other}", (found.correlation,)))
+        out.append(_task_measure("lag", f"{one}, {other}", (found.lag_s,)))
+        out.append(_task_measure("enslaving", f"{one}, {other}", (enslaving_share(a.value, b.value),)))
+    bending = [track.tracked.value for name, track in tracks.items() if name.endswith("_flexion") and name[3] in "2345"]
+    if bending and len({len(values) for values in bending}) == 1 and len(bending[0]):
+        out.append(_task_measure("synergy", "fingers", (synergy_share(np.column_stack(bending)),)))
+    return out
+
+
+TREMOR_NOISE_RAD = math.radians(0.25)
+"""What the tracker shows between 3 and 12 Hz of a hand that lies still: the sd that moves from frame to frame."""

@@ -1,0 +1,138 @@
+"""What of a session was seen well enough to be measured, and its angles as they are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.measures.finger_range import JointTrack, joint_track, plausible_joints, valid_joints, visible_joints
+from carpus.core.measures.signals import (
+    BoolArray,
+    Signal,
+    exclude_view_edges,
+    resample_evenly,
+    valid_view,
+    valid_wrist_angles,
+)
+from carpus.core.model.hand.exercises import Exercise, get_exercise
+from carpus.core.model.hand.forearm_rotation import to_clinical_wrist_angles
+from carpus.core.model.types import FloatArray
+from carpus.core.session.values import Motion, Session
+
+
+def motion_estimate(session: Session) -> Motion:
+    """The smoother's result where there is one, else the filter's."""
+    return session.motion if session.smoothed is None else session.smoothed
+
+
+def clinical_angles_rad(session: Session) -> FloatArray:
+    """The wrist's angles (N, 3) as a clinician reads them, by the smoother where there is one."""
+    exercise = get_exercise(session.header.exercise)
+    return to_clinical_wrist_angles(motion_estimate(session).angles_rad, exercise, session.calibration.start_angles_rad)
+
+
+@dataclass(frozen=True, slots=True)
+class WristCurves:
+    """Angles over the session as they are drawn: ``time_s`` (N,) after the first frame, the rest (N, 3).
+
+    The wrist's are counted as :func:`core.model.hand.forearm_rotation.to_clinical_wrist_angles` says.
+    """
+
+    time_s: FloatArray
+    angles_deg: FloatArray
+    sds_deg: FloatArray
+    status: FloatArray
+
+
+def wrist_curves(session: Session) -> WristCurves:
+    """Angles ready to draw."""
+    motion = motion_estimate(session)
+    time_s = session.timestamp_s - session.timestamp_s[0] if len(session) else np.empty(0)
+    return WristCurves(
+        time_s, np.degrees(clinical_angles_rad(session)), np.degrees(motion.angles_sd_rad), np.asarray(session.status)
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class JointCurves:
+    """Joint angles over the session as they are drawn: ``time_s`` (N,) after the first frame, angles and sds (N, J),
+    ``is_valid`` bool (N, J) where the angle was measured directly and counts."""
+
+    names: tuple[str, ...]
+    time_s: FloatArray
+    angles_deg: FloatArray
+    sds_deg: FloatArray
+    is_valid: np.ndarray
+
+
+def joint_curves(session: Session) -> JointCurves | None:
+    """Curves of a session of the whole hand; None for the wrist alone."""
+    names = session.header.joint_names
+    if not names:
+        return None
+    motion = motion_estimate(session)
+    seen = visible_joints(names, session.header.protocol.markers, session.markers.measured_px)
+    possible = plausible_joints(names, motion.joint_angles_rad)
+    angles = np.where(possible, motion.joint_angles_rad, np.nan)
+    sds = np.where(possible, motion.joint_angles_sd_rad, np.nan)
+    return JointCurves(
+        names=names,
+        time_s=session.timestamp_s - session.timestamp_s[:1],
+        angles_deg=np.degrees(angles),
+        sds_deg=np.degrees(sds),
+        is_valid=valid_joints(session.status, seen, angles, sds),
+    )
+
+
+def joint_tracks(session: Session, names: Collection[str] | None = None) -> dict[str, JointTrack]:
+    """Every joint by its name, or ``names`` some; empty for the wrist alone."""
+    curves = joint_curves(session)
+    if curves is None:
+        return {}
+    angles, sds = np.radians(curves.angles_deg), np.radians(curves.sds_deg)
+    return {
+        name: joint_track(
+            name, curves.time_s, angles[:, k], sds[:, k], curves.is_valid[:, k], session.smoothed is not None
+        )
+        for k, name in enumerate(curves.names)
+        if names is None or name in names
+    }
+
+
+def palm_in_view(session: Session) -> BoolArray:
+    """Frames (N,) that the camera saw well enough to measure the wrist."""
+    motion, palm = motion_estimate(session), list(session.header.protocol.palm)
+    view = valid_view(
+        session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
+    )
+    return exclude_view_edges(view, session.timestamp_s - session.timestamp_s[:1])
+
+
+def wrist_signals(session: Session, is_in_view: BoolArray) -> list[Signal]:
+    """The wrist's three angles as they are read, each with its sd, with gaps where it was not seen well."""
+    angles_rad, sds_rad = clinical_angles_rad(session), motion_estimate(session).angles_sd_rad
+    valid = valid_wrist_angles(is_in_view, angles_rad, sds_rad)
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    return [resample_evenly(time_s, np.column_stack((angles_rad[:, k], sds_rad[:, k])), valid[:, k]) for k in range(3)]
+
+
+@dataclass(frozen=True, slots=True)
+class MeasurableSession:
+    """A session with what of it may be measured: ``is_in_view`` (N,) the frames that show the palm well, ``signals``
+    the
+    wrist's three angles, ``tracks`` every joint by its name."""
+
+    session: Session
+    exercise: Exercise
+    is_in_view: BoolArray
+    signals: list[Signal]
+    tracks: dict[str, JointTrack]
+
+    @classmethod
+    def from_session(cls, session: Session, joints: Collection[str] | None = None) -> MeasurableSession:
+        """By the rules of the ranges; ``joints`` alone where no other is asked for."""
+        view = palm_in_view(session)
+        exercise = get_exercise(session.header.exercise)
+        return cls(session, exercise, view, wrist_signals(session, view), joint_tracks(session, joints))

@@ -1,0 +1,438 @@
+"""Reads session files by the schema; in the reading process (:mod:`core.read_session.reader`)."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import logging
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
+from carpus.core.model.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
+from carpus.core.model.dates import moment_from_timestamp, to_iso
+from carpus.core.model.depth_sensor import ASSUMED_SENSOR, DepthSensor, parse_sensor
+from carpus.core.model.errors import (
+    CarpusFault,
+    ProtocolUnknown,
+    SessionChanged,
+    SessionMissing,
+    SessionUnfinished,
+    SessionUnreadable,
+)
+from carpus.core.model.hand.dorsal_surface import DorsalSurface
+from carpus.core.model.hand.protocols import get_protocol
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import Detections
+from carpus.core.session import schema
+from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
+from carpus.core.session.plausibility import MAX_DURATION_S, check_detections, check_header, check_values
+from carpus.core.session.rows import RowCounts, check_structure
+from carpus.core.session.schema import Field, TableLayout
+from carpus.core.session.values import (
+    DetectionTable,
+    EncodedImages,
+    Event,
+    MarkerSeries,
+    Motion,
+    QualitySeries,
+    RepetitionRow,
+    Repetitions,
+    Session,
+    SessionHeader,
+    SessionOutline,
+    VerificationResult,
+)
+
+log = logging.getLogger(__name__)
+
+
+def read_session(path: Path) -> Session:
+    """Read a session. Raises :class:`SessionUnreadable`.
+
+    Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
+    """
+    with open_session(path) as file:
+        return _SessionFile(path, file).read_session()
+
+
+def session_from_file(path: Path, file: h5py.File) -> Session:
+    """As :func:`read_session`, of a file that is open."""
+    return _SessionFile(path, file).read_session()
+
+
+def layout_from_file(path: Path, file: h5py.File) -> TableLayout:
+    """What the axis letters mean in a file that is open."""
+    return _SessionFile(path, file).layout
+
+
+def read_outline(path: Path) -> SessionOutline:
+    """Header, length and state of a session, without its data: quick enough for a whole folder."""
+    with open_session(path) as file:
+        return _SessionFile(path, file).read_outline()
+
+
+def read_detections(path: Path) -> DetectionTable:
+    """Every blob of every frame of a session."""
+    with open_session(path) as file:
+        source = _SessionFile(path, file)
+        pixel, depth, depth_sd, area, similarity = (source.read_array(field) for field in schema.DETECTION_FIELDS)
+        blobs = Detections(pixel, depth, depth_sd, area, similarity)
+        check_detections(path, blobs)
+        readings = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
+        kept = [source.read_array(field) if field.path in file else np.empty((0, 0)) for field in readings]
+        return DetectionTable(source.read_array(schema.DETECTION_FRAME), blobs, (kept[0], kept[1]), (kept[2], kept[3]))
+
+
+def verify(path: Path) -> VerificationResult:
+    """Read all of a session against its check sums and its seal. Raises :class:`SessionUnreadable` for a damaged one,
+    :class:`SessionChanged` for one that is not as it was finished."""
+    session = read_session(path)
+    with open_session(path) as file:
+        seal = str(file.attrs.get(CHECKSUM_ATTRIBUTE, ""))
+        if seal and seal != compute_checksum(file):
+            raise SessionChanged(path)
+    if not seal:
+        read_detections(path)
+    return VerificationResult(len(session), bool(seal))
+
+
+def has_raw(path: Path) -> bool:
+    """Whether the session kept its pictures."""
+    with open_session(path) as file:
+        return all(field.path in file for field in (*schema.RAW_STREAMS, *schema.RAW_ENDS))
+
+
+def raw_depth_unit_m(path: Path) -> float:
+    """Metres per count of the depth pictures kept."""
+    with open_session(path) as file:
+        return float(file["/raw"].attrs[schema.RAW_DEPTH_UNIT])
+
+
+def read_raw_chunk(path: Path, first_row: int, max_bytes: int) -> Sequence[EncodedImages]:
+    """The pictures kept from row ``first_row`` on, as many as ``max_bytes`` hold and at least one; none at the end."""
+    with open_session(path) as file:
+        source = _SessionFile(path, file)
+        ends = [source.read_raw_ends(number) for number in range(len(schema.RAW_ENDS))]
+        color, depth = (file[field.path] for field in schema.RAW_STREAMS)
+        some: list[EncodedImages] = []
+        taken = 0
+        for row in range(first_row, len(ends[0])):
+            color_at, depth_at = (int(each[row - 1]) if row else 0 for each in ends)
+            color_to, depth_to = (int(each[row]) for each in ends)
+            taken += color_to - color_at + depth_to - depth_at
+            if some and taken > max_bytes:
+                break
+            some.append(EncodedImages(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes()))
+        return some
+
+
+def read_raw_color(path: Path, row: int) -> bytes:
+    """The colour picture kept of one row; no bytes where there is none."""
+    with open_session(path) as file:
+        color_end, color = _SessionFile(path, file).read_raw_ends(0), file[schema.RAW_STREAMS[0].path]
+        if not 0 <= row < len(color_end):
+            return b""
+        start = int(color_end[row - 1]) if row else 0
+        return bytes(color[start : int(color_end[row])].tobytes())
+
+
+@contextlib.contextmanager
+def open_session(path: Path) -> Iterator[h5py.File]:
+    """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""
+    if not path.is_file():
+        if not path.exists():
+            raise SessionMissing(path)
+        raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("not a file"))
+    try:
+        with h5py.File(path, "r") as file:
+            check_structure(path, file)
+            _check_format(path, file)
+            yield file
+    except BlockingIOError as cause:
+        raise SessionUnreadable(path, phrase("still being recorded")) from cause
+    except CarpusFault:
+        raise
+    except MemoryError as cause:
+        raise SessionUnreadable(path, phrase("damaged: it asks for more memory than a session needs")) from cause
+    except Exception as cause:  # a damaged file may make the library and the code above it raise anything
+        # What the library says of it helps who looks into the file, and nobody who wants to see a session.
+        log.info("reading %s: %s", path, cause)
+        raise SessionUnreadable(
+            path, phrase("damaged") if h5py.is_hdf5(path) else phrase("not a session file")
+        ) from cause
+
+
+def _check_format(path: Path, file: h5py.File) -> None:
+    if file.attrs.get("format") != schema.FORMAT:
+        raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
+    version = _format_version(file)
+    if not 1 <= version <= schema.NEWEST_VERSION:
+        raise SessionUnreadable(
+            path,
+            phrase(
+                "format version {version}, this Carpus reads up to {format_version}",
+                version=version,
+                format_version=schema.NEWEST_VERSION,
+            ),
+        )
+
+
+def _format_version(file: h5py.File) -> int:
+    return int(file.attrs.get("format_version", 0))
+
+
+def _parse_sensor(path: Path, said: str | None) -> DepthSensor:
+    try:
+        return ASSUMED_SENSOR if said is None else parse_sensor(json.loads(said))
+    except ValueError as cause:
+        raise SessionUnreadable(path, phrase("damaged: depth sensor, {cause}", cause=cause)) from cause
+
+
+class _SessionFile:
+    """One open session: its header, and its datasets checked against the schema."""
+
+    def __init__(self, path: Path, file: h5py.File) -> None:
+        self._path = path
+        self._file = file
+        self._header = self._read_header()
+        self.layout = TableLayout(self._header.protocol, self._header.joint_names)
+
+    def read_session(self) -> Session:
+        frames = {
+            field.attribute: self.read_array(field)
+            for field in schema.FRAME_FIELDS
+            if field not in schema.MOTION_FIELDS
+        }
+        session = Session(
+            path=self._path,
+            header=self._header,
+            camera=self._read_camera(),
+            calibration=self._read_calibration(),
+            timestamp_s=frames["timestamp_s"],
+            status=frames["status"],
+            motion=self._read_motion(schema.MOTION_FIELDS),
+            markers=MarkerSeries(
+                frames["marker_position_cam_m"],
+                frames["marker_measured_px"],
+                frames["marker_measured_depth_m"],
+                frames["doubted"].astype(bool),
+            ),
+            quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
+            events=tuple(map(Event, *(self._read_list(field) for field in schema.EVENT_FIELDS))),
+            smoothed=self._smoothed(),
+            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+            repetitions=self._read_repetitions(),
+        )
+        check_values(self._path, session)
+        return session
+
+    def _smoothed(self) -> Motion | None:
+        """None where no smoother ran."""
+        return self._read_motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None
+
+    def _read_repetitions(self) -> Repetitions | None:
+        path = schema.REPETITIONS.path
+        if path not in self._file:
+            return None
+        table = self._file[path]
+        missing = {column.name for column in schema.REPETITION_COLUMNS} - set(table.dtype.names or ())
+        columns = [column for column in schema.REPETITION_COLUMNS if column.name not in missing]
+        dtype = np.dtype([(column.name, column.dtype) for column in columns])
+        if table.dtype != dtype or table.ndim != 1 or not missing <= {"at_least"}:  # which is from later
+            raise SessionUnreadable(self._path, phrase("damaged: {value}", value=path))
+        names = [column.attribute for column in columns]
+        rows = ({"at_least": False} | dict(zip(names, row, strict=True)) for row in table[()].tolist())
+        return Repetitions(
+            str(table.attrs[schema.REPETITION_ANGLE]),
+            tuple(
+                RepetitionRow(
+                    **row
+                    | {name: bool(row[name]) for name in ("at_least", "counted")}
+                    | {"reason": row["reason"].decode("utf-8", "replace")}
+                )
+                for row in rows
+            ),
+        )
+
+    def read_outline(self) -> SessionOutline:
+        frames = self._rows.frames
+        times = self._file["/frames/timestamp"]
+        duration_s = float(times[frames - 1] - times[0]) if frames else 0.0
+        if not 0.0 <= duration_s <= MAX_DURATION_S:
+            raise SessionUnreadable(self._path, phrase("damaged: the times of its frames are no session's"))
+        return SessionOutline(
+            header=self._header,
+            frames=frames,
+            duration_s=duration_s,
+            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+            size_bytes=self._path.stat().st_size,
+        )
+
+    def read_array(self, field: Field) -> NDArray[Any]:
+        """A dataset with the type and shape of the schema, read-only; an optional one that is not there is unknown."""
+        expected = tuple(
+            self._rows.axis_length(str(axis)) if axis in schema.GROWING_AXES else size
+            for axis, size in zip(field.shape, self._read_sizes(field), strict=True)
+        )
+        if field.path not in self._file:
+            if not field.optional:
+                raise SessionUnreadable(self._path, phrase("no dataset {path}", path=field.path))
+            return np.full(expected, field.fill, dtype=field.h5_dtype)
+        dataset = self._file[field.path]
+        data = dataset[()]
+        kinds = {"f": "f", "u": "iu", "i": "iu", "t": "SO"}[field.dtype[0]]
+        if data.shape != expected or data.dtype.kind not in kinds:
+            raise SessionUnreadable(
+                self._path,
+                phrase(
+                    "{path} is {dtype} {shape}, {dtype2} {expected} expected",
+                    path=field.path,
+                    dtype=data.dtype,
+                    shape=data.shape,
+                    dtype2=field.dtype,
+                    expected=expected,
+                ),
+            )
+        array: NDArray[Any] = data if data.dtype.kind == "O" else data.astype(field.h5_dtype, copy=False)
+        array.setflags(write=False)
+        return array
+
+    def read_raw_ends(self, number: int) -> NDArray[Any]:
+        """Where the pictures of each frame end in a stream; checked, since slices are made of it."""
+        ends = self.read_array(schema.RAW_ENDS[number])
+        stream = schema.RAW_STREAMS[number]
+        if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > self._file[stream.path].shape[0]):
+            raise SessionUnreadable(
+                self._path,
+                phrase("damaged: {path} does not fit {path2}", path=schema.RAW_ENDS[number].path, path2=stream.path),
+            )
+        return ends
+
+    def _read_sizes(self, field: Field) -> tuple[int, ...]:
+        row = self.layout.row_shape(field)
+        return (0, *row) if field.shape[0] in schema.GROWING_AXES else row
+
+    def _read_list(self, field: Field) -> list[Any]:
+        values = self.read_array(field).tolist()
+        return [value.decode("utf-8") if isinstance(value, bytes) else value for value in values]
+
+    def _read_attribute(self, name: str) -> Any:
+        try:
+            return self._file.attrs[name]
+        except KeyError as cause:
+            raise SessionUnreadable(self._path, phrase("no attribute {name}", name=name)) from cause
+
+    def _read_header(self) -> SessionHeader:
+        try:
+            protocol = get_protocol(str(self._read_attribute("protocol")))
+        except ProtocolUnknown as cause:
+            raise SessionUnreadable(self._path, phrase("marker protocol {subject}", subject=cause.subject)) from cause
+        hand = str(self._read_attribute("hand"))
+        if hand not in ("right", "left"):
+            raise SessionUnreadable(self._path, phrase("hand {hand}", hand=f"{hand!r}"))
+        joints = tuple(map(str, self._file["/joints"].attrs["names"])) if protocol.has_fingers else ()
+        if protocol.has_fingers and joints not in (protocol.joint_names(False), protocol.joint_names(True)):
+            raise SessionUnreadable(
+                self._path,
+                phrase("{count} joint angles with other names than {name} has", count=len(joints), name=protocol.name),
+            )
+        header = SessionHeader(
+            session_id=str(self._read_attribute("session_id")),
+            subject_id=str(self._read_attribute("subject_id")),
+            created=str(self._read_attribute("created")),
+            hand="right" if hand == "right" else "left",
+            protocol=protocol,
+            exercise=str(self._read_attribute("exercise")),
+            software_version=str(self._read_attribute("software_version")),
+            parameters=str(self._read_attribute("parameters")),
+            origin=str(self._file.attrs.get("origin", "")),
+            joint_names=joints,
+            recorded=self._read_recording_date(),
+            recording_id=self._read_recording_id(),
+        )
+        check_header(self._path, header, json.loads(header.parameters))
+        return header
+
+    def _read_recording_date(self) -> str:
+        """Version 1 did not say: the times of the pictures do where they count from 1970, else the file's own date."""
+        if _format_version(self._file) > 1:
+            return str(self._read_attribute("recorded"))
+        created = str(self._read_attribute("created"))
+        first = self._file["/frames/timestamp"][:1]
+        moment = moment_from_timestamp(float(first[0])) if len(first) else None
+        return created if moment is None else to_iso(moment)
+
+    def _read_recording_id(self) -> str:
+        """Version 1 did not say: a session tracked again named the one it came from, which was made before."""
+        if _format_version(self._file) > 1:
+            return str(self._read_attribute("recording_id"))
+        return str(self._file.attrs.get("origin", "") or self._read_attribute("session_id"))
+
+    @cached_property
+    def _rows(self) -> RowCounts:
+        if not self._read_attribute("complete"):
+            raise SessionUnfinished(self._path)
+        lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
+        streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
+        return RowCounts(*lengths, *streams)
+
+    def _read_motion(self, fields: tuple[Field, ...]) -> Motion:
+        rows = self._rows.frames
+        nothing = {2: (rows, 0), 3: (rows, 0, 3)}
+        values = {
+            field.attribute: self.read_array(field) if self.layout.has(field) else np.empty(nothing[len(field.shape)])
+            for field in fields
+        }
+        return Motion(**values)
+
+    def _read_camera(self) -> Camera:
+        said = self._file["/camera"].attrs
+        model = str(said.get("distortion_model", "plumb_bob"))
+        lens = tuple(float(value) for value in said["distortion"])
+        known = next(
+            (one for one, count in DISTORTION_COEFFICIENT_COUNTS.items() if one == model and count == len(lens)), None
+        )
+        if known is None:
+            raise SessionUnreadable(
+                self._path, phrase("distortion {model} with {count} coefficients", model=model, count=len(lens))
+            )
+        return Camera(
+            fx_px=float(said["fx"]),
+            fy_px=float(said["fy"]),
+            cx_px=float(said["cx"]),
+            cy_px=float(said["cy"]),
+            width_px=int(said["width"]),
+            height_px=int(said["height"]),
+            distortion=lens,
+            origin=str(said.get("origin", "file")),
+            sensor=_parse_sensor(self._path, said.get("depth_sensor")),
+            distortion_model=known,
+        )
+
+    def _read_calibration(self) -> Calibration:
+        arrays = {field.attribute: self.read_array(field) for field in schema.CALIBRATION_FIELDS}
+        clicks_px, residual_m = arrays.pop("clicks_px"), arrays.pop("residual_m")
+        surface = DorsalSurface.from_table(arrays.pop("surface"))
+        said = self._file["/calibration"].attrs
+        findings = []
+        for fact in json.loads(said.get("findings", "[]")):
+            findings.append(CalibrationFinding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
+        unknown = float("nan")
+        verdict = Verdict(
+            residual_mm=residual_m * 1e3,
+            hand_length_mm=float(said.get("hand_length_m", unknown)) * 1e3,
+            tilt_deg=float(np.degrees(said.get("tilt_rad", unknown))),
+            distance_m=float(said.get("distance_m", unknown)),
+            frames_used=int(said.get("frames_used", 0)),
+            findings=tuple(findings),
+        )
+        straight = tuple(map(bool, said.get("straight_fingers", ())))
+        clicks = Clicks(self._header.hand, self._header.protocol, clicks_px, straight)
+        return Calibration(clicks=clicks, verdict=verdict, surface=surface, **arrays)

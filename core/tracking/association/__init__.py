@@ -1,0 +1,1 @@
+"""Which blob is which marker: gates, joint association, finding a lost hand again."""

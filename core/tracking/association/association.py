@@ -1,0 +1,258 @@
+"""Which blob is which marker: eq. (6) to (12) of the wrist paper, resolved jointly.
+
+For every blob i and marker j the posterior p(a_i = j) is proportional to N(y_i; predicted, P) times a prior; for
+clutter it is the density 1/RES (times 1/depth range where depth takes part) times a prior. The paper then takes the
+best j for each blob alone; here the product over all blobs is maximised under the constraint that no marker and no blob
+is used twice.
+
+The discs are on one hand: where one is decides where the others can be. Judging each marker by itself, as (12) does,
+forgets that, and after a surprise neighbours are taken for each other. Where the easy answer is not jointly compatible,
+the joint posterior of all names is searched: a beam over the markers, each decision narrowing where the rest may be
+(Neira and Tardos 2001, weighed by probability instead of a gate alone).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.compiled.association import compute_log_odds, find_likeliest
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.settings import AssociationSettings
+
+LOG_IMPOSSIBLE = -1e9
+
+
+DEPTH_OUTLIER_PROBABILITY = 1e-4
+"""The chance that a blob's depth is of something else."""
+
+
+@dataclass(frozen=True, slots=True)
+class LogOdds:
+    """Log of (12) for marker j over (12) for clutter, (M, D); ``LOG_IMPOSSIBLE`` outside the gate.
+
+    ``with_depth``: whether the blob's depth is believed; where not, it is the depth of something else.
+    """
+
+    value: FloatArray
+    with_depth: NDArray[np.bool_]
+
+
+@lru_cache(maxsize=8)
+def log_densities(
+    resolution_px2: float, outlier_probability: float, settings: AssociationSettings
+) -> tuple[float, float, float]:
+    """Logs of a marker's prior and clutter's density in the picture, of clutter's in depth (both but for those of the
+    normal density), and of the chance that a depth is of something else."""
+    prior = settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi)
+    by_depth = settings.depth_range_m / math.sqrt(2.0 * math.pi)
+    return math.log(prior), math.log(by_depth), math.log(outlier_probability)
+
+
+def log_odds(
+    predicted: FloatArray,
+    covariance: FloatArray,
+    measured: FloatArray,
+    noise_variance: FloatArray,
+    resolution_px2: float,
+    outlier_probability: float,
+    settings: AssociationSettings,
+) -> LogOdds:
+    """Odds of every marker and blob.
+
+    ``predicted`` (M, 3) and ``covariance`` (M, 3, 3): pixel u, v and depth m; ``measured`` (D, 3), its depth
+    NaN where unknown (then only the pixel counts, and clutter's density is 1/RES);
+    ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
+    with the chance ``outlier_probability``.
+    """
+    densities = log_densities(resolution_px2, outlier_probability, settings)
+    return LogOdds(
+        *compute_log_odds(
+            predicted, covariance, measured, noise_variance, densities, settings.gate_sd**2, LOG_IMPOSSIBLE
+        )
+    )
+
+
+def association_posterior(odds: FloatArray) -> FloatArray:
+    """p(a_i = j | y_i) of every blob, (D, M + 1), column 0 clutter; rows sum to one: eq. (12)."""
+    stacked = np.concatenate((np.zeros((1, odds.shape[1])), odds), axis=0).T
+    stacked = stacked - stacked.max(axis=1, keepdims=True)
+    weight = np.exp(stacked)
+    return np.asarray(weight / weight.sum(axis=1, keepdims=True))
+
+
+def assign_blobs(odds: FloatArray) -> NDArray[np.int64]:
+    """Blob index of every marker (M,), -1 for none: the joint assignment of greatest posterior.
+
+    Leaving a blob to clutter costs nothing, so only positive odds are taken.
+    """
+    likeliest = find_likeliest(odds)
+    if likeliest is not None:
+        return likeliest
+    from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
+
+    rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
+    assigned = np.full(odds.shape[0], -1, dtype=np.int64)
+    assigned[rows] = np.where(odds[rows, columns] > 0.0, columns, -1)
+    return assigned
+
+
+MAX_DOF, MAX_NEWTON_STEPS = 200, 40
+
+
+@lru_cache(maxsize=4)
+def chi2_quantiles(probability: float) -> tuple[float, ...]:
+    """Quantiles of chi squared by degrees of freedom, by Newton's steps.
+
+    They are taken on the logarithm of what lies above them, which is a finite sum. (SciPy's are the same within 1e-14,
+    and take as long to load as all of NumPy.)
+    """
+    if probability >= 1.0:
+        return (np.inf,) * MAX_DOF
+    dof = np.arange(1.0, MAX_DOF)
+    is_odd = dof % 2.0
+    powers = 0.5 * is_odd[:, None] + np.arange(MAX_DOF // 2)
+    log_gamma = np.array([math.lgamma(0.5 * twice) for twice in range(1, 2 * MAX_DOF)])
+    log_factor = np.where(powers < 0.5 * dof[:, None], -log_gamma[(2.0 * powers).astype(int) + 1], -np.inf)
+    half = 0.5 * dof
+    for _ in range(MAX_NEWTON_STEPS):
+        above = np.exp(powers * np.log(half)[:, None] - half[:, None] + log_factor).sum(axis=1)
+        above += is_odd * [math.erfc(math.sqrt(one)) for one in half]
+        density = np.exp((0.5 * dof - 1.0) * np.log(half) - half - log_gamma[: dof.size])
+        step = above * (np.log(above) - math.log1p(-probability)) / density
+        half = np.maximum(half + step, 0.1 * half)
+        if (np.abs(step) <= 1e-14 * half).all():
+            break
+    return (np.inf, *(2.0 * half).tolist())
+
+
+def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -> bool:
+    """Whether the innovations of all markers together are what the filter foresaw."""
+    most = chi2_quantiles(settings.consistent)
+    return dof == 0 or nis <= most[min(dof, len(most) - 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class JointAssociation:
+    """``assigned`` (M,) blob of every marker or -1, ``with_depth`` (M,) whether its depth was believed;
+    ``log_posterior`` over that of calling every blob clutter."""
+
+    assigned: NDArray[np.int64]
+    with_depth: NDArray[np.bool_]
+    log_posterior: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Branches:
+    """B ways to name the first m markers, side by side: ``assigned`` and ``with_depth`` (B, m), ``score`` (B,), and
+    what they leave of the prediction, ``mean`` (B, 3M) and ``covariance`` (B, 3M, 3M)."""
+
+    assigned: NDArray[np.int64]
+    with_depth: NDArray[np.bool_]
+    score: FloatArray
+    mean: FloatArray
+    covariance: FloatArray
+
+
+def associate_jointly(
+    mean: FloatArray,
+    covariance: FloatArray,
+    measured: FloatArray,
+    noise_variance: FloatArray,
+    resolution_px2: float,
+    outlier_probability: float,
+    settings: AssociationSettings,
+    beam: int | None = None,
+) -> JointAssociation:
+    """Most probable names of all blobs together.
+
+    ``mean`` (3M,) and ``covariance`` (3M, 3M) of the predicted pixels and depths of all markers;
+    ``measured`` (D, 3), depth NaN where unknown; ``noise_variance`` (D, 3).
+    """
+    markers = mean.size // 3
+    prior = float(np.log(settings.prior_marker) - np.log(settings.prior_clutter))
+    base = float(np.log(resolution_px2)) + prior
+    # By the number of measured coordinates: clutter's depth is spread over a range; a depth that is left out was wrong.
+    clutter = {
+        3: np.full(len(measured), base + float(np.log(settings.depth_range_m))),
+        2: base + np.where(np.isfinite(measured[:, 2]), np.log(outlier_probability), 0.0),
+    }
+    certain_first = np.argsort(
+        [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(markers)], kind="stable"
+    )
+    none = np.empty((1, 0))
+    branches = _Branches(none.astype(np.int64), none.astype(bool), np.zeros(1), mean[None], covariance[None])
+    for marker in certain_first:
+        block = slice(3 * int(marker), 3 * int(marker) + 3)
+        ways = [branches.score[:, None]]
+        difference = measured - branches.mean[:, None, block]
+        own = branches.covariance[:, block, block]
+        is_used = (branches.assigned[:, :, None] == np.arange(len(measured))).any(axis=1)
+        for used in (3, 2):
+            distance2, log_normal = _log_normal_density(
+                difference[..., :used], own[:, :used, :used], noise_variance[:, :used]
+            )
+            possible = (distance2 <= settings.gate_sd**2) & ~is_used
+            ways.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
+        score = np.concatenate(ways, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
+        order = np.argsort(-score, axis=None, kind="stable")[: settings.beam if beam is None else beam]
+        order = order[np.isfinite(score.ravel()[order])]
+        parent, way = np.divmod(order, score.shape[1])
+        branches = _extend_branches(branches, parent, way, score.ravel()[order], block, measured, noise_variance)
+    best = int(np.argmax(branches.score))
+    assigned = np.full(markers, -1, dtype=np.int64)
+    with_depth = np.zeros(markers, dtype=bool)
+    assigned[certain_first] = branches.assigned[best]
+    with_depth[certain_first] = branches.with_depth[best]
+    return JointAssociation(assigned, with_depth, float(branches.score[best]))
+
+
+def _log_normal_density(
+    difference: FloatArray, covariance: FloatArray, noise_variance: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Squared distance (B, D) in standard deviations and log density of ``difference`` (B, D, k) under covariances
+    (B, k, k) plus each blob's noise (D, k)."""
+    axes = np.arange(difference.shape[-1])
+    s = np.repeat(covariance[:, None], len(noise_variance), axis=1)
+    s[..., axes, axes] += noise_variance
+    distance2 = np.sum(difference * np.linalg.solve(s, difference[..., None])[..., 0], axis=-1)
+    return distance2, -0.5 * (distance2 + np.linalg.slogdet(s)[1] + axes.size * np.log(2 * np.pi))
+
+
+def _extend_branches(
+    branches: _Branches,
+    parent: NDArray[np.int64],
+    way: NDArray[np.int64],
+    score: FloatArray,
+    block: slice,
+    measured: FloatArray,
+    noise_variance: FloatArray,
+) -> _Branches:
+    """The branches ``parent`` with one more name each, all other markers' predictions narrowed by it."""
+    blobs = len(measured)
+    blob = np.where(way > 0, (way - 1) % max(blobs, 1), -1)
+    with_depth = (way > 0) & (way <= blobs)
+    mean, covariance = branches.mean[parent], branches.covariance[parent]
+    if blobs:
+        # A coordinate that takes no part has no covariance with anything and unit variance: its gain is nothing.
+        used = np.repeat((blob >= 0)[:, None], 3, axis=1)
+        used[:, 2] &= with_depth
+        across = np.where(used[..., None], covariance[:, block], 0.0)  # (B, 3, 3M)
+        s = np.where(used[:, None], across[..., block], 0.0)
+        axes = np.arange(3)
+        s[:, axes, axes] += np.where(used, noise_variance[blob], 1.0)
+        gain = np.swapaxes(np.linalg.solve(s, across), 1, 2)
+        off = np.where(used, measured[blob] - mean[:, block], 0.0)
+        mean = mean + (gain @ off[..., None])[..., 0]
+        covariance = covariance - gain @ across
+    return _Branches(
+        np.column_stack((branches.assigned[parent], blob)),
+        np.column_stack((branches.with_depth[parent], with_depth)),
+        score,
+        mean,
+        covariance,
+    )

@@ -1,0 +1,223 @@
+"""Which blob is which disc of the palm, and the update by them.
+
+The easy association first; the joint one where that is not jointly compatible.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.types import Detections, FloatArray
+from carpus.core.tracking.association import association
+from carpus.core.tracking.association.association import JointAssociation, associate_jointly, is_jointly_compatible
+from carpus.core.tracking.filter.mixture_filter import ModeMixture, update_mixture
+from carpus.core.tracking.filter.predicted_measurement import PredictedMeasurement
+from carpus.core.tracking.filter.settings import AssociationSettings, MeasurementNoise, TrackerSettings
+
+CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE = 0.7, 0.6
+"""So far the centre of a partly covered disc may wander, as a share of its radius times what is missing of its area
+below the second."""
+MAX_OUTLIERS = 3
+"""In a frame, that are given the noise they show."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measurements:
+    """Blobs as measurements (D, 3): pixel u, v and depth (NaN when unknown), with noise variances (D, 3)."""
+
+    value: FloatArray
+    variance: FloatArray
+
+    def __len__(self) -> int:
+        return int(self.value.shape[0])
+
+
+@dataclass(frozen=True, slots=True)
+class UpdatedPalm:
+    """All modes corrected by the blobs as named.
+
+    ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``is_measured`` (M, 3) whether
+    each
+    component was, and its ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
+    given more noise; both 0 where nothing was measured.
+    """
+
+    mixture: ModeMixture
+    assigned: NDArray[np.int64]
+    nis: float
+    dof: int
+    is_measured: NDArray[np.bool_]
+    residual: FloatArray
+    raw_residual: FloatArray
+
+
+def measurements_from_blobs(
+    blobs: Detections, radius_px: float, settings: TrackerSettings, sensor: DepthSensor
+) -> Measurements:
+    """Blobs with the noise of each: what its picture and its depth are worth.
+
+    ``radius_px`` of a disc at the hand's distance: a blob much smaller than it is half hidden, and its centre
+    not the disc's.
+    """
+    noise = settings.noise
+    depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
+    shown = blobs.area_px / (np.pi * radius_px**2)
+    wander_px = CENTRE_SHIFT_SHARE * radius_px * np.maximum(MIN_WHOLE_AREA_SHARE - shown, 0.0)
+    value = np.empty((len(blobs), 3))
+    value[:, :2], value[:, 2] = blobs.pixel, depth
+    known = np.isfinite(depth)
+    at_m, sd_m = depth, blobs.depth_sd_m
+    if not known.all():
+        at_m, sd_m = np.where(known, depth, 1.0), np.where(known, sd_m, 1.0)
+    book2 = sensor.disc_sd_m(at_m, blobs.area_px) ** 2
+    beyond2 = np.maximum(sd_m**2 - book2, 0.0)
+    variance = np.empty((len(blobs), 3))
+    variance[:, :2] = (noise.pixel_sd_px**2 + wander_px**2)[:, None]
+    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + sensor.bias_sd_m(at_m) ** 2
+    return Measurements(value, variance)
+
+
+def update_palm(
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    assigned: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+) -> UpdatedPalm:
+    """Every mode corrected by the named blobs; ``noise_factor`` (M, 3) multiplies the variances."""
+    used = np.empty((assigned.size, 3), dtype=bool)
+    used[:] = (assigned >= 0)[:, None]
+    used[:, 2] &= with_depth
+    if not used.any():
+        nothing = np.zeros(used.shape)
+        return UpdatedPalm(predicted.mixture, assigned, float("nan"), 0, used, nothing, nothing)
+    value = np.where(used, blobs.value.take(assigned, 0), np.nan)
+    variance = blobs.variance.take(assigned, 0) * noise_factor
+    found = update_mixture(
+        predicted.mixture,
+        predicted.linearised,
+        value.reshape(1, -1),
+        variance.reshape(1, -1),
+        partial=predicted.partial,
+    )
+    residual = found.residual.reshape(used.shape)
+    return UpdatedPalm(found.mixture, assigned, float(found.nis[0]), int(found.dof[0]), used, residual, residual)
+
+
+def associate_and_update(
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    min_assigned: int,
+    resolution_px2: float,
+    noise_factor: FloatArray,
+    settings: TrackerSettings,
+) -> UpdatedPalm:
+    """Names by (12), each marker judged by itself; where these are not jointly compatible, all jointly.
+
+    Compatible: the joint NIS is credible, and ``min_assigned`` markers are named unless no blob is left that could be
+    one.
+    """
+    mean, covariance = predicted.mean, predicted.covariance
+    markers = len(mean)
+    if not len(blobs):
+        nothing = np.full(markers, -1, dtype=np.int64)
+        return update_palm(predicted, blobs, nothing, nothing > 0, noise_factor)
+    odds = association.log_odds(
+        mean,
+        covariance,
+        blobs.value,
+        blobs.variance,
+        resolution_px2,
+        association.DEPTH_OUTLIER_PROBABILITY,
+        settings.association,
+    )
+    assigned = association.assign_blobs(odds.value)
+    with_depth = odds.with_depth[np.arange(markers), assigned]
+    assigned = _reject_wrong_depths(assigned, with_depth, blobs, mean[:, 2], settings.association)
+    simple = update_palm(predicted, blobs, assigned, with_depth, noise_factor)
+    named = np.count_nonzero(assigned >= 0)
+    if (named >= min_assigned or named == len(blobs)) and is_jointly_compatible(
+        simple.nis, simple.dof, settings.association
+    ):
+        return _inflate_outlier_noise(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
+    found = _associate_by_mode(predicted, blobs, resolution_px2, settings)
+    assigned = _reject_wrong_depths(found.assigned, found.with_depth, blobs, mean[:, 2], settings.association)
+    jointly = update_palm(predicted, blobs, assigned, found.with_depth, noise_factor)
+    return _inflate_outlier_noise(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
+
+
+def _reject_wrong_depths(
+    assigned: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    blobs: Measurements,
+    depth_m: FloatArray,
+    settings: AssociationSettings,
+) -> NDArray[np.int64]:
+    """The names without those of blobs at another depth than the discs' ``depth_m`` (M,), unless enough discs where
+    they should be bear them out.
+
+    What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc, and far
+    before or behind it none is: the depths of a disc's rim and of what is beside it mix only where these lie near.
+    """
+    elsewhere = (assigned >= 0) & ~with_depth
+    if not elsewhere.any():
+        return assigned
+    off_m = np.abs(blobs.value[assigned, 2] - depth_m)
+    elsewhere &= np.isfinite(off_m)
+    if np.count_nonzero((assigned >= 0) & ~elsewhere) >= settings.least_company:
+        elsewhere &= off_m > settings.apart_m
+    return np.where(elsewhere, -1, assigned)
+
+
+def _associate_by_mode(
+    predicted: PredictedMeasurement, blobs: Measurements, resolution_px2: float, settings: TrackerSettings
+) -> JointAssociation:
+    """The likeliest joint names over all motion modes.
+
+    While the hand rests the mixture of the modes is as narrow as the calm one; a start is seen by the lively one.
+    """
+    every = [
+        associate_jointly(
+            mean,
+            covariance,
+            blobs.value,
+            blobs.variance,
+            resolution_px2,
+            association.DEPTH_OUTLIER_PROBABILITY,
+            settings.association,
+        )
+        for mean, covariance in zip(*predicted.mode_predictions(), strict=True)
+    ]
+    score = [one.log_posterior for one in every] + np.log(predicted.mixture.probability[0])
+    return every[int(np.argmax(score))]
+
+
+def _inflate_outlier_noise(
+    named: UpdatedPalm,
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+    noise: MeasurementNoise,
+) -> UpdatedPalm:
+    """The correction again, the worst measurement given the noise that its residual shows, one after the other.
+
+    A disc half behind the rim is still that disc, but its middle is not where it seems.
+    """
+    factor = noise_factor
+    for _ in range(MAX_OUTLIERS):
+        marker, axis = divmod(int(np.abs(named.residual).argmax()), 3)
+        size = abs(float(named.residual[marker, axis]))
+        if size <= noise.outlier_sd:
+            break
+        factor = factor.copy()
+        factor[marker, 2:] *= size**2 if axis == 2 else 1.0
+        factor[marker, :2] *= 1.0 if axis == 2 else size**2
+        named = replace(
+            update_palm(predicted, blobs, named.assigned, with_depth, factor), raw_residual=named.raw_residual
+        )
+    return named

@@ -1,0 +1,410 @@
+"""Finding the palm again without any prediction: its constellation of discs in space is its name tag."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import permutations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.model import so3
+from carpus.core.model.types import Detections, FloatArray
+from carpus.core.tracking.association.association import chi2_quantiles
+from carpus.core.tracking.filter.palm_state import POSE, PalmView
+
+DISTANCE_TOLERANCE_M = 0.007
+"""Two discs' distance may differ so much from the calibrated one: the depth noise of both."""
+MAX_DISC_GAP_M = 0.008
+"""A disc may lie so far from where the fitted palm puts it."""
+MIN_FOUND_MARKERS = 4
+"""So many discs are a palm."""
+MAX_SEARCHED_BLOBS = 40
+"""The likest ones, that are looked at."""
+MAX_RMS_GAP_M = 0.004
+"""Beyond, root mean square of the discs, it is not this palm;"""
+MISFIT_PROBABILITY = 0.99
+"""nor where chance gives a smaller misfit (chi squared) with this probability."""
+RIVAL_RATIO = 1.25
+"""Other names are rivals when their misfit is below so many times the best one's"""
+RIVAL_MARGIN = 9.0
+"""and this."""
+LATERAL_SD_M = 0.00025
+"""How well a blob's place across its ray is known."""
+MIN_EXPLAINED_SHARE: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0, 0.8, 0.5, 0.0)
+"""Share of all blobs that a palm of none, one, two ... six discs and the fingers on it must explain."""
+DISC_SD_M = 0.003
+"""Of a disc about where the found pose puts it: depth noise of one picture, and the shape."""
+TURN_SD_RAD = 0.05
+"""How well the turn of a found pose is known at best,"""
+POSITION_SD_M = 0.004
+"""its place at best,"""
+TURN_PRIOR_RAD = 0.6
+"""and its turn at worst."""
+VELOCITY_SD_M_S = 0.5
+"""How fast such a hand may move,"""
+RATE_SD_RAD_S = 2.0
+"""and turn."""
+MAX_FITTED_POSES = 24
+"""So many poses are fitted to all blobs."""
+
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
+
+# WRIST MCP2, CMC1 MCP4, MCP3 MCP5: a pair with one of the next pair. Any four discs hold one of these six triples.
+_TRIPLES = np.array([(0, 2, 1), (0, 2, 4), (1, 4, 3), (1, 4, 5), (3, 5, 0), (3, 5, 2)])
+
+_FOUR_MARKER_ASSIGNMENTS = np.array(list(permutations(range(6), 4)))
+"""All names that four blobs can have."""
+_LOOSE_M2 = 1.0
+"""Variance of a disc that nothing shows: it takes no part."""
+
+ReachTest = Callable[[FloatArray], NDArray[np.bool_]]
+"""Whether points (..., 3) in the body may be discs of thumb or fingers."""
+
+
+@dataclass(frozen=True, slots=True)
+class TurnLimits:
+    """How a hand that is looked for can have turned: within ``max_rad`` of ``rotation_w2_w0`` (3, 3), or, where every
+    disc of the palm shows it, within ``max_tilt_rad`` of the neutral pose: what was believed before may be wrong."""
+
+    rotation_w2_w0: FloatArray
+    max_rad: float
+    max_tilt_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class _CameraTurnLimits:
+    """The same with the ``expected`` turn and the ``neutral`` one (3, 3) in the axes of the camera."""
+
+    expected: FloatArray
+    max_rad: float
+    neutral: FloatArray
+    max_tilt_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class FoundPalm:
+    """Pose of the body in W0, ``matched`` (M,) the discs that fix it."""
+
+    position_m: FloatArray
+    rotation_w2_w0: FloatArray
+    matched: NDArray[np.bool_]
+
+    @property
+    def count(self) -> int:
+        return int(np.count_nonzero(self.matched))
+
+    def pose_covariance(self, palm_m: FloatArray) -> FloatArray:
+        """Covariance (6, 6) of position and turn: discs nearly in a line say little of the turn about that line."""
+        discs = palm_m[self.matched]
+        middle = discs.mean(axis=0)
+        lever = so3.skew(discs - middle)
+        told = np.einsum("mji,mjk->ik", lever, lever) / DISC_SD_M**2
+        turn = np.linalg.inv(told + np.eye(3) / TURN_PRIOR_RAD**2)
+        turn += TURN_SD_RAD**2 * np.eye(3)
+        # The middle of the discs is what is known; the origin swings about it with the turn.
+        swing = self.rotation_w2_w0 @ so3.skew(middle)
+        out = np.empty((6, 6))
+        out[:3, :3] = swing @ turn @ swing.T + POSITION_SD_M**2 * np.eye(3)
+        out[:3, 3:] = swing @ turn
+        out[3:, :3] = out[:3, 3:].T
+        out[3:, 3:] = turn
+        return out
+
+
+@dataclass(frozen=True, slots=True)
+class _BlobPoints:
+    """What may be discs: places (B, 3) before the camera, and the standard deviation (B,) of their depths."""
+
+    point_m: FloatArray
+    depth_sd_m: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class _PoseFits:
+    """Poses (N, 3, 3), (N, 3) of a palm, the blob ``assigned`` (N, 6) for each disc or -1, the discs' root mean
+    square gap
+    (N,), and blobs explained (N,) by palm and fingers."""
+
+    rotation: FloatArray
+    translation: FloatArray
+    assigned: NDArray[np.int64]
+    gap_m: FloatArray
+    explained: NDArray[np.int64]
+
+    @property
+    def count(self) -> NDArray[np.int64]:
+        return np.asarray((self.assigned >= 0).sum(axis=1))
+
+    def likeness(self) -> FloatArray:
+        """Confirming discs (N,), less by how far they lie from their places."""
+        return np.asarray(self.count - self.gap_m / MAX_DISC_GAP_M)
+
+    def subset(self, rows: NDArray[np.int64]) -> _PoseFits:
+        return _PoseFits(
+            self.rotation[rows], self.translation[rows], self.assigned[rows], self.gap_m[rows], self.explained[rows]
+        )
+
+    def concatenate(self, other: _PoseFits) -> _PoseFits:
+        return _PoseFits(
+            np.concatenate((self.rotation, other.rotation)),
+            np.concatenate((self.translation, other.translation)),
+            np.concatenate((self.assigned, other.assigned)),
+            np.concatenate((self.gap_m, other.gap_m)),
+            np.concatenate((self.explained, other.explained)),
+        )
+
+
+def find_palm(
+    detections: Detections,
+    view: PalmView,
+    disc_covariance: FloatArray,
+    turn_limits: TurnLimits,
+    is_in_reach: ReachTest | None = None,
+) -> FoundPalm | None:
+    """Where the palm is, or None.
+
+    Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm wins if it is
+    confirmed by at least four in all and no other names of as many fit about as well. Of just four every naming is
+    asked: knuckles in a row look much like others. ``disc_covariance`` (18, 18): covariance of the discs' places on
+    the palm.
+    Needs depth; the back of the hand must face the camera, turned no further than ``turn_limits`` allows, and the
+    other hand
+    must not explain the discs better.
+    With ``is_in_reach`` the blobs left over must mostly lie where the fingers could be.
+    """
+    known = np.flatnonzero(np.isfinite(detections.depth_m) & (detections.similarity > 0.0))
+    if known.size < MIN_FOUND_MARKERS:
+        return None
+    if known.size > MAX_SEARCHED_BLOBS:
+        known = known[np.argsort(-detections.similarity[known])[:MAX_SEARCHED_BLOBS]]
+    points = view.camera.backproject(detections.pixel[known], detections.depth_m[known])
+    search = _PalmSearch(view.palm_m, points, is_in_reach)
+    seen = _BlobPoints(points, np.hypot(detections.depth_sd_m[known], view.camera.sensor.bias_sd_m(points[:, 2])))
+    neutral = view.rotation_w0_cam
+    about = _CameraTurnLimits(
+        neutral @ turn_limits.rotation_w2_w0, turn_limits.max_rad, neutral, turn_limits.max_tilt_rad
+    )
+    best = _select_pose(search, seen, disc_covariance, about)
+    if best is None:
+        return None
+    matched = best.assigned[0] >= 0
+    is_named = np.zeros(len(detections), dtype=bool)
+    is_named[known[best.assigned[0, matched]]] = True
+    if is_other_hand(detections, is_named, view):
+        return None
+    rotation = view.rotation_w0_cam.T @ best.rotation[0]
+    position = view.rotation_w0_cam.T @ (best.translation[0] - view.translation_w0_cam_m)
+    return FoundPalm(position, rotation, matched)
+
+
+def is_other_hand(detections: Detections, is_assigned: NDArray[np.bool_], view: PalmView) -> bool:
+    """Whether of the blobs ``is_assigned`` (B,) for discs of this palm some are the other hand's: of the blobs about
+    them
+    its mirror image explains at least five and as many as were named, better than this palm does, however it lies."""
+    palm, least = view.palm_m, max(MIN_FOUND_MARKERS + 1, int(np.count_nonzero(is_assigned)))
+    known = np.isfinite(detections.depth_m)
+    points, is_assigned = (
+        view.camera.backproject(detections.pixel[known], detections.depth_m[known]),
+        is_assigned[known],
+    )
+    if len(points) < least or not is_assigned.any():
+        return False
+    across_m = np.linalg.norm(palm[:, None] - palm, axis=-1).max() + DISTANCE_TOLERANCE_M
+    about = (np.linalg.norm(points[:, None] - points[is_assigned], axis=-1) < across_m).any(axis=1)
+    points, is_assigned = points[about], is_assigned[about]
+    mirrored = _PalmSearch(palm * _MIRROR, points).find_likeliest_pose()
+    if not (mirrored.count >= least).any():
+        return False
+    others = mirrored.assigned[0, mirrored.assigned[0] >= 0]
+    own = _PalmSearch(palm, points[others]).find_likeliest_pose()
+    is_better = (own.likeness() < mirrored.likeness()).all()
+    return bool(is_better and is_assigned[others].any())
+
+
+@dataclass(frozen=True, slots=True)
+class _PalmSearch:
+    """A palm whose discs lie as in the ``model`` (6, 3), looked for among ``points`` (B, 3) before the camera, which
+    the fingers on it may ``is_in_reach``."""
+
+    model: FloatArray
+    points: FloatArray
+    is_in_reach: ReachTest | None = None
+
+    def fit_poses(self) -> _PoseFits:
+        """The poses that most points confirm, refitted to all discs that do."""
+        triple, blobs = self._match_triples()
+        corners, seen = self.model[_TRIPLES], self.points[blobs]
+        rotation = _triad_axes(seen) @ np.swapaxes(_triad_axes(corners), -1, -2)[triple]
+        # The dorsal side looks at the camera: Z of the palm has a negative component along its axis.
+        facing = np.flatnonzero(rotation[:, 2, 2] < 0.0)
+        rotation = rotation[facing]
+        middle = corners.mean(axis=1)[triple[facing]]
+        translation = seen[facing].mean(axis=1) - (rotation @ middle[..., None])[..., 0]
+        for last in (False, True):
+            nearest, gap_m = self._find_nearest(rotation, translation)
+            matched = gap_m < MAX_DISC_GAP_M
+            count = matched.sum(axis=1)
+            worth = count - np.where(matched, gap_m, 0.0).sum(axis=1) / (6.0 * MAX_DISC_GAP_M)
+            kept = np.argsort(-worth, kind="stable")[:MAX_FITTED_POSES]
+            kept = kept[count[kept] >= MIN_FOUND_MARKERS - (0 if last else 1)]
+            rotation, translation = _fit_rigid_poses(self.model, self.points[nearest[kept]], matched[kept])
+        return self._score_poses(rotation, translation)
+
+    def find_likeliest_pose(self) -> _PoseFits:
+        """The pose that most points confirm, and these best; or none."""
+        fits = self.fit_poses()
+        return fits.subset(np.argsort(-fits.likeness(), kind="stable")[:1])
+
+    def select_plausible(self, fits: _PoseFits) -> _PoseFits:
+        """Those with enough discs, the back of the hand before the camera, and, where fingers are there to explain the
+        rest, their share of the points explained."""
+        share = np.array(MIN_EXPLAINED_SHARE)[fits.count] * (0 if self.is_in_reach is None else len(self.points))
+        good = (fits.count >= MIN_FOUND_MARKERS) & (fits.rotation[:, 2, 2] < 0.0)
+        return fits.subset(np.flatnonzero(good & (fits.explained >= share)))
+
+    def fit_all_assignments(self, four: NDArray[np.int64]) -> _PoseFits:
+        """The poses that four points would have by all their names, where these fit at all."""
+        used = np.zeros((len(_FOUR_MARKER_ASSIGNMENTS), len(self.model)), dtype=bool)
+        np.put_along_axis(used, _FOUR_MARKER_ASSIGNMENTS, True, axis=1)
+        at = np.zeros(used.shape, dtype=np.int64)
+        np.put_along_axis(at, _FOUR_MARKER_ASSIGNMENTS, np.broadcast_to(four, _FOUR_MARKER_ASSIGNMENTS.shape), axis=1)
+        fits = self._score_poses(*_fit_rigid_poses(self.model, self.points[at], used))
+        return fits.subset(np.flatnonzero((fits.assigned == np.where(used, at, -1)).all(axis=1)))
+
+    def _match_triples(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Which of the triples (N,) of palm discs has its distances between which points (N, 3)."""
+        between = np.linalg.norm(self.points[:, None] - self.points[None], axis=-1)
+        triples, blobs = [], []
+        for number, (a, b, c) in enumerate(_TRIPLES):
+            ab, ac, bc = (
+                np.abs(between - np.linalg.norm(self.model[first] - self.model[second])) < DISTANCE_TOLERANCE_M
+                for first, second in ((a, b), (a, c), (b, c))
+            )
+            found = np.argwhere(ab[:, :, None] & ac[:, None, :] & bc[None, :, :])
+            triples.append(np.full(len(found), number))
+            blobs.append(found)
+        return np.concatenate(triples), np.concatenate(blobs)
+
+    def _score_poses(self, rotation: FloatArray, translation: FloatArray) -> _PoseFits:
+        """What the points confirm of these poses."""
+        nearest, gap_m = self._find_nearest(rotation, translation)
+        matched = gap_m < MAX_DISC_GAP_M
+        count = matched.sum(axis=1)
+        mean_m = np.sqrt(np.where(matched, gap_m**2, 0.0).sum(axis=1) / np.maximum(count, 1))
+        explained = count
+        if self.is_in_reach is not None and count.size:
+            is_finger = self.is_in_reach((self.points - translation[:, None]) @ rotation)
+            np.put_along_axis(is_finger, np.where(matched, nearest, nearest[:, :1]), False, axis=1)
+            explained = count + is_finger.sum(axis=1)
+        return _PoseFits(rotation, translation, np.where(matched, nearest, -1), mean_m, explained)
+
+    def _find_nearest(self, rotation: FloatArray, translation: FloatArray) -> tuple[NDArray[np.int64], FloatArray]:
+        """Nearest point (N, 6) to each disc of the placed models, and its gap (N, 6)."""
+        points, placed = self.points, self.model @ np.swapaxes(rotation, -1, -2) + translation[:, None, :]
+        gap2 = (placed * placed).sum(axis=-1)[..., None] + (points * points).sum(axis=-1) - 2.0 * (placed @ points.T)
+        nearest = gap2.argmin(axis=-1)
+        least = np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0]
+        return nearest, np.sqrt(np.maximum(least, 0.0))
+
+
+def _triad_axes(points: FloatArray) -> FloatArray:
+    """Right-handed axes (..., 3, 3) as columns that three points (..., 3, 3) span."""
+    along = points[..., 1, :] - points[..., 0, :]
+    normal = _cross(along, points[..., 2, :] - points[..., 0, :])
+    axes = np.empty((*along.shape, 3))
+    axes[..., 0] = along / np.sqrt((along * along).sum(axis=-1, keepdims=True))
+    axes[..., 2] = normal / np.sqrt((normal * normal).sum(axis=-1, keepdims=True))
+    axes[..., 1] = _cross(axes[..., 2], axes[..., 0])
+    return axes
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    return np.asarray(a[..., [1, 2, 0]] * b[..., [2, 0, 1]] - a[..., [2, 0, 1]] * b[..., [1, 2, 0]])
+
+
+def _fit_rigid_poses(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
+    """Least-squares poses (N, 3, 3), (N, 3) that carry the used (N, 6) discs of the model to points (N, 6, 3)."""
+    weight = used / used.sum(axis=1, keepdims=True)
+    model_mean = weight @ model
+    point_mean = (weight[:, None] @ points)[:, 0]
+    cross = np.swapaxes(points * weight[..., None], -1, -2) @ (model - model_mean[:, None])
+    rotation = so3.project_to_rotation(cross)
+    return rotation, point_mean - (rotation @ model_mean[..., None])[..., 0]
+
+
+def _select_pose(
+    search: _PalmSearch, seen: _BlobPoints, strays: FloatArray, about: _CameraTurnLimits
+) -> _PoseFits | None:
+    """The one pose to believe; None when none is good enough, or when other names are about as good."""
+    model = search.model
+    fits = search.select_plausible(search.fit_poses())
+    if not fits.count.size:
+        return None
+    best, misfit = _rank_poses(fits, search, seen, strays, about)
+    if best.count[0] == MIN_FOUND_MARKERS:
+        every = search.fit_all_assignments(best.assigned[0, best.assigned[0] >= 0])
+        both = best.subset(np.arange(1)).concatenate(search.select_plausible(every))
+        best, misfit = _rank_poses(both, search, seen, strays, about)
+    beyond = _exceeds_turn_limits(best, about)
+    most_misfit = chi2_quantiles(MISFIT_PROBABILITY)[3 * int(best.count[0]) - POSE.size]
+    if best.gap_m[0] > MAX_RMS_GAP_M or misfit[0] > most_misfit or beyond[0]:
+        return None
+    # A disc of the palm counts for more than one that a finger could reach.
+    worth = best.explained + best.count
+    placed = model @ np.swapaxes(best.rotation, -1, -2) + best.translation[:, None]
+    apart_m = np.linalg.norm(placed - placed[0], axis=-1).max(axis=1)
+    rival = (worth >= worth[0]) & (apart_m > MAX_DISC_GAP_M) & ~beyond
+    rival &= misfit < RIVAL_RATIO * misfit[0] + RIVAL_MARGIN
+    return None if rival.any() else best.subset(np.arange(1))
+
+
+def _rank_poses(
+    fits: _PoseFits, search: _PalmSearch, seen: _BlobPoints, strays: FloatArray, about: _CameraTurnLimits
+) -> tuple[_PoseFits, FloatArray]:
+    """The poses by worth, then those a hand can have, then by their misfits (N,), which come with them."""
+    misfit = _compute_misfit(fits, search.model, seen, strays)
+    order = np.lexsort((misfit, _exceeds_turn_limits(fits, about), -(fits.explained + fits.count)))
+    return fits.subset(order), misfit[order]
+
+
+def _exceeds_turn_limits(fits: _PoseFits, about: _CameraTurnLimits) -> NDArray[np.bool_]:
+    """Which poses (N,) are turned further than a hand can be."""
+    beyond = _turn_angles_rad(fits, about.expected) > about.max_rad
+    is_whole = (fits.assigned >= 0).all(axis=1)
+    return np.asarray(np.where(is_whole, _turn_angles_rad(fits, about.neutral) > about.max_tilt_rad, beyond))
+
+
+def _turn_angles_rad(fits: _PoseFits, about: FloatArray) -> FloatArray:
+    """How far (N,) the poses are turned from ``about`` (3, 3)."""
+    cosine = 0.5 * (np.einsum("ij,nij->n", about, fits.rotation) - 1.0)
+    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
+
+
+def _compute_misfit(fits: _PoseFits, model: FloatArray, seen: _BlobPoints, strays: FloatArray) -> FloatArray:
+    """Chi squared (N,) of the discs' places, each pose moved to where it is least.
+
+    Across the ray of the camera and of the finger a disc is known to a fraction of a millimetre, along them to some:
+    names are told apart by that, much better than by plain distances.
+    """
+    discs = len(model)
+    named = fits.assigned >= 0
+    at = np.where(named, fits.assigned, 0)
+    point_m = seen.point_m[at]
+    off_m = (point_m - fits.translation[:, None]) @ fits.rotation - model
+    off = np.where(named[..., None], off_m, 0.0).reshape(-1, 3 * discs)
+    ray = (point_m / point_m[..., 2:]) @ fits.rotation * seen.depth_sd_m[at][..., None]
+    own = ray[..., :, None] * ray[..., None, :] + LATERAL_SD_M**2 * np.eye(3)
+    own += np.where(named, 0.0, _LOOSE_M2)[..., None, None] * np.eye(3)
+    disc = np.arange(discs)
+    covariance = np.repeat(strays[None], len(off), axis=0)
+    covariance.reshape(-1, discs, 3, discs, 3)[:, disc, :, disc] += np.swapaxes(own, 0, 1)
+    by_pose = np.empty((discs, 3, 6))
+    by_pose[..., :3], by_pose[..., 3:] = np.eye(3), so3.skew(-model)
+    lines = by_pose.reshape(-1, 6)
+    told = np.linalg.solve(covariance, np.concatenate((off[..., None], np.broadcast_to(lines, (*off.shape, 6))), -1))
+    across = lines.T @ told[..., 0:1]
+    moved = np.linalg.solve(lines.T @ told[..., 1:], across)
+    return np.asarray((off * told[..., 0]).sum(axis=-1) - (across * moved)[..., 0].sum(axis=-1))

@@ -1,0 +1,1 @@
+"""The digits: their model, their markers' association, what is read of their depth."""

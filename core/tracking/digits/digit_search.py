@@ -1,0 +1,117 @@
+"""Finding a finger again without any prediction: which posture of it explains the blobs that nothing else does."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.compiled.digits import place_discs
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_DISCS, N_SLOTS
+
+MAX_GAP_M = 0.012
+"""So far from a posture of the grid a disc may lie: half a step of it and the noise of a depth."""
+MIN_DIGIT_MARKERS = 2
+"""Of a digit, that tell its posture."""
+MAX_BEYOND_M = 0.015
+"""Beyond the length of a digit a disc may still be seen,"""
+MAX_BEHIND_M = 0.02
+"""behind its root,"""
+MAX_ACROSS_M = 0.03
+"""for the thumb across the palm,"""
+MAX_ABOVE_M = 0.05
+"""and above the palm."""
+NEARNESS_WEIGHT = 0.3
+"""Of postures that explain as many discs the nearer counts, by so much of a disc at most for each."""
+THUMB_GRID_DEG: tuple[tuple[float, ...], ...] = (
+    (-25.0, -5.0, 15.0, 35.0),
+    (-5.0, 15.0, 35.0, 55.0),
+    (-5.0, 20.0, 45.0, 70.0),
+    (0.0,),
+    (-10.0, 20.0, 50.0, 80.0),
+)
+"""By slot: all that a thumb can do in steps of some 20 degrees."""
+FINGER_GRID_DEG: tuple[tuple[float, ...], ...] = (
+    (-18.0, -6.0, 6.0, 18.0),
+    (-30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0),
+    (0.0, 20.0, 40.0, 60.0, 80.0, 100.0),
+)
+"""By its first three slots: all that a finger can do in steps of about 15 degrees."""
+
+
+def is_in_reach(point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray) -> NDArray[np.bool_]:
+    """Whether points (..., 3) in W2 may be discs of the digits with slots and constants ``state`` (5, 16)."""
+    length = state[:, N_SLOTS : N_SLOTS + N_DISCS].sum(axis=1) + MAX_BEYOND_M
+    off = point_m[..., None, :] - root_disc_m
+    ahead = off[..., 0] > -MAX_BEHIND_M
+    ahead[..., 0] &= off[..., 0, 1] > -MAX_ACROSS_M
+    return np.asarray((ahead & ((off * off).sum(axis=-1) < length**2) & (off[..., 2] < MAX_ABOVE_M)).any(axis=-1))
+
+
+@lru_cache(maxsize=2)
+def _build_posture_grid() -> FloatArray:
+    """Postures (5, S, 5) in slots, radians."""
+    thumb, finger = list(product(*THUMB_GRID_DEG)), list(product(*FINGER_GRID_DEG))
+    postures = np.zeros((N_DIGITS, max(len(thumb), len(finger)), N_SLOTS))
+    postures[0, : len(thumb)] = thumb
+    postures[1:, : len(finger), : len(FINGER_GRID_DEG)] = finger
+    return np.asarray(np.radians(postures))
+
+
+def search_digits(
+    chains: NDArray[np.int64],
+    state: FloatArray,
+    root_disc_m: FloatArray,
+    point_m: FloatArray,
+) -> dict[int, FloatArray]:
+    """Slots (5,) of each of the ``chains`` that explain at least two of the blobs at ``point_m`` (B, 3) in W2.
+
+    ``state`` (5, 16) slots and constants of all digits; ``root_disc_m`` (5, 3) discs under which they begin. No blob is
+    used by two digits: the digit that explains most comes first.
+    """
+    length = state[:, N_SLOTS : N_SLOTS + N_DISCS].sum(axis=1) + MAX_BEYOND_M
+    near = np.linalg.norm(point_m - root_disc_m[:, None], axis=-1) < length[:, None]
+    waiting = [int(chain) for chain in chains if np.count_nonzero(near[chain]) >= MIN_DIGIT_MARKERS]
+    if not waiting:
+        return {}
+    postures = _build_posture_grid()
+    points = np.repeat(state[waiting, None], postures.shape[1], axis=1)
+    points[..., :N_SLOTS] = postures[waiting]
+    disc = dict(zip(waiting, place_discs(points, root_disc_m[waiting], waiting), strict=True))
+    found: dict[int, FloatArray] = {}
+    free = np.ones(len(point_m), dtype=bool)
+    while waiting:
+        best: tuple[float, int, int, NDArray[np.int64]] | None = None
+        for chain in waiting:
+            reached = np.flatnonzero(free & near[chain])
+            if reached.size < MIN_DIGIT_MARKERS:
+                continue
+            score, posture, used = _find_posture(disc[chain], point_m[reached])
+            if used.size >= MIN_DIGIT_MARKERS and (best is None or score > best[0]):
+                best = score, chain, posture, reached[used]
+        if best is None:
+            break
+        _, chain, posture, used = best
+        found[chain] = postures[chain, posture]
+        free[used] = False
+        waiting.remove(chain)
+    return found
+
+
+def _find_posture(disc_m: FloatArray, point_m: FloatArray) -> tuple[float, int, NDArray[np.int64]]:
+    """Score, index of the posture and blobs used, for discs (S, 3, 3) of postures and blobs (B, 3)."""
+    gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)
+    nearest = gap2.argmin(axis=-1)
+    worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / MAX_GAP_M**2, 0.0)
+    # A blob is one disc only: the second disc that takes it is worth nothing.
+    for first, second in ((0, 1), (0, 2), (1, 2)):
+        same = nearest[:, first] == nearest[:, second]
+        lesser = same & (worth[:, first] < worth[:, second])
+        worth[lesser, first] = 0.0
+        worth[same & ~lesser, second] = 0.0
+    score = np.count_nonzero(worth, axis=1) + NEARNESS_WEIGHT * worth.sum(axis=1)
+    best = int(np.argmax(score))
+    return float(score[best]), best, nearest[best][worth[best] > 0.0]

@@ -1,0 +1,324 @@
+"""What is fixed about one subject's thumb and fingers: the anatomy from the neutral pose and how well it is known, and
+how they start, move and are seen."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.anatomy_prior import AnatomyPrior
+from carpus.core.model.hand.fitting import AnatomyFit, MeasuredDiscs, fit_anatomy
+from carpus.core.model.hand.kinematics import DIP_PER_PIP
+from carpus.core.model.hand.protocols import DIGITS, SITES, MarkerProtocol
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.digits.digit_readout import DigitBase, DigitReadout
+from carpus.core.tracking.filter.digit_filter import (
+    DIGIT_SIZE,
+    JOINTS,
+    OBSERVED,
+    RATES,
+    DigitMotion,
+    DigitSigmaPoints,
+    Forgetting,
+    draw_sigma_points,
+)
+from carpus.core.tracking.filter.hand_geometry import (
+    CROWDED_PX,
+    CROWDED_RADII,
+    N_CONSTANTS,
+    N_DIGITS,
+    N_SLOTS,
+    PalmGeometry,
+    is_crowded,
+    palm_calibration,
+)
+from carpus.core.tracking.filter.joint_limits import (
+    MID_RANGE_RAD,
+    RANGE_SD_RAD,
+    apply_and_check_limits,
+    apply_soft_limits,
+)
+from carpus.core.tracking.filter.mixture_filter import ModeMixture, mode_transition_matrix
+from carpus.core.tracking.filter.motion import MODE_DWELL_S, RATE_MEMORY_S, REFERENCE_DT_S
+from carpus.core.tracking.filter.settings import TrackerSettings
+
+_FIXED_SD_RAD = 1e-6
+"""Of a slot that does not move: the fifth of a finger, the third while the end joint is coupled."""
+
+
+@dataclass(frozen=True, slots=True)
+class DigitStart:
+    """Slots and constants (5, 16) at the neutral pose, their covariance (5, 16, 16), and the fit they come from."""
+
+    mean: FloatArray
+    covariance: FloatArray
+    fit: AnatomyFit
+
+
+ABDUCTION_SHARE = 0.5
+"""Of the process noise of flexion, for abductions and the thumb's CMC (reference 4.5)."""
+DIFFUSION_S = 0.5
+"""Within this a joint that no disc shows is spread over its anatomical range."""
+LEARNING_SHARE = 0.02
+"""Share of what a picture says of the anatomy that is believed: neighbouring ones show skin that strays alike."""
+SURE_TURN_SD_RAD = math.radians(1.0)
+"""Of the palm, all axes, at which half as much is learnt of the fingers."""
+DRIFT_PER_S = 2e-3
+"""Share of what was not known of the anatomy that comes back each second: skin over bone."""
+DIP_COUPLING_SD_RAD = math.radians(6.0)
+"""So far end joints that follow the middle ones stray from two thirds of them,"""
+THUMB_ABDUCTION_SD_RAD = math.radians(6.0)
+"""and the thumb's MCP joint, which hardly moves sideways, from straight;"""
+RETURN_TIME_S = 1.0
+"""both return within this."""
+POSTURE_SD_RAD, POSTURE_RATE_SD_RAD_S = math.radians(12.0), 3.0
+"""Of a posture of the grid on which a digit is searched, and of its rates."""
+REACQUIRED_RATE_SD_RAD_S = 1.0
+"""Of the rates of a hand found again."""
+CLICK_SD_PX = 2.0
+"""Of a disc with no depth."""
+MIN_GAP_S = 0.12
+"""Between pictures from which on limits count before a picture too."""
+MAX_BEYOND_RAD = math.radians(30.0)
+"""A finger further past its limits was misread."""
+
+
+def digit_start(
+    calibration: Calibration,
+    camera: Camera,
+    *,
+    dip_free: bool,
+    skin_offsets: bool,
+    marker_radius_m: float,
+    prior: AnatomyPrior,
+) -> DigitStart:
+    """The anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
+    seen = _discs_from_calibration(calibration, camera, marker_radius_m)
+    fit = fit_anatomy(
+        seen,
+        calibration.clicks.side,
+        dip_free=dip_free,
+        skin_offsets=skin_offsets,
+        prior=prior,
+        is_straight=calibration.clicks.straight_fingers,
+    )
+    mean = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS))
+    covariance = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS, N_SLOTS + N_CONSTANTS))
+    for chain in range(N_DIGITS):
+        count = fit.neutral_digits[chain].mean.size
+        to_slots = np.eye(count)
+        if chain:
+            to_slots[3, 2] = -DIP_PER_PIP
+        cross = to_slots @ fit.neutral_cross[chain]
+        mean[chain, :count] = to_slots @ fit.neutral_digits[chain].mean
+        mean[chain, N_SLOTS:] = fit.digits.mean[chain]
+        covariance[chain, :count, :count] = to_slots @ fit.neutral_digits[chain].covariance @ to_slots.T
+        covariance[chain, :count, N_SLOTS:] = cross
+        covariance[chain, N_SLOTS:, :count] = cross.T
+        covariance[chain, N_SLOTS:, N_SLOTS:] = fit.digits.covariance[chain]
+    index = np.arange(N_SLOTS)
+    covariance[:, index, index] += _FIXED_SD_RAD**2
+    return DigitStart(mean, covariance, fit)
+
+
+def _discs_from_calibration(calibration: Calibration, camera: Camera, marker_radius_m: float) -> MeasuredDiscs:
+    """The calibrated discs; where one has no depth, the line of sight through its click."""
+    protocol, disc = calibration.clicks.protocol, calibration.marker_position_w0_m.copy()
+    rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
+    clicked = camera.backproject(camera.undistort(calibration.clicks.pixel), np.full(len(disc), translation[2]))
+    is_blind = np.asarray(np.isnan(disc).any(axis=-1))
+    disc[is_blind] = (clicked[is_blind] - translation) @ rotation
+    in_camera = disc @ rotation.T + translation
+    view = in_camera / np.linalg.norm(in_camera, axis=-1, keepdims=True) @ rotation
+    covariance = np.where(is_blind[:, None, None], 0.0, calibration.marker_covariance_w0_m2)
+    along = np.sqrt(np.maximum(np.einsum("mi,mij,mj->m", view, covariance, view), 1e-12))
+    across = np.sqrt(np.maximum(np.linalg.eigvalsh(covariance)[:, 0], 1e-10))
+    pixel_m = in_camera[:, 2] / camera.fx_px
+    crowded = np.zeros(len(disc), dtype=bool)
+    rays = np.array([chain[2:] for chain in protocol.chains.values()])
+    radius_px = (marker_radius_m / pixel_m)[rays]
+    crowded[rays] = is_crowded(camera.project(in_camera)[rays], radius_px, CROWDED_RADII)
+    across = np.where(crowded, np.hypot(across, CROWDED_PX * pixel_m), across)
+    blind_m = CLICK_SD_PX * pixel_m
+    return MeasuredDiscs(
+        _to_sites(protocol, disc, np.nan),
+        _to_sites(protocol, view, np.nan),
+        _to_sites(protocol, np.where(is_blind, blind_m, across), 1.0),
+        _to_sites(protocol, np.where(is_blind, np.inf, along), np.inf),
+    )
+
+
+def _to_sites(protocol: MarkerProtocol, values: FloatArray, nothing: float) -> FloatArray:
+    """Values (1, 21, ...) of the sites from those of the markers (M, ...); ``nothing`` where there is no disc."""
+    out = np.full((1, len(SITES), *values.shape[1:]), nothing)
+    out[0, list(protocol.sites)] = values
+    return out
+
+
+_SLOT = np.arange(N_SLOTS)
+
+
+class FingerModel:
+    """Thumb and fingers of one calibrated hand, without anything that changes from frame to frame."""
+
+    def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
+        own, dip_free = settings.fingers, settings.dip == "free"
+        self.settings = settings
+        protocol = calibration.clicks.protocol
+        self.has_discs = np.array([digit in protocol.digits for digit in DIGITS])
+        """(5,) digits that carry discs; the others are believed to be anywhere and are not told of."""
+        self.markers = np.array(list(protocol.chains.values()))[:, 2:]
+        """Rows (R, 3) of the moving discs of those digits."""
+        self.resolution_px2 = float(camera.width_px * camera.height_px)
+        self.calibrated_palm = PalmGeometry.from_discs(
+            palm_calibration(calibration).marker_position_w0_m, np.eye(3), calibration.clicks.side
+        )
+        self.scales = np.array(settings.mode_scales)
+        self._start: DigitStart = digit_start(
+            calibration,
+            camera,
+            dip_free=dip_free,
+            skin_offsets=own.skin_offsets,
+            marker_radius_m=settings.marker_radius_m,
+            prior=own.anatomy,
+        )
+        wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
+        self.readout = DigitReadout(calibration.clicks, camera, settings, wrist_depth_m)
+        motion = settings.motion_noise
+        sd = np.full((N_DIGITS, N_SLOTS), motion.joint_acceleration_rad_s2)
+        sd[0, [0, 1, 3]] *= ABDUCTION_SHARE
+        sd[1:, 0] *= ABDUCTION_SHARE
+        sd[1:, 4] = 0.0
+        sd[0, 3] = 0.0
+        stationary2 = np.zeros((N_DIGITS, N_SLOTS))
+        stationary2[0, 3] = THUMB_ABDUCTION_SD_RAD**2
+        if not dip_free:
+            sd[1:, 3] = 0.0
+            stationary2[1:, 3] = DIP_COUPLING_SD_RAD**2
+        self._is_moving = sd > 0.0
+        self._stationary2 = np.maximum(stationary2, 1e-12)
+        self._range2 = np.where(self._is_moving, RANGE_SD_RAD**2, self._stationary2)
+        drift = DRIFT_PER_S * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
+        self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, RETURN_TIME_S)
+
+    def neutral_mixture(self) -> ModeMixture:
+        """At the neutral pose, at rest."""
+        seen = OBSERVED
+        mean, covariance = np.zeros((N_DIGITS, DIGIT_SIZE)), np.zeros((N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
+        mean[:, seen] = self._start.mean
+        covariance[:, seen[:, None], seen] = self._start.covariance
+        rate = np.arange(RATES.start, RATES.stop)
+        covariance[:, rate, rate] = np.where(self._is_moving, self.settings.initial.joint_rates_rad_s**2, 1e-12)
+        return self.mixture_from_gaussian(mean, covariance)
+
+    def diffuse_mixture(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
+        """The anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
+        moving = np.arange(RATES.stop)
+        mean, covariance = mean.copy(), covariance.copy()
+        mean[:, moving] = 0.0
+        mean[:, JOINTS] = np.where(self._is_moving, MID_RANGE_RAD, 0.0)
+        covariance[:, moving, :] = 0.0
+        covariance[:, :, moving] = 0.0
+        covariance[:, _SLOT, _SLOT] = self._range2
+        rate = np.arange(RATES.start, RATES.stop)
+        covariance[:, rate, rate] = np.where(self._is_moving, REACQUIRED_RATE_SD_RAD_S**2, 1e-12)
+        return self.mixture_from_gaussian(mean, covariance)
+
+    def restart_at_postures(self, estimates: ModeMixture, postures: dict[int, FloatArray]) -> ModeMixture:
+        """Some digits begun anew about postures, slots (5,) by digit, the anatomy as known by now."""
+        chains, slots = np.array(list(postures)), np.array(list(postures.values()))
+        kept = self.restart_digits(estimates, np.isin(np.arange(N_DIGITS), chains), estimates)
+        mean, covariance = kept.mean, kept.covariance
+        mean[chains, :, :N_SLOTS] = slots[:, None]
+        moving = np.where(self._is_moving[chains], POSTURE_SD_RAD**2, self._stationary2[chains])
+        covariance[chains[:, None], :, _SLOT, _SLOT] = moving[..., None]
+        rate = N_SLOTS + _SLOT
+        moving = np.where(self._is_moving[chains], POSTURE_RATE_SD_RAD_S**2, 1e-12)
+        covariance[chains[:, None], :, rate, rate] = moving[..., None]
+        return kept
+
+    def restart_digits(self, estimates: ModeMixture, chains: NDArray[np.bool_], anatomy: ModeMixture) -> ModeMixture:
+        """Estimates of which ``chains`` (5,) may be anywhere, on the anatomy as ``anatomy``."""
+        fresh, chosen = self.diffuse_mixture(*anatomy.merge()), chains[:, None]
+        return ModeMixture(
+            np.where(chosen[..., None], fresh.mean, estimates.mean),
+            np.where(chosen[..., None, None], fresh.covariance, estimates.covariance),
+            np.where(chosen, fresh.probability, estimates.probability),
+        )
+
+    def apply_joint_limits(
+        self, estimates: ModeMixture, before: ModeMixture
+    ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
+        """Estimates with the limits taken into account, and digits (5,) that a picture has bent as no finger bends: it
+        was misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the
+        estimates merged."""
+        kept, merged, misread = apply_and_check_limits(estimates, MAX_BEYOND_RAD)
+        if misread.any():
+            kept = self.restart_digits(kept, misread, before)
+            merged = kept.merge()
+        return kept, merged, misread
+
+    def mixture_from_gaussian(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
+        """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""
+        count = self.scales.size
+        return ModeMixture(
+            np.repeat(mean[:, None], count, axis=1),
+            np.repeat(covariance[:, None], count, axis=1),
+            np.full((N_DIGITS, count), 1.0 / count),
+        )
+
+    def predict(self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float) -> ModeMixture:
+        """The digits ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot.
+
+        After a gap between pictures a rate has led anywhere, full turns of a joint among it, between which nothing
+        linear tells: there the limits are heard before the picture as well, and a long gap leaves nothing of the
+        joints.
+        """
+        if dt_s <= 0.0:
+            return estimates
+        switch = mode_transition_matrix(self.scales.size, MODE_DWELL_S, dt_s)
+        mean = (estimates.probability[:, None] @ estimates.mean)[:, 0]
+        if dt_s >= DIFFUSION_S:
+            return self.diffuse_mixture(*estimates.merge())
+        ahead = self.motion.predict(estimates, dt_s, self.compute_forgetting(mean, unseen_s, dt_s), switch)
+        if dt_s < MIN_GAP_S:
+            return ahead
+        return apply_soft_limits(ahead, ahead.merge()[0][:, :N_SLOTS])
+
+    def predict_sigma_points(
+        self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float, root_disc_m: FloatArray
+    ) -> tuple[ModeMixture, DigitSigmaPoints]:
+        """The digits ``dt_s`` later, and sigma points of them under ``root_disc_m`` (5, 3)."""
+        ahead = self.predict(estimates, unseen_s, dt_s)
+        return ahead, draw_sigma_points(*ahead.merge(), root_disc_m, self.settings.spread)
+
+    def compute_forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
+        """What becomes of the slots of digits at ``mean`` (5, n) that nothing shows; None where all are shown.
+
+        The angle is spread over the joint's range in :data:`DIFFUSION_S`, slowly at first. The rate fades, and as
+        much of it as is given up becomes possible in either direction.
+        """
+        is_unseen = (unseen_s > 0.0) & self._is_moving
+        if not is_unseen.any():
+            return None
+        whole_s = DIFFUSION_S
+        before = np.minimum(unseen_s, whole_s) / whole_s
+        after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
+        # Once it may be anywhere it goes on moving as it likes: else smoothing would carry what is seen at its
+        # return far into the time it was hidden.
+        goes_on = np.where(before >= 1.0, dt_s / whole_s, 0.0)
+        angle2 = np.where(is_unseen, RANGE_SD_RAD**2 * (after**3 - before**3 + goes_on), 0.0)
+        keep = math.exp(-dt_s / RATE_MEMORY_S)
+        rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, RATES] ** 2, 0.0)
+        return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
+
+    def compute_learning_share(self, seat: DigitBase) -> float:
+        """Share of what this picture says of the anatomy that is believed: little while the palm is unsure, as its
+        error stays for as long as its discs are hidden."""
+        variance = float(sum(seat.pose_covariance.diagonal()[3:].tolist()))
+        return LEARNING_SHARE / (1.0 + (variance / SURE_TURN_SD_RAD**2) ** 2)

@@ -1,0 +1,1 @@
+"""The filter: state models of palm and digits, sigma points, prediction, correction."""

@@ -1,0 +1,143 @@
+"""The unscented filter of thumb and fingers: five small filters side by side, given the palm.
+
+A finger tells next to nothing about the palm, so each digit is filtered for itself in the frame of the palm as
+corrected a moment before (what the palm's own error adds to a joint's is added when it is read). Each digit's state
+holds its joints, their rates and the constants of its anatomy, so the sharpening of the anatomy and what its
+error does to the angles are part of the filter. Motion modes run per digit: one finger may move while others rest.
+Arrays lead with the digit (5) and, in an estimate, the mode (K).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.compiled import digit_images, digits
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.hand_geometry import N_CONSTANTS, N_DIGITS, N_SLOTS
+from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, predict_mixture
+from carpus.core.tracking.filter.unscented import SigmaWeights, UnscentedParameters, compute_weights
+
+JOINTS, RATES = slice(0, N_SLOTS), slice(N_SLOTS, 2 * N_SLOTS)
+ANATOMY = slice(RATES.stop, RATES.stop + N_CONSTANTS)
+"""Where joints, their rates and the constants of the anatomy stand in a digit's state."""
+DIGIT_SIZE = ANATOMY.stop
+OBSERVED = np.r_[JOINTS, ANATOMY]
+"""States on which the discs depend."""
+
+
+@dataclass(frozen=True, slots=True)
+class Forgetting:
+    """What becomes of slots that nothing shows: share ``keep_rate`` (5, 5) kept of the rate, variance ``angle2`` (5, 5)
+    and ``rate2`` (5, 5) gained."""
+
+    keep_rate: FloatArray
+    angle2: FloatArray
+    rate2: FloatArray
+
+
+class DigitMotion:
+    """How the digits may move between two frames: constant rates, pushed by white accelerations.
+
+    ``density`` (5, 5) by digit and slot: variance per second of the rate; ``scales`` (K,) of its root by mode;
+    ``drift`` (5, 11) variance per second of the constants, skin over bone. Slots with a ``stationary2`` (5, 5), their
+    variance in the long run, have no rate: they return to zero within ``settles_s``.
+    """
+
+    def __init__(
+        self, density: FloatArray, scales: FloatArray, drift: FloatArray, stationary2: FloatArray, settles_s: float
+    ) -> None:
+        self.density, self.drift = density, drift
+        self.stationary2, self.settles_s = stationary2, settles_s
+        self._scales2 = np.tile(scales**2, (N_DIGITS, 1))
+
+    def predict(
+        self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
+    ) -> ModeMixture:
+        """The estimates ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
+        return predict_mixture(
+            estimates, *digits.compute_digit_transition(self, dt_s, self._scales2, forgetting), switch
+        )
+
+    def compute_transition(
+        self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None
+    ) -> tuple[FloatArray, FloatArray]:
+        """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
+        forward, noise = digits.compute_digit_transition(self, dt_s, (scale**2)[:, None], forgetting)
+        return forward, noise[:, 0]
+
+
+@dataclass(frozen=True, slots=True)
+class DigitSigmaPoints:
+    """Sigma points of a Gaussian over joints and constants, their discs in W.
+
+    The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: what bends the
+    discs' places. In the other constants these are all but linear. ``unroot`` (5, 6, 6) inverse of the factor,
+    ``along`` (5, 6, 10) by how much the other constants go with each column; ``disc_m`` (5, 13, 3, 3), the centre
+    first; ``by_constants`` (5, 3, 3, 10) derivative there; ``normal`` (5, 3, 3) of the discs; ``mean`` (5, n) and
+    ``covariance`` (5, n, n) of the state.
+    """
+
+    disc_m: FloatArray
+    unroot: FloatArray
+    along: FloatArray
+    by_constants: FloatArray
+    normal: FloatArray
+    mean: FloatArray
+    covariance: FloatArray
+
+
+def digit_sigma_weights(spread: UnscentedParameters) -> SigmaWeights:
+    """Weights of the points."""
+    return compute_weights(digits.BENT.size, spread)
+
+
+def draw_sigma_points(
+    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
+) -> DigitSigmaPoints:
+    """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
+    found = digits.spread_points(mean, covariance, root_disc_m, digit_sigma_weights(spread).scale)
+    return DigitSigmaPoints(*found, mean, covariance)
+
+
+@dataclass(frozen=True, slots=True)
+class DigitView:
+    """From W2 of a right hand to the pictures: ``rotation`` (3, 3) and ``translation_m`` (3,) into camera axes."""
+
+    rotation: FloatArray
+    translation_m: FloatArray
+    camera: Camera
+
+    def observe(self, point_m: FloatArray) -> FloatArray:
+        """Pixel u, v and depth z of points (..., 3) of W2."""
+        out: FloatArray = point_m @ self.rotation.T
+        out += self.translation_m
+        camera, z = self.camera, out[..., 2]
+        out[..., 0] *= camera.fx_px / z
+        out[..., 0] += camera.cx_px
+        out[..., 1] *= camera.fy_px / z
+        out[..., 1] += camera.cy_px
+        return out
+
+
+@dataclass(frozen=True, slots=True)
+class DigitLinearisation(Linearisation):
+    """What the camera should see: u, v, z of the three discs in turn, (5, 9), linearised.
+
+    ``spread`` (5, 9, 9) covariance of the images, slope and error together. ``centre_m`` (5, 3, 3) the discs in camera
+    axes; ``by_place`` (5, 3, 3, 3) derivative of the images by that.
+    """
+
+    spread: FloatArray
+    centre_m: FloatArray
+    by_place: FloatArray
+
+
+def linearise_digits(points: DigitSigmaPoints, view: DigitView, spread: UnscentedParameters) -> DigitLinearisation:
+    """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
+    value, slope, error, whole, centre_m, by_place = digit_images.linearise_images(
+        points, view, digit_sigma_weights(spread)
+    )
+    return DigitLinearisation(value, slope, error, points.mean, whole, centre_m, by_place)

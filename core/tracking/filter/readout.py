@@ -1,0 +1,171 @@
+"""From the filter's estimate to what people read: wrist frame, clinical angles, standard deviations.
+
+The filter tracks the discs as a body whose axes are those of W0 as calibrated. While the palm's shape is
+refined, the true axes of W follow from the better known discs; the readout turns the result into them.
+The covariance of an angle holds both the pose's and the calibration's part, and of a sensor whose errors stay
+with the place the part that no number of pictures takes away: the filter counts each picture as news.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.compiled.readout import compute_finger_base, read_wrist
+from carpus.core.model import so3
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand import clinical_angles
+from carpus.core.model.hand.clinical_angles import ZYZ_MIN_BETA_RAD, side_sign, wrist_axes_sensitivity
+from carpus.core.model.types import Detections, FloatArray, KinematicState, TrackedFrame, TrackStatus
+from carpus.core.tracking.filter.hand_geometry import JointState, PalmGeometry
+from carpus.core.tracking.filter.palm_state import SHAPE, PalmEstimate, PalmView
+
+_NONE = np.empty(0)
+_NOWHERE = np.empty((0, 3))
+_DORSAL = np.array([0.0, 0.0, 1.0])
+_TILT_RANK_TOLERANCE = 1e-3
+"""Share of the best known direction below which depths tell nothing of a turn: about the line of sight."""
+
+
+MAX_SHAPE_CHANGE_M = 3e-4
+"""The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
+METACARPAL_M = 0.055
+"""Of ring and little finger, from the joint at its base to its head (clinical reference 3.3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class WristAxes:
+    """Axes of W (3, 3) as columns in the tracked body, by how much they turn (3, 18) with each number of the shape, and
+    the shape (18,) of which they are."""
+
+    axes: FloatArray
+    sensitivity: FloatArray
+    shape_m: FloatArray
+
+
+class Readout:
+    """Reads estimates of one calibrated palm; remembers only the axes of the last shape."""
+
+    def __init__(self, calibration: Calibration, camera: Camera, disc_radius_m: float) -> None:
+        self._sensor = sensor = camera.sensor
+        self._disc_px_m = disc_radius_m * camera.fx_px
+        # Readings that do not average, and errors alike over the whole palm, are counted in full as they are.
+        self._has_stays = sensor.averages and sensor.stays_px == 0.0
+        self._calibration = calibration
+        self._side = calibration.clicks.side
+        self._disc_m = calibration.marker_position_w0_m
+        self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
+        self._has_start = bool(np.any(calibration.start_angles_rad))
+        self._axes: WristAxes | None = None
+
+    def _axes_near(self, estimate: PalmEstimate) -> WristAxes:
+        """The axes of a shape so near to the estimate's that they follow it to first order."""
+        shape = estimate.value[SHAPE]
+        if self._axes is None or np.abs(shape - self._axes.shape_m).max() > MAX_SHAPE_CHANGE_M:
+            axes, sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
+            self._axes = WristAxes(axes, sensitivity, shape.copy())
+        return self._axes
+
+    def compute_base(
+        self, estimate: PalmEstimate, view: PalmView
+    ) -> tuple[PalmGeometry, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """The palm as refined, for the fingers; how the camera sees W of it, rotation (3, 3) and translation (3,); in
+        camera axes the covariances of the body's place and turn (6, 6) and of the turn of the palm's axes (3, 3)."""
+        sign = side_sign(self._side)
+        axes, origin_m, disc_m, cup, cup_sd, rotation, translation_m, pose, turn = compute_finger_base(
+            self._axes_near(estimate), self._disc_m, estimate, view, sign, METACARPAL_M
+        )
+        return PalmGeometry(axes, origin_m, disc_m, cup, cup_sd), rotation, translation_m, pose, turn
+
+    def read_kinematics(self, estimate: PalmEstimate) -> KinematicState:
+        """Wrist pose, rates, angles and their standard deviations of a single estimate.
+
+        The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
+        """
+        axes, shown, position, rate, angles, sd, zyz = read_wrist(
+            self._axes_near(estimate),
+            self._disc_m,
+            estimate,
+            self._start if self._has_start else None,
+            self._tilt_covariance(estimate) if self._has_stays else None,
+            side_sign(self._side),
+            ZYZ_MIN_BETA_RAD,
+        )
+        # Places keep the axes of W0 as calibrated and stored, whatever is learnt of the palm; turns are read in the
+        # axes as they are known by now, and what lies between the two goes with them.
+        return KinematicState(
+            position, estimate.velocity_m_s, so3.log(axes @ self._start.T), shown, rate, angles, sd, zyz, _NONE, _NONE,
+            _NONE, _NOWHERE,
+        )  # fmt: skip
+
+    def _tilt_covariance(self, estimate: PalmEstimate) -> FloatArray:
+        """Covariance (3, 3) of the palm's turn, in the body, by the error of its discs' depths that stays: they tell
+        how it is tilted to the camera, by their distances from the middle; pixels tell the rest."""
+        calibration = self._calibration
+        disc_w0_m = estimate.position_m + (self._disc_m + estimate.shape_m) @ estimate.rotation_w2_w0.T
+        turned = calibration.rotation_w0_cam @ estimate.rotation_w2_w0
+        disc_cam_m = disc_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
+        middle = disc_cam_m.mean(axis=0)
+        arm_m = np.cross((disc_cam_m - middle) @ turned, (middle / np.linalg.norm(middle)) @ turned)
+        solved = np.linalg.pinv(arm_m.T @ arm_m, rcond=_TILT_RANK_TOLERANCE, hermitian=True) @ arm_m.T
+        depth_m = disc_cam_m[:, 2]
+        sd_m = self._sensor.disc_bias_sd_m(depth_m, np.pi * (self._disc_px_m / depth_m) ** 2)
+        return np.asarray((solved * sd_m**2) @ solved.T)
+
+    def with_joints(self, kinematics: KinematicState, joints: JointState, estimate: PalmEstimate) -> KinematicState:
+        """The moment of an estimate with what is known of the fingers, whose bones stand on the fixed unit, not on the
+        skin."""
+        rotation = so3.exp(kinematics.w0_turn_rad) @ kinematics.rotation_w2_w0
+        origin_m = kinematics.position_m - estimate.rotation_w2_w0 @ estimate.skin_m[0]
+        return KinematicState(
+            kinematics.position_m,
+            kinematics.velocity_m_s,
+            kinematics.w0_turn_rad,
+            kinematics.rotation_w2_w0,
+            kinematics.angular_velocity_rad_s,
+            kinematics.angles_rad,
+            kinematics.angles_sd_rad,
+            kinematics.angles_zyz_rad,
+            joints.angles_rad,
+            joints.sd_rad,
+            joints.rate_rad_s,
+            origin_m + joints.joint_w2_m @ rotation.T,
+        )
+
+
+def nan_kinematics(joint_count: int, marker_count: int) -> KinematicState:
+    """Nothing is known of ``joint_count`` joint angles, nor of the ``marker_count`` joint centres that go with them."""
+    three, joints = np.full(3, np.nan), np.full(joint_count, np.nan)
+    places = np.full((marker_count if joint_count else 0, 3), np.nan)
+    return KinematicState(three, three, three, np.full((3, 3), np.nan), *(three,) * 4, *(joints,) * 3, places)
+
+
+def build_lost_frame(
+    index: int,
+    timestamp_s: float,
+    kinematics: KinematicState,
+    marker_count: int,
+    detections: Detections,
+    dropped_before: int,
+    measured_share: FloatArray,
+) -> TrackedFrame:
+    """The row of a frame in which the hand is lost: nothing is known but the blobs."""
+    per_marker = np.full((marker_count, 2), np.nan)
+    return TrackedFrame(
+        index=index,
+        timestamp_s=timestamp_s,
+        status=TrackStatus.LOST,
+        kinematics=kinematics,
+        marker_position_cam_m=np.full((marker_count, 3), np.nan),
+        marker_predicted_px=per_marker,
+        marker_predicted_cov_px2=np.full((marker_count, 2, 2), np.nan),
+        marker_measured_px=per_marker,
+        marker_measured_depth_m=np.full(marker_count, np.nan),
+        detections=detections,
+        dropped_before=dropped_before,
+        measured_share=measured_share,
+        nis=float("nan"),
+        nis_dof=0,
+    )

@@ -1,0 +1,109 @@
+"""Settings and constants of the tracker, with where they come from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from carpus.core.model.names import Limits, check_limits
+from carpus.core.model.setting_values import NOT_IN_FILE
+from carpus.core.tracking.filter.finger_settings import FingerSettings
+from carpus.core.tracking.filter.motion import MotionNoise
+from carpus.core.tracking.filter.palm_state import InitialSd
+from carpus.core.tracking.filter.soft_tissue import SoftTissue
+from carpus.core.tracking.filter.surface_fit import SurfaceSettings
+from carpus.core.tracking.filter.unscented import UnscentedParameters
+
+Profile = Literal["slow", "standard", "brisk"]
+
+
+@dataclass(frozen=True, slots=True)
+class AssociationSettings:
+    """Priors and densities of (12).
+
+    ``prior_marker``: that a blob is one given marker; ``prior_clutter``: that it is none.
+    ``gate_sd``: blobs further than this from a prediction (in standard deviations of the innovation) are
+    never that marker. ``depth_range_m``: over which clutter's depth is spread. ``least_company``: so many discs at
+    their depth bear out another whose depth is something else's, unless that is more than ``apart_m`` off. ``beam``: so
+    many ways to name all are followed side by side. A set of names is doubted when chance gives a smaller NIS with the
+    probability ``consistent``.
+    """
+
+    prior_marker: float = 0.9
+    prior_clutter: float = 0.1
+    gate_sd: float = 5.0
+    depth_range_m: float = 0.5
+    least_company: int = 3
+    apart_m: float = 0.03
+    beam: int = 10
+    consistent: float = 0.9995
+
+
+@dataclass(frozen=True, slots=True)
+class Profiles:
+    """Process noise by reference 4.5: acceleration of wrist, turning and joints."""
+
+    slow: MotionNoise = field(default_factory=lambda: MotionNoise(0.7, 2.0, 6.0))
+    standard: MotionNoise = field(default_factory=lambda: MotionNoise(2.0, 8.0, 12.0))
+    brisk: MotionNoise = field(default_factory=lambda: MotionNoise(6.0, 40.0, 60.0))
+
+    def get(self, profile: Profile) -> MotionNoise:
+        return {"slow": self.slow, "standard": self.standard, "brisk": self.brisk}[profile]
+
+
+@dataclass(frozen=True, slots=True)
+class MeasurementNoise:
+    """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand; ``depth_ratio`` of the
+    depths' scatter to that of a reading by the book, likewise measured.
+    ``depth_stays_m``: error of a disc's depth that stays over a recording (the matching window flattens knuckles).
+    A residual beyond ``outlier_sd`` is given the noise it shows; each marker's variance rises to at most
+    ``most_adapted`` times and falls to ``least_adapted``.
+    """
+
+    pixel_sd_px: float = 0.15
+    depth_ratio: float = 1.0
+    outlier_sd: float = 3.5
+    most_adapted: float = 100.0
+    least_adapted: float = 0.6
+    depth_stays_m: float = 2.5e-4
+
+
+_LIMITS: Limits = {"lost_after_s": (0.0, 3600.0)}
+
+
+@dataclass(frozen=True, slots=True)
+class TrackerSettings:
+    """What a person may set of the tracker, and the constants it is made of; all of it is stored with every session.
+
+    ``profile`` which of the ``profiles`` moves the hand; ``use_depth`` False: colour alone, as in the papers; ``dip``:
+    end joints bound to the middle joints or free; ``lost_after_s`` without three palm markers the hand is lost.
+
+    The constants, whose reasons stand in their classes: ``mode_scales`` of motion modes run side by side, as factors on
+    the process noise; ``shape_hidden`` share of a correction of the palm's shape taken for a depth that stays wrong;
+    ``tissue`` how skin and relief move; ``use_surface`` measure the back of the hand by its depth, as ``surface`` says;
+    ``marker_radius_m`` of the paper discs, as measured at each calibration.
+    """
+
+    profile: Profile = "standard"
+    use_depth: bool = True
+    dip: Literal["coupled", "free"] = "coupled"
+    lost_after_s: float = 1.5
+    profiles: Profiles = field(default_factory=Profiles, metadata=NOT_IN_FILE)
+    shape_hidden: float = field(default=0.3, metadata=NOT_IN_FILE)
+    mode_scales: tuple[float, ...] = field(default=(0.5, 4.0), metadata=NOT_IN_FILE)
+    spread: UnscentedParameters = field(default_factory=UnscentedParameters, metadata=NOT_IN_FILE)
+    initial: InitialSd = field(default_factory=InitialSd, metadata=NOT_IN_FILE)
+    noise: MeasurementNoise = field(default_factory=MeasurementNoise, metadata=NOT_IN_FILE)
+    association: AssociationSettings = field(default_factory=AssociationSettings, metadata=NOT_IN_FILE)
+    fingers: FingerSettings = field(default_factory=FingerSettings, metadata=NOT_IN_FILE)
+    tissue: SoftTissue = field(default_factory=SoftTissue, metadata=NOT_IN_FILE)
+    use_surface: bool = field(default=True, metadata=NOT_IN_FILE)
+    surface: SurfaceSettings = field(default_factory=SurfaceSettings, metadata=NOT_IN_FILE)
+    marker_radius_m: float = field(default=0.006, metadata=NOT_IN_FILE)
+
+    def __post_init__(self) -> None:
+        check_limits("tracker", self, _LIMITS)
+
+    @property
+    def motion_noise(self) -> MotionNoise:
+        return self.profiles.get(self.profile)

@@ -1,0 +1,110 @@
+"""The pose of the fixed unit from the surface of the back of the hand: point to plane, a few Gauss-Newton steps.
+
+Thousands of depth readings lie on the back of the hand, and six discs. The surface over capitate, second and third
+metacarpal turns with the bones while skin glides over them; so it tells how the hand is tilted where the discs, which
+ride on the skin, mislead. It tells the turns about X and Y and the height; the rest the discs know better.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from carpus.core.compiled.surface import measure_surface
+from carpus.core.model.hand.dorsal_surface import DorsalSurface
+from carpus.core.model.types import FloatArray, SurfaceSamples
+from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, update_mixture
+from carpus.core.tracking.filter.palm_state import SIZE, PalmEstimate, PalmView, reset_error
+
+_NO_NOISE = np.full((1, 3), 1e-12)
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceSettings:
+    """``steps`` of Gauss-Newton; residuals beyond ``huber_m`` count less, beyond ``most_m`` not at all; with less than
+    ``least`` readings the surface is not asked. Readings nearer to each other than the sensor's patch share the
+    part ``shared`` of their variance, which is not of rounding to steps of disparity (clinical reference 7.2: a step is
+    two standard deviations), or all of it where the sensor has no such steps; ``reading_per_m`` is a reading's at
+    least, over the depth squared.
+    ``turn_sd_rad`` and ``up_sd_m`` that no number of readings takes away from one picture. Beyond ``most_nis`` it is
+    not this surface. ``goes_on``: by how much more the error of one picture counts since the next has a part of it
+    again; ``stays``: share of it that comes again as long as the hand is still."""
+
+    steps: int = 3
+    huber_m: float = 0.003
+    most_m: float = 0.010
+    least: int = 24
+    shared: float = 2.0 / 3.0
+    reading_per_m: float = 1.5e-3
+    turn_sd_rad: float = 0.004
+    up_sd_m: float = 0.0002
+    most_nis: float = 40.0
+    stays: float = 0.6
+    goes_on: float = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceMeasurement:
+    """What the surface says of an estimate's error: ``value`` (3,) turn about X and Y and height at the surface's
+    middle, its ``covariance`` (3, 3), as a ``slope`` (3, n) of the palm's error vector; ``count`` readings used."""
+
+    value: FloatArray
+    covariance: FloatArray
+    slope: FloatArray
+    count: int
+
+    def to_linearisation(self) -> Linearisation:
+        """Linear about the estimate's mean."""
+        return Linearisation(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
+
+
+def fit_surface(
+    estimate: PalmEstimate, samples: SurfaceSamples, surface: DorsalSurface, view: PalmView, settings: SurfaceSettings
+) -> SurfaceMeasurement | None:
+    """Fit the surface to the readings, from the estimate's pose on; None where too few lie on it."""
+    found = measure_surface(estimate, samples, surface, view, settings)
+    return None if found is None else SurfaceMeasurement(*found)
+
+
+def surface_calibration_covariance(surface: DorsalSurface, view: PalmView, settings: SurfaceSettings) -> FloatArray:
+    """Covariance (3, 3) of the calibrated surface's own turn about X and Y and height: the share ``stays`` of one
+    picture's errors, since these come again in every picture of a still hand and no averaging removes them."""
+    node = surface.node_positions_m()
+    in_camera = node @ view.rotation_w0_cam.T + view.translation_w0_cam_m
+    samples = SurfaceSamples(view.camera.project(in_camera), in_camera[:, 2])
+    neutral = PalmEstimate(np.eye(3), np.zeros(SIZE), np.eye(SIZE))
+    bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0)
+    found = fit_surface(neutral, samples, surface, view, bare)
+    return np.eye(3) if found is None else settings.stays**2 * found.covariance
+
+
+def update_by_surface(
+    mixture: ModeMixture, measurement: SurfaceMeasurement, partial: FloatArray | None, settings: SurfaceSettings
+) -> ModeMixture | None:
+    """The palm's modes corrected by what the surface says, numbers taking their ``partial``; None where it is so far
+    from what was believed that it is another surface."""
+    # Its noise has no scale of its own: the covariance is all there is.
+    update = update_mixture(
+        mixture, measurement.to_linearisation(), measurement.value[None], _NO_NOISE, partial=partial
+    )
+    return None if float(update.nis[0]) > settings.most_nis else update.mixture
+
+
+def reset_and_surface_update(
+    nominal: PalmEstimate,
+    mixture: ModeMixture,
+    samples: SurfaceSamples | None,
+    surface: DorsalSurface | None,
+    view: PalmView,
+    partial: FloatArray | None,
+    settings: SurfaceSettings,
+) -> tuple[PalmEstimate, ModeMixture, bool]:
+    """The palm after an update by its discs: :func:`reset_error`, then corrected by the surface of the back of the hand
+    and reset once more; and whether the surface said anything."""
+    estimate, mixture = reset_error(nominal, mixture)
+    if surface is None or samples is None:
+        return estimate, mixture, False
+    found = fit_surface(estimate, samples, surface, view, settings)
+    after = None if found is None else update_by_surface(mixture, found, partial, settings)
+    return (estimate, mixture, False) if after is None else (*reset_error(estimate, after), True)

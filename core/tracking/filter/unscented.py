@@ -1,0 +1,59 @@
+"""Sigma points and their weights (Wan and van der Merwe 2000; Kandepu et al. 2008)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from carpus.core.model.types import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class UnscentedParameters:
+    """How far the points stand from the mean. With kappa 0 and alpha 1 they stand at sqrt(n) sigma."""
+
+    alpha: float = 0.25
+    beta: float = 2.0
+    kappa: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SigmaWeights:
+    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda). ``numbers`` (5,): of ``mean``
+    the centre's and the others', of ``covariance`` likewise, and ``scale``."""
+
+    mean: FloatArray
+    covariance: FloatArray
+    scale: float
+    numbers: FloatArray
+
+
+@lru_cache(maxsize=64)
+def compute_weights(dimension: int, spread: UnscentedParameters) -> SigmaWeights:
+    """Weights of the 2n+1 points of an n-dimensional Gaussian."""
+    lam = spread.alpha**2 * (dimension + spread.kappa) - dimension
+    total = dimension + lam
+    mean = np.full(2 * dimension + 1, 0.5 / total)
+    covariance = mean.copy()
+    mean[0] = lam / total
+    covariance[0] = mean[0] + 1.0 - spread.alpha**2 + spread.beta
+    mean.setflags(write=False)
+    covariance.setflags(write=False)
+    scale = float(np.sqrt(total))
+    return SigmaWeights(mean, covariance, scale, np.array([*mean[:2], *covariance[:2], scale]))
+
+
+def sigma_offsets(covariance: FloatArray, scale: float) -> FloatArray:
+    """Offsets (..., 2n+1, n) of the sigma points from the mean for covariances (..., n, n).
+
+    Raises ``numpy.linalg.LinAlgError`` when a covariance is not positive definite.
+    """
+    root = np.linalg.cholesky(covariance)
+    columns = np.swapaxes(root, -1, -2) * scale
+    n = covariance.shape[-1]
+    out = np.zeros((*covariance.shape[:-2], 2 * n + 1, n))
+    out[..., 1 : n + 1, :] = columns
+    out[..., n + 1 :, :] = -columns
+    return out

@@ -1,0 +1,124 @@
+"""Thumb and fingers of one hand, tracked on the palm that the tracker has just corrected."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.digits.digit_search import is_in_reach
+from carpus.core.tracking.digits.digit_update import MAX_MISSING_FRAMES, DigitHistory, DigitPosterior, DigitUpdater
+from carpus.core.tracking.digits.finger_model import DIFFUSION_S, FingerModel
+from carpus.core.tracking.digits.knuckle_flexion import FLEXION_SLOT
+from carpus.core.tracking.filter.digit_filter import DIGIT_SIZE, OBSERVED, RATES
+from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_DISCS, N_SLOTS, JointState
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.predicted_measurement import PredictedDigits
+from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.soft_tissue import DigitSpeeds
+from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep
+
+_RATE, _THUMB_BASE = np.arange(DIGIT_SIZE)[RATES], slice(0, 2)
+
+
+RESTART_VISIBLE_PROBABILITY = 0.5
+"""The chance that a disc of a digit begun anew is to be seen."""
+
+
+class FingerFilter:
+    """Remembers the digits' estimates from frame to frame."""
+
+    def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
+        self.model = FingerModel(calibration, camera, settings)
+        self._settings = settings
+        self.begin_at_neutral()
+
+    def begin_at_neutral(self) -> None:
+        """Start (again) from the neutral pose, at rest."""
+        self.history = DigitHistory.from_neutral_palm(self.model.calibrated_palm)
+        self.updater = DigitUpdater(self.model, self.history, self._settings)
+        self._is_at_start = True
+        neutral = self.model.neutral_mixture()
+        self._set_estimates(neutral, neutral.merge())
+
+    def is_in_reach(self, point_m: FloatArray) -> NDArray[np.bool_]:
+        """Whether points (..., 3) in the tracked body may be discs of these fingers."""
+        palm = self.history.palm
+        on_palm = (point_m - palm.origin_m) @ palm.axes
+        return is_in_reach(on_palm, palm.disc_m[1:], self._mean[:, OBSERVED])
+
+    def reset_joints(self) -> None:
+        """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""
+        self.history.visible_probability = np.full((N_DIGITS, N_DISCS), RESTART_VISIBLE_PROBABILITY)
+        self.history.missing_frames = np.full(N_DIGITS, MAX_MISSING_FRAMES)
+        self.history.unseen_s = np.full((N_DIGITS, N_SLOTS), DIFFUSION_S)
+        anywhere = self.model.diffuse_mixture(self._mean, self._covariance)
+        self._set_estimates(anywhere, anywhere.merge())
+
+    def restart_digit(self, chain: int) -> None:
+        """A person shows a disc of a digit where it was not believed: its joints may be anywhere."""
+        estimates = self.model.restart_digits(self._estimates, np.arange(N_DIGITS) == chain, self._estimates)
+        self.history.visible_probability[chain] = RESTART_VISIBLE_PROBABILITY
+        self.history.missing_frames[chain] = MAX_MISSING_FRAMES
+        self.history.unseen_s[chain] = DIFFUSION_S
+        self._set_estimates(estimates, estimates.merge())
+
+    def _set_estimates(self, estimates: ModeMixture, merged: tuple[FloatArray, FloatArray]) -> None:
+        self._estimates, (self._mean, self._covariance) = estimates, merged
+        self._speeds: DigitSpeeds | None = None
+
+    @property
+    def joint_speeds(self) -> DigitSpeeds:
+        """How fast the thumb turns at its base and the fingers at their knuckles, root mean square; a joint that
+        nothing shows may turn as fast as its rate is unsure."""
+        if self._speeds is None:
+            unsure = np.where(self.history.unseen_s > 0.0, self._covariance[:, _RATE, _RATE], 0.0)
+            square = self._mean[:, _RATE] ** 2 + unsure
+            thumb, fingers = (
+                float(np.add.reduce(of)) / of.size for of in (square[0, _THUMB_BASE], square[1:, FLEXION_SLOT])
+            )
+            fastest = self._settings.tissue.fastest_rad_s
+            self._speeds = DigitSpeeds(min(math.sqrt(thumb), fastest), min(math.sqrt(fingers), fastest))
+        return self._speeds
+
+    @property
+    def estimates(self) -> ModeMixture:
+        """What is believed of the digits; another object whenever anything of them has changed."""
+        return self._estimates
+
+    def predict(self, dt_s: float) -> PredictedDigits:
+        """The digits ``dt_s`` later, and their discs on the palm as it was known last."""
+        estimates, points = self.model.predict_sigma_points(
+            self._estimates, self.history.unseen_s, dt_s, self.history.palm.disc_m[1:]
+        )
+        return PredictedDigits(estimates, points, self.history.palm)
+
+    def smoother_start(self, timestamp_s: float, is_lost: bool) -> FingerStart:
+        """What is believed now, for smoothing over the frames to come."""
+        return FingerStart(self._estimates, self.history.unseen_s, timestamp_s, is_lost)
+
+    def accept(self, posterior: DigitPosterior, timestamp_s: float, dt_s: float) -> FingerStep:
+        """Go on from a trial; what the smoother needs of it."""
+        named = posterior.update
+        self.history.update(posterior, dt_s, self._settings)
+        kept, merged, misread = self.model.apply_joint_limits(named.update.mixture, self._estimates)
+        self.history.missing_frames[misread] = MAX_MISSING_FRAMES
+        self._set_estimates(kept, merged)
+        begins, self._is_at_start = self._is_at_start, False
+        return FingerStep(
+            timestamp_s,
+            named.measured,
+            named.variance,
+            posterior.blob >= 0,
+            posterior.postures,
+            begins,
+            posterior.knuckle_flexion,
+        )
+
+    def read_joints(self, posterior: DigitPosterior) -> JointState:
+        """The joints after that trial was accepted."""
+        return self.model.readout.read_joints(self._mean, self._covariance, posterior.seat, posterior.scene.linearised)

@@ -1,0 +1,1 @@
+"""The smoother: every frame again in the light of those after it."""

@@ -1,0 +1,78 @@
+"""The average hand, its frame and its limits."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from carpus.core.model.hand.anatomy import anatomy_from_size, palm_axes
+from carpus.core.model.hand.clinical_angles import wrist_axes
+from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
+
+
+def test_flat_hand_without_offsets_is_the_chain_of_the_papers() -> None:
+    hand = anatomy_from_size(0.180, 0.080, arch=0.0, skin_offsets=False)
+    assert np.array_equal(hand.skin_offset_m, np.zeros(21))
+    assert np.array_equal(hand.palm_disc_m, hand.palm_joint_m)
+    assert np.allclose(hand.finger_length_m[0] * 1e3, [44.10, 25.74, 17.46], atol=0.005)
+    assert np.allclose(hand.thumb_length_m * 1e3, [45.18, 35.28, 28.44], atol=0.005)
+
+
+@pytest.mark.parametrize("length_m", [0.130, 0.180, 0.200])
+def test_offsets_grow_with_the_hand(length_m: float) -> None:
+    offset_mm = anatomy_from_size(length_m).skin_offset_m * 1e3 * 180.0 / (length_m * 1e3)
+    expected = {
+        "WRIST": 15,
+        "CMC1": 10,
+        "MCP1": 9,
+        "IP1": 7,
+        "TIP1": 5,
+        "MCP3": 11,
+        "PIP2": 7.5,
+        "DIP5": 5.5,
+        "TIP4": 5,
+    }
+    for marker, height in expected.items():
+        assert offset_mm[HAND21.markers.index(marker)] == pytest.approx(height)
+
+
+@pytest.mark.parametrize("arch", [0.0, 0.5, 1.0, 2.0])
+def test_palm_discs_define_the_wrist_frame_they_are_given_in(arch: float) -> None:
+    discs = anatomy_from_size(0.175, arch=arch).palm_disc_m
+    assert np.allclose(wrist_axes(discs, np.array([0.0, 0.0, 1.0])), np.eye(3), atol=1e-12)
+    assert np.allclose(discs[PALM_MARKERS.index("WRIST")], 0.0)
+    assert np.allclose(discs[PALM_MARKERS.index("MCP3"), 1:], 0.0, atol=1e-12)
+
+
+def test_typical_arch_lies_below_the_plane_of_wrist_mcp2_mcp3() -> None:
+    wrist, cmc1, mcp2, mcp3, mcp4, mcp5 = anatomy_from_size(0.180).palm_disc_m * 1e3
+    normal = np.cross(mcp3 - wrist, mcp2 - wrist)
+    normal /= np.linalg.norm(normal)
+    heights = [float((disc - wrist) @ normal) for disc in (cmc1, mcp4, mcp5)]
+    assert heights == pytest.approx([-10.0, -2.0, -6.0], abs=0.05)
+
+
+def test_palm_axes_of_a_turned_left_hand() -> None:
+    mirrored = anatomy_from_size(0.175).palm_disc_m * [1.0, -1.0, 1.0]
+    turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    assert np.allclose(palm_axes(mirrored @ turn.T + [0.1, 0.2, 0.7], "left"), turn, atol=1e-12)
+
+
+def test_nail_discs_shorten_only_the_last_segment() -> None:
+    whole, nail = anatomy_from_size(0.18), anatomy_from_size(0.18, nail_discs=True)
+    assert np.allclose(nail.finger_length_m / whole.finger_length_m, [[1.0, 1.0, 0.7]] * 4)
+    assert np.allclose(nail.thumb_length_m / whole.thumb_length_m, [1.0, 1.0, 0.8])
+
+
+def test_arrays_are_checked_copied_and_read_only() -> None:
+    lengths = np.full((4, 3), 0.02)
+    hand = dataclasses.replace(anatomy_from_size(0.18), finger_length_m=lengths)
+    lengths[:] = 1.0
+    assert hand.finger_length_m[0, 0] == 0.02
+    with pytest.raises(ValueError, match="read-only"):
+        hand.finger_length_m[0, 0] = 1.0
+    with pytest.raises(ValueError, match="finger_length_m"):
+        dataclasses.replace(hand, finger_length_m=np.zeros((3, 3)))

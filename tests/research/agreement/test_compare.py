@@ -1,0 +1,315 @@
+"""A session against references whose difference is known: shift, turn, offset, readings, and what cannot be used."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from contextlib import nullcontext
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from carpus.core.formats import c3d_write, mot, trc
+from carpus.core.formats.c3d_read import read_c3d
+from carpus.core.model import so3
+from carpus.core.model.errors import ReferenceUnreadable, ReferenceUnsuited
+from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.research.agreement.agreement_files import format_comparison
+from carpus.core.research.agreement.compare import MIN_MATCH, _check_match, compare_session, comparison_remarks
+from carpus.core.research.agreement.reference import GoniometerReading, Reference, read_reference
+from carpus.core.research.agreement.time_alignment import AlignmentCurves, ClockShift, find_shift, with_residual_drift
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.session.values import Session
+from tests.commands import Command
+from tests.formats.takes import stored, take_of
+from tests.ui.fakes import session as flexing
+from tests.ui.printed import pages_of, words_of
+
+PLACES = [place / "shared" / "data" for place in Path(__file__).resolve().parents]
+DATA = next((place for place in PLACES if place.is_dir()), PLACES[0])
+needs_data = pytest.mark.skipif(not DATA.is_dir(), reason="real data of others are not beside the checkout")
+
+
+@pytest.fixture(scope="module")
+def session() -> Session:
+    """Flexion to and fro, 30 frames a second, all of it tracked."""
+    made = flexing()
+    return replace(made, status=np.zeros(len(made), dtype=np.int64))
+
+
+def other(session: Session, shift_s: float, offset_deg: float = 0.0, rate_hz: float = 100.0) -> Reference:
+    """The session's own curve at another rate, later by ``shift_s``."""
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    there_s = np.arange(max(0.0, shift_s), time_s[-1] + min(0.0, shift_s), 1.0 / rate_hz)
+    own = session.motion.angles_rad
+    angles = {
+        name: np.interp(there_s - shift_s, time_s, own[:, k]) + math.radians(offset_deg)
+        for k, name in enumerate(WRIST_ANGLES)
+    }
+    return Reference(Path("other.mot"), "angles", there_s - there_s[0] + 100.0, angles)
+
+
+@pytest.mark.parametrize("later", [34, -121])
+def test_a_shift_and_an_offset_are_found(session: Session, later: int) -> None:
+    """A reference that began so many of its samples earlier: what was before does not matter."""
+    reference = other(session, 0.0, offset_deg=-3.0)
+    angles = reference.angles_rad
+    if later > 0:
+        angles = {name: np.concatenate((np.full(later, v[0]), v)) for name, v in angles.items()}
+    elif later < 0:
+        angles = {name: v[-later:] for name, v in angles.items()}
+    times_s = np.arange(len(angles["flexion"])) / 100.0 + 100.0
+    found = compare_session(session, replace(reference, time_s=times_s, angles_rad=angles))
+    assert found.shift.lag_s == pytest.approx(later / 100, abs=0.004)
+    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
+    assert flexion.bias == pytest.approx(3.0, abs=0.05)
+    assert flexion.sd < 0.5
+    assert flexion.correlation > 0.999
+
+
+def test_a_turned_sign_is_said_and_not_shifted_away(session: Session) -> None:
+    right = other(session, 0.0)
+    turned = replace(right, angles_rad=dict(right.angles_rad) | {"flexion": -right.angles_rad["flexion"]})
+    found = compare_session(session, turned)
+    assert found.shift.lag_s == pytest.approx(0.0, abs=0.01)
+    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
+    assert flexion.correlation < -0.99
+    assert flexion.icc < 0.0, "not flattered"
+    assert any(remark.startswith("flexion: ") and "opposite sign" in remark for remark in found.remarks)
+    assert "opposite sign" in format_comparison(found)[0]
+    assert [remark for remark in found.angle_remarks("flexion") if "opposite" in remark]
+    assert not [remark for remark in found.angle_remarks("deviation") if "opposite" in remark]
+    assert not any("opposite" in remark for remark in compare_session(session, right).remarks)
+
+
+@pytest.mark.parametrize("factor", [math.pi / 180.0, 180.0 / math.pi])
+def test_a_wrong_unit_is_said_and_its_error_not_folded(session: Session, factor: float) -> None:
+    right = other(session, 0.0)
+    found = compare_session(
+        session, replace(right, angles_rad={name: factor * v for name, v in right.angles_rad.items()})
+    )
+    assert any(remark.startswith("flexion: the reference moves") for remark in found.remarks)
+    flexion = next(one for one in found.pairs if one.name == "flexion")
+    assert np.ptp(flexion.reference_rad) == pytest.approx(factor * np.ptp(flexion.measured_rad), rel=0.02)
+    assert not any("as far as Carpus" in remark for remark in compare_session(session, right).remarks)
+
+
+def test_a_reference_of_whole_turns_more_agrees(session: Session) -> None:
+    right = other(session, 0.0)
+    wrapped = {name: np.mod(v, 2.0 * math.pi) for name, v in right.angles_rad.items()}
+    for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
+        found = compare_session(session, replace(right, angles_rad=angles), lag_s=0.0)
+        assert all(one.agreement_deg.largest_difference < 2.0 for one in found.pairs)
+
+
+def test_a_lag_that_is_known_is_taken(session: Session) -> None:
+    found = compare_session(session, other(session, 0.0), lag_s=0.4)
+    assert found.shift.is_given
+    assert found.shift.lag_s == 0.4
+    assert next(one for one in found.pairs if one.name == "flexion").agreement_deg.sd > 5.0
+
+
+def test_the_session_agrees_with_its_own_exports(session: Session, tmp_path: Path) -> None:
+    take = take_of(replace(session, path=tmp_path / "s.h5"), "s")
+    mot.write(take, tmp_path)
+    found = compare_session(session, read_reference(tmp_path / "s.mot"))
+    assert [one.name for one in found.pairs] == list(WRIST_ANGLES)
+    assert max(one.agreement_deg.rmse for one in found.pairs) < 0.05
+    assert min(len(one.time_s) for one in found.pairs) >= len(session) - 2
+
+
+@pytest.mark.parametrize("kind", ["c3d", "trc"])
+def test_points_are_turned_onto_the_session_as_one_body(session: Session, kind: str, tmp_path: Path) -> None:
+    turn = so3.exp(np.array([0.4, -1.1, 0.3]))
+    # A palm that is one rigid body, as optical discs on a splint are, moved as the session's angles say.
+    calibration = session.calibration
+    body = calibration.marker_position_w0_m[:6]
+    rotation = session.motion.rotation_w2_w0
+    place_w0 = np.einsum("nij,mj->nmi", rotation, body)
+    cam = place_w0 @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
+    rigid = replace(session, markers=replace(session.markers, position_cam_m=cam))
+    elsewhere = cam @ turn.T + (0.5, -2.0, 1.0)
+    theirs = replace(
+        rigid, markers=replace(session.markers, position_cam_m=elsewhere), motion=session.motion, path=tmp_path / "s.h5"
+    )
+    writer = c3d_write if kind == "c3d" else trc
+    writer.write(take_of(theirs, "s"), tmp_path)
+    found = compare_session(rigid, read_reference(tmp_path / f"s.{kind}"))
+    assert found.alignment.residual_m < 5e-4
+    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
+    assert abs(flexion.bias) < 2.5, "the neutral pose is where the first half second is"
+    assert flexion.sd < 0.7
+    assert flexion.correlation > 0.999
+
+
+def test_a_table_with_a_column_map(session: Session, tmp_path: Path) -> None:
+    path = tmp_path / "optical.csv"
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, delimiter=";")
+        table.writerow(["Zeit", "FlexExt", "other"])
+        for t, angle in zip(time_s, np.degrees(session.motion.angles_rad[:, 1]), strict=True):
+            table.writerow([f"{t:.4f}".replace(".", ","), f"{-angle:.4f}".replace(".", ","), "1"])
+    found = compare_session(session, read_reference(path, {"time": "Zeit", "flexion": "-FlexExt"}))
+    (flexion,) = found.pairs
+    assert flexion.agreement_deg.rmse < 0.02
+    assert any("other" in reason for reason in found.unused)
+    assert any("deviation" in reason for reason in found.unused)
+    with pytest.raises(ReferenceUnreadable, match="NoSuch"):
+        read_reference(path, {"time": "Zeit", "flexion": "NoSuch"})
+
+
+def test_readings_of_a_goniometer(session: Session, tmp_path: Path) -> None:
+    held = np.zeros_like(session.motion.angles_rad)
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    held[:, 1] = np.radians(10.0 * np.floor(time_s / 2.0))
+    still = replace(session, motion=replace(session.motion, angles_rad=held))
+    path = tmp_path / "goniometer.csv"
+    rows = [f"{'flexion' if k else 'extension'},{10 * k - 2},{2 * k + 1}" for k in range(6)]
+    path.write_text("angle,reading_deg,time_s\n" + "\n".join([*rows, "flexion,20,6.0", "toe,3,1"]), encoding="utf-8")
+    found = compare_session(still, read_reference(path), figures=compute_session_results(still))
+    (flexion,) = found.pairs
+    assert flexion.agreement_deg.count == 6
+    assert flexion.measured_rad[1:] == pytest.approx(np.radians([10.0, 20, 30, 40, 50]), abs=1e-3)
+    # Five readings 2 degrees low, and an extension of -2 read as flexion of 2: all by their sign.
+    assert np.degrees(flexion.measured_rad - flexion.reference_rad).round(2).tolist() == [-2.0, 2.0, 2.0, 2.0, 2.0, 2.0]
+    assert found.excluded_count == 1
+    assert any("not still" in reason for reason in found.unused)
+    assert any("toe" in reason for reason in found.unused)
+    assert found.shift is None
+
+
+def test_a_goniometer_on_the_forearm_is_read_from_thumb_up(session: Session, tmp_path: Path) -> None:
+    held = np.zeros_like(session.motion.angles_rad)
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    held[:, 2] = np.radians(30.0 * np.floor(time_s / 4.0))  # palm down, 30 and 60 degrees up from there
+    still = replace(session, motion=replace(session.motion, angles_rad=held))
+    path = tmp_path / "goniometer.csv"
+    rows = [f"pronation,{90 - 30 * k},{4 * k + 2}" for k in range(3)]
+    path.write_text("angle,reading_deg,time_s\n" + "\n".join(rows), encoding="utf-8")
+    (turned,) = compare_session(still, read_reference(path), figures=compute_session_results(still)).pairs
+    assert np.degrees(turned.measured_rad - turned.reference_rad) == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
+    assert np.degrees(turned.reference_rad) == pytest.approx([0.0, 30.0, 60.0]), "a pair has the angle of the files"
+
+
+def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
+    figures = compute_session_results(session)
+    row = figures.find("flexion", "flexion")
+    readings = tuple(
+        GoniometerReading("flexion", "flexion", math.radians(row.mean + d), math.nan) for d in (1.0, 2.0, 3.0)
+    )
+    found = compare_session(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
+    assert found.pairs[0].agreement_deg.bias == pytest.approx(-2.0)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_reference_that_holds_nothing_is_refused_in_one_sentence(session: Session) -> None:
+    unknown = {"flexion": np.full(900, np.nan)}
+    for times_s, angles in ((np.empty(0), {"flexion": np.empty(0)}), (np.arange(900) / 30.0, unknown)):
+        with pytest.raises(ReferenceUnsuited, match="in common"):
+            compare_session(session, Reference(Path("x.mot"), "angles", times_s, angles))
+
+
+def test_another_movement_is_not_compared(session: Session) -> None:
+    rng = np.random.default_rng(2)
+    noise = {"flexion": np.cumsum(rng.normal(size=3000)) * 0.01}
+    with pytest.raises(ReferenceUnsuited):
+        compare_session(session, Reference(Path("x.mot"), "angles", np.arange(3000) / 100.0, noise), max_shift_s=0.2)
+    with pytest.raises(ReferenceUnsuited, match="discs"):
+        compare_session(
+            session, Reference(Path("x.c3d"), "points", np.arange(9.0), points_m={"WRIST": np.zeros((9, 3))})
+        )
+
+
+def test_the_command_writes_tables_and_plots(tmp_path: Path, command: Command) -> None:
+    path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
+    done = command("compare", path, path, "--output", out)
+    assert (done.code, "flexion" in done.out) == (0, True)
+    names = {file.name.removeprefix("one-against-one.") for file in out.iterdir()}
+    assert names >= {"agreement.csv", "agreement.json", "pdf", "flexion.png"}
+    content = json.loads((out / "one-against-one.agreement.json").read_text(encoding="utf-8"))
+    assert {row["angle"] for row in content["angles"]} == set(WRIST_ANGLES)
+    assert len(content["provenance"]["reference"]["sha256"]) == 64
+    assert "Limit" not in done.out
+
+
+def test_the_commands_plots_read_back_as_png_and_pdf_with_the_limit_set_before(
+    tmp_path: Path, command: Command
+) -> None:
+    path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
+    done = command("compare", path, path, "--limit", "5", "--output", out)
+    assert "Limit        flexion agrees within 5°" in done.out.splitlines()
+    for name in WRIST_ANGLES:
+        picture = cv2.imread(str(out / f"one-against-one.{name}.png"))
+        assert picture.shape == (960, 2240, 3)
+        halves = picture[:, :1120], picture[:, 1120:]
+        assert all(np.unique(half.reshape(-1, 3), axis=0).shape[0] > 20 for half in halves), "two plots are drawn"
+    words = words_of(out / "one-against-one.pdf")
+    for piece in ("Flexion–extension", "RMSE", "Reference", "Limit", "hatched: within the limit you set"):
+        assert piece in words
+    assert pages_of(out / "one-against-one.pdf") == len(WRIST_ANGLES)
+
+
+@needs_data
+def test_six_encodings_of_one_trial_read_alike() -> None:
+    tracks = [read_c3d(path) for path in sorted((DATA / "c3d").glob("c3dorg_sample01_*.c3d"))]
+    assert len(tracks) == 6
+    for track in tracks:
+        assert track.position_m.shape == (450, 26, 3)
+        assert track.names[0] == "RFT1"
+        assert np.allclose(track.position_m, tracks[0].position_m, atol=1e-7, equal_nan=True)
+
+
+@needs_data
+def test_files_of_other_programs_are_read() -> None:
+    for path in sorted((DATA / "trc").glob("*.trc")):
+        reference = read_reference(path, markers={})
+        assert reference.unused, "markers of a whole body are none of the discs"
+        assert (np.diff(reference.time_s) > 0).all()
+    found = read_reference(DATA / "trc" / "pyomeca_inverse_kin.mot", {"flexion": "hand_r_Flex"})
+    assert np.abs(found.angles_rad["flexion"]).max() < math.pi
+
+
+@pytest.mark.parametrize("name", ["x.c3d", "x.trc", "x.mot", "x.csv", "x.xyz"])
+@pytest.mark.parametrize("content", [b"", b"nonsense\n1,2\n", bytes(range(256)) * 8])
+def test_what_is_no_reference_is_said_in_a_sentence(name: str, content: bytes, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(ReferenceUnreadable):
+        read_reference(tmp_path / name)
+
+
+def test_drift_over_minutes_is_no_other_movement() -> None:
+    time_s = np.arange(0.0, 140.0, 1 / 30)
+    mine = np.sin(np.pi * time_s)
+    there_s = np.arange(0.0, 140.0, 0.01)
+    curves = AlignmentCurves(time_s, mine[:, None], there_s, np.sin(np.pi * there_s / 0.99)[:, None], ignores_sign=True)
+    shift = find_shift(curves, 10.0)
+    assert abs(shift.match) < MIN_MATCH
+    _check_match(Reference(Path("x.mot"), "angles"), curves, with_residual_drift(curves, shift))
+    noise = replace(curves, other=np.random.default_rng(0).normal(size=curves.reference_values.shape))
+    with pytest.raises(ReferenceUnsuited):
+        _check_match(Reference(Path("x.mot"), "angles"), noise, with_residual_drift(noise, find_shift(noise, 10.0)))
+
+
+@pytest.mark.parametrize(("match", "suits"), [(0.51, True), (-0.51, True), (0.49, False)])
+def test_curves_that_match_by_less_than_a_half_are_no_same_movement(match: float, suits: bool) -> None:
+    time_s = np.arange(0.0, 10.0, 0.1)
+    curves = AlignmentCurves(time_s, time_s[:, None], time_s, time_s[:, None], ignores_sign=True)
+    with nullcontext() if suits else pytest.raises(ReferenceUnsuited):
+        _check_match(Reference(Path("x.mot"), "angles"), curves, ClockShift(0.0, match))
+
+
+def test_against_each_other_may_be_a_shift_beyond_the_search() -> None:
+    against = ClockShift(
+        -0.5, -0.98, ((1.0, 0.97),), has_more_rivals=True, same_sign_shift=(1.0, 0.97), max_shift_s=10.0
+    )
+    said = comparison_remarks((), against)
+    assert any("beyond 10 s" in remark and "+1.00 s (0.970)" in remark for remark in said)
+    assert any(remark.endswith("…") for remark in said)
+    assert not any(
+        "beyond" in remark for remark in comparison_remarks((), replace(against, match=0.98, same_sign_shift=None))
+    )

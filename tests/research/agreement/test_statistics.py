@@ -1,0 +1,190 @@
+"""Figures of agreement against what the papers and textbook formulas give."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+from carpus.core.research.agreement.statistics import (
+    cmc,
+    compute_agreement,
+    compute_pooled_agreement,
+    effective_sample_size,
+    icc_2_1,
+    icc_3_1,
+)
+
+
+def test_known_differences_give_known_figures() -> None:
+    reference = np.array([10.0, 20.0, 30.0, 40.0, 50.0])
+    difference = np.array([1.0, 3.0, 2.0, 4.0, 0.0])
+    found = compute_agreement(reference + difference, reference, waveform=False)
+    assert found.bias == pytest.approx(2.0)
+    assert found.sd == pytest.approx(math.sqrt(2.5))
+    assert found.limits == pytest.approx((2.0 - 1.96 * math.sqrt(2.5), 2.0 + 1.96 * math.sqrt(2.5)))
+    assert found.rmse == pytest.approx(math.sqrt(6.0))
+    assert found.largest_difference == 4.0
+    assert found.count == 5
+    # t(4) = 2.776: the textbook interval of a mean.
+    assert found.bias_interval[1] - 2.0 == pytest.approx(2.776 * math.sqrt(2.5 / 5), rel=1e-3)
+    assert math.isnan(found.cmc)
+
+
+def test_what_is_not_known_is_left_out_in_pairs() -> None:
+    a, b = np.array([1.0, np.nan, 3.0, 4.0, 6.0]), np.array([1.0, 2.0, np.nan, 4.0, 5.0])
+    assert compute_agreement(a, b, waveform=False).count == 3
+    assert math.isnan(compute_agreement(a[:2], b[:2]).bias)
+
+
+@given(st.floats(-20, 20), st.integers(0, 1000))
+def test_a_constant_offset_is_bias_and_nothing_else(offset: float, seed: int) -> None:
+    wave = 30.0 * np.sin(np.linspace(0, 20, 300)) + np.random.default_rng(seed).normal(size=300)
+    found = compute_agreement(wave + offset, wave)
+    assert found.bias == pytest.approx(offset, abs=1e-9)
+    assert found.sd == pytest.approx(0.0, abs=1e-6)
+    assert found.correlation == pytest.approx(1.0)
+    if abs(offset) > 1.0:
+        assert found.icc < 1.0, "absolute agreement sees an offset that correlation does not"
+
+
+def test_neighbours_in_time_count_for_less() -> None:
+    rng = np.random.default_rng(3)
+    noise = rng.normal(size=4000)
+    assert effective_sample_size(noise) > 2500
+    slow = np.convolve(noise, np.ones(20) / 20, "valid")
+    assert len(slow) / 40 < effective_sample_size(slow) < len(slow) / 10
+
+
+def test_the_interval_of_an_icc_holds_the_true_one() -> None:
+    rng = np.random.default_rng(11)
+    held = 0
+    for _ in range(200):
+        people = rng.normal(0.0, 3.0, 25)
+        readings = people[:, None] + rng.normal(0.0, 1.0, (25, 2))
+        _, (low, high) = icc_2_1(readings)
+        held += low <= 0.9 <= high
+    assert 180 <= held <= 199
+
+
+def test_waveforms_that_have_nothing_in_common_have_no_cmc() -> None:
+    x = np.linspace(0, 20, 500)
+    assert math.isnan(cmc(np.sin(x), -np.sin(x)))
+    assert cmc(np.sin(x), np.sin(x) + 0.01) > 0.99
+
+
+@pytest.mark.parametrize("raters", [2, 4])
+def test_consistency_is_what_a_table_of_variances_gives(raters: int) -> None:
+    """ICC(3,1) and its interval by the two-way table, written out (McGraw and Wong 1996, table 7)."""
+    rng = np.random.default_rng(raters)
+    table = rng.normal(0.0, 3.0, (12, 1)) + rng.normal(0.0, 1.0, (12, raters)) + np.arange(raters)
+    n, k = table.shape
+    total = ((table - table.mean()) ** 2).sum()
+    of_rows = k * ((table.mean(axis=1) - table.mean()) ** 2).sum()
+    of_columns = n * ((table.mean(axis=0) - table.mean()) ** 2).sum()
+    rest = (total - of_rows - of_columns) / ((n - 1) * (k - 1))
+    f = of_rows / (n - 1) / rest
+    low = f / stats.f.ppf(0.975, n - 1, (n - 1) * (k - 1))
+    high = f * stats.f.ppf(0.975, (n - 1) * (k - 1), n - 1)
+    icc, interval = icc_3_1(table)
+    assert icc == pytest.approx((f - 1) / (f + k - 1))
+    assert interval == pytest.approx(((low - 1) / (low + k - 1), (high - 1) / (high + k - 1)))
+    assert icc_3_1(table + 10.0 * np.arange(raters))[0] == pytest.approx(icc), "an offset is no disagreement"
+
+
+@pytest.mark.parametrize("correlation", [-0.995, -0.9, -0.5, -0.1])
+def test_the_interval_of_a_negative_icc_lies_about_it_and_holds_the_true_one(correlation: float) -> None:
+    rng = np.random.default_rng(3)
+    held = [0, 0]
+    for _ in range(200):
+        pairs = rng.multivariate_normal([0.0, 0.0], [[1.0, correlation], [correlation, 1.0]], 40)
+        for number, of in enumerate((icc_2_1, icc_3_1)):
+            icc, (low, high) = of(pairs)
+            assert -1.0 <= low <= icc <= high <= 1.0
+            held[number] += low <= correlation <= high
+    # Lin's own approximation holds less near -1, where nothing is judged any more.
+    assert held[0] >= (180 if correlation > -0.95 else 160)
+    assert held[1] >= 180
+
+
+def test_curves_that_run_against_each_other_are_called_so() -> None:
+    wave = 30.0 * np.sin(np.linspace(0.0, 60.0, 1800))
+    noise = np.random.default_rng(1).normal(0.0, 2.0, 1800)
+    turned = compute_agreement(-wave + noise, wave)
+    assert turned.correlation < -0.99
+    assert turned.is_opposite
+    low, high = turned.icc_interval
+    assert -1.0 <= low <= turned.icc <= high <= 1.0
+    assert not compute_agreement(wave + noise, wave).is_opposite
+
+
+def test_people_whose_true_value_varies_have_both_variances_in_their_limits() -> None:
+    """Against Bland and Altman's analysis of variance (2007, section 3), by hand, for as many pairs of each."""
+    rng = np.random.default_rng(8)
+    people, each = 12, 5
+    difference = 2.0 + rng.normal(0.0, 1.5, (people, 1)) + rng.normal(0.0, 1.0, (people, each))
+    truth = rng.normal(60.0, 10.0, (people, each))
+    found, between = compute_pooled_agreement(list(truth + difference), list(truth), waveform=False)
+    of_people = each * difference.mean(axis=1).var(ddof=1)
+    within = difference.var(axis=1, ddof=1).mean()
+    sd = math.sqrt(within + (of_people - within) / each)
+    assert found.bias == pytest.approx(difference.mean())
+    assert found.sd == pytest.approx(sd)
+    assert found.limits == pytest.approx((found.bias - 1.96 * sd, found.bias + 1.96 * sd))
+    assert between.sd_within == pytest.approx(math.sqrt(within))
+    assert between.sd_between == pytest.approx(math.sqrt((of_people - within) / each))
+    # Taking the pairs for independent ones is too sure of the mean.
+    pooled = compute_agreement((truth + difference).ravel(), truth.ravel(), waveform=False)
+    assert np.ptp(found.bias_interval) > 1.5 * np.ptp(pooled.bias_interval)
+
+
+def test_intervals_of_peoples_limits_hold_the_truth_as_often_as_they_say() -> None:
+    rng = np.random.default_rng(5)
+    held = [0, 0, 0]
+    true = 1.96 * math.hypot(1.5, 1.0)
+    for _ in range(300):
+        truth = [rng.normal(60.0, 10.0, int(rng.integers(3, 12))) for _ in range(10)]
+        theirs = [one + rng.normal(0.0, 1.5) + rng.normal(0.0, 1.0, len(one)) for one in truth]
+        found, _ = compute_pooled_agreement(theirs, truth, waveform=False)
+        held[0] += found.bias_interval[0] <= 0.0 <= found.bias_interval[1]
+        held[1] += found.lower_interval[0] <= -true <= found.lower_interval[1]
+        held[2] += found.upper_interval[0] <= true <= found.upper_interval[1]
+    assert all(275 <= one <= 297 for one in held), held
+
+
+def test_few_people_say_nothing() -> None:
+    one = np.arange(5.0)
+    found, between = compute_pooled_agreement([one, one + 1.0], [one, one])
+    assert math.isnan(found.bias)
+    assert between.people == 2
+
+
+@pytest.mark.parametrize("each", [1, 2])
+def test_people_with_one_or_two_readings_count(each: int) -> None:
+    rng = np.random.default_rng(0)
+    truth = rng.normal(50.0, 10.0, (30, each))
+    theirs = truth + rng.normal(1.0, 2.0, (30, each))
+    found, between = compute_pooled_agreement(list(theirs), list(truth), waveform=False)
+    assert (found.count, between.people) == (30 * each, 30)
+    plain = compute_agreement(theirs.mean(axis=1), truth.mean(axis=1), waveform=False)
+    assert found.bias_interval == pytest.approx(plain.bias_interval)
+    assert found.lower_interval[0] < found.limits[0] < found.lower_interval[1]
+    if each == 1:
+        assert found.sd == pytest.approx(plain.sd)
+        assert math.isnan(between.sd_within)
+        assert math.isnan(between.sd_between)
+    else:
+        assert between.sd_within == pytest.approx((theirs - truth).std(axis=1, ddof=1).mean(), rel=0.5)
+    few = [one[: 1 + k // 10] for k, one in enumerate(np.hstack((theirs, theirs, theirs))[:, :3])]
+    assert compute_pooled_agreement(few, [one - 1.0 for one in few], waveform=False)[1].people == 30
+
+
+def test_two_that_stand_still_have_no_icc() -> None:
+    found = compute_agreement(np.zeros(50), np.ones(50))
+    assert math.isnan(found.icc)
+    assert math.isnan(found.icc_3_1)
+    assert found.bias == -1.0

@@ -1,0 +1,261 @@
+"""On a linear model the kernel that tracks palm and fingers is the textbook's filter, mode by mode, chain by chain."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.model.types import FloatArray
+from carpus.core.tracking.filter.mixture_filter import (
+    Linearisation,
+    ModeMixture,
+    Transition,
+    mix_modes,
+    mode_transition_matrix,
+    partial_update_shares,
+    predict_mixture,
+    propagate_mixture,
+    update_mixture,
+)
+from carpus.core.tracking.smoother.palm_smoother import Smoother, SmootherTransition
+
+CHAINS, MODES, STATES, SEEN = 3, 2, 5, 4
+
+
+def positive(rng: np.random.Generator, *lead: int, size: int) -> FloatArray:
+    root = rng.normal(size=(*lead, size, size))
+    return root @ np.swapaxes(root, -1, -2) + 0.1 * np.eye(size)
+
+
+def any_mixture(seed: int) -> ModeMixture:
+    rng = np.random.default_rng(seed)
+    probability = rng.uniform(0.2, 1.0, (CHAINS, MODES))
+    return ModeMixture(
+        rng.normal(size=(CHAINS, MODES, STATES)),
+        positive(rng, CHAINS, MODES, size=STATES),
+        probability / probability.sum(axis=1, keepdims=True),
+    )
+
+
+def any_line(seed: int) -> Linearisation:
+    rng = np.random.default_rng(100 + seed)
+    return Linearisation(
+        rng.normal(size=(CHAINS, SEEN)),
+        rng.normal(size=(CHAINS, SEEN, STATES)),
+        0.1 * positive(rng, CHAINS, size=SEEN),
+        rng.normal(size=(CHAINS, STATES)),
+    )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_prediction_is_f_p_f_plus_q(seed: int) -> None:
+    rng, mixture = np.random.default_rng(seed), any_mixture(seed)
+    forward, noise = rng.normal(size=(CHAINS, STATES, STATES)), positive(rng, CHAINS, MODES, size=STATES)
+    found = predict_mixture(mixture, forward, noise)
+    for c in range(CHAINS):
+        for k in range(MODES):
+            assert np.allclose(found.mean[c, k], forward[c] @ mixture.mean[c, k], atol=1e-12)
+            assert np.allclose(
+                found.covariance[c, k], forward[c] @ mixture.covariance[c, k] @ forward[c].T + noise[c, k], atol=1e-12
+            )
+    assert np.array_equal(found.probability, mixture.probability)
+
+
+def test_a_step_by_what_mixes_of_it_is_the_whole_step() -> None:
+    rng = np.random.default_rng(3)
+    mixing, relaxing = 3, 2
+    kept = np.ones((MODES, STATES))
+    kept[:, STATES - relaxing :] = rng.uniform(0.0, 1.0, (MODES, relaxing))
+    step = Transition(
+        rng.normal(size=(mixing, mixing)), positive(rng, MODES, size=mixing), kept, positive(rng, MODES, size=relaxing)
+    )
+    nominal = np.r_[np.zeros(STATES - relaxing), rng.normal(size=relaxing)]
+    mixture = ModeMixture(
+        rng.normal(size=(1, MODES, STATES)), positive(rng, 1, MODES, size=STATES), np.full((1, MODES), 1.0 / MODES)
+    )
+    found = propagate_mixture(mixture, step, nominal)
+    for mode in range(MODES):
+        forward, noise = np.diag(kept[mode]), np.zeros((STATES, STATES))
+        forward[:mixing, :mixing] = step.moving
+        noise[:mixing, :mixing] = step.driven[mode]
+        noise[STATES - relaxing :, STATES - relaxing :] = step.relaxing[mode]
+        own = ModeMixture(mixture.mean[:, [mode]], mixture.covariance[:, [mode]], np.ones((1, 1)))
+        whole = predict_mixture(own, forward[None], noise[None, None])
+        # What a mode does not keep of the nominal's last numbers, which stay, is its error.
+        assert np.allclose(found.mean[0, mode], whole.mean[0, 0] + (kept[mode] - 1.0) * nominal, atol=1e-12)
+        assert np.allclose(found.covariance[0, mode], whole.covariance[0, 0], atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_correction_is_kalmans_with_what_was_not_measured_left_out(seed: int) -> None:
+    rng, mixture, linearised = np.random.default_rng(seed), any_mixture(seed), any_line(seed)
+    measured, variance = rng.normal(size=(CHAINS, SEEN)), rng.uniform(0.01, 2.0, (CHAINS, SEEN))
+    shared = 0.05 * positive(rng, CHAINS, size=SEEN)
+    measured[0, 1] = measured[2, 0] = measured[2, 3] = np.nan
+    found = update_mixture(mixture, linearised, measured, variance, shared)
+    for c in range(CHAINS):
+        used = np.flatnonzero(np.isfinite(measured[c]))
+        h = linearised.slope[c][used]
+        r = (linearised.error[c] + shared[c])[np.ix_(used, used)] + np.diag(variance[c][used])
+        likelihood, nis = np.empty(MODES), np.empty(MODES)
+        for k in range(MODES):
+            p = mixture.covariance[c, k]
+            s = h @ p @ h.T + r
+            gain = p @ h.T @ np.linalg.inv(s)
+            off = measured[c][used] - linearised.value[c][used] - h @ (mixture.mean[c, k] - linearised.about[c])
+            assert np.allclose(found.mixture.mean[c, k], mixture.mean[c, k] + gain @ off, atol=1e-10)
+            assert np.allclose(found.mixture.covariance[c, k], p - gain @ s @ gain.T, atol=1e-10)
+            nis[k] = off @ np.linalg.inv(s) @ off
+            likelihood[k] = np.exp(-0.5 * nis[k]) / np.sqrt(np.linalg.det(s))
+        weight = mixture.probability[c] * likelihood
+        assert np.allclose(found.mixture.probability[c], weight / weight.sum(), atol=1e-6)
+        assert found.nis[c] == pytest.approx(found.mixture.probability[c] @ nis, rel=1e-6)
+        assert found.dof[c] == used.size
+        assert not found.residual[c][~np.isfinite(measured[c])].any()
+
+
+def test_residuals_are_standard_normal_where_the_model_is_right() -> None:
+    rng = np.random.default_rng(5)
+    mixture, linearised = any_mixture(1), any_line(1)
+    mixture = ModeMixture(mixture.mean[:, :1], mixture.covariance[:, :1], np.ones((CHAINS, 1)))
+    variance = np.full((CHAINS, SEEN), 0.3)
+    found = []
+    for _ in range(4000):
+        state = mixture.mean[:, 0] + np.einsum(
+            "cij,cj->ci", np.linalg.cholesky(mixture.covariance[:, 0]), rng.normal(size=(CHAINS, STATES))
+        )
+        noise = np.einsum("cij,cj->ci", np.linalg.cholesky(linearised.error), rng.normal(size=(CHAINS, SEEN)))
+        value = linearised.value + np.einsum("cij,cj->ci", linearised.slope, state - linearised.about) + noise
+        measured = value + np.sqrt(variance) * rng.normal(size=value.shape)
+        found.append(update_mixture(mixture, linearised, measured, variance).residual)
+    assert np.std(found, axis=0) == pytest.approx(1.0, abs=0.05)
+    assert np.mean(found, axis=0) == pytest.approx(0.0, abs=0.06)
+
+
+def test_modes_mix_from_row_to_column() -> None:
+    mixture, switch = any_mixture(2), np.array([[0.9, 0.1], [0.4, 0.6]])
+    blend = mix_modes(mixture, switch)
+    for c in range(CHAINS):
+        for to in range(MODES):
+            share = switch[:, to] * mixture.probability[c]
+            assert blend.probability[c, to] == pytest.approx(share.sum())
+            share /= share.sum()
+            mean = share @ mixture.mean[c]
+            apart = mixture.mean[c] - mean
+            spread = np.einsum("k,kij->ij", share, mixture.covariance[c]) + np.einsum(
+                "k,ki,kj->ij", share, apart, apart
+            )
+            assert np.allclose(blend.mean[c, to], mean)
+            assert np.allclose(blend.covariance[c, to], spread)
+
+
+def test_switching_stays_for_its_dwell_time_whatever_the_step() -> None:
+    one, three = mode_transition_matrix(3, 0.5, 0.1), mode_transition_matrix(3, 0.5, 0.3)
+    assert np.allclose(one.sum(axis=1), 1.0)
+    assert one[0, 0] ** 3 == pytest.approx(three[0, 0])
+    assert np.array_equal(mode_transition_matrix(1, 0.5, 0.1), np.ones((1, 1)))
+
+
+def test_merged_is_the_mixtures_mean_and_covariance() -> None:
+    mixture, rng = any_mixture(7), np.random.default_rng(8)
+    mean, covariance = mixture.merge()
+    mode = rng.choice(MODES, 200_000, p=mixture.probability[1])
+    drawn = mixture.mean[1][mode] + np.einsum(
+        "nij,nj->ni", np.linalg.cholesky(mixture.covariance[1])[mode], rng.normal(size=(mode.size, STATES))
+    )
+    assert drawn.mean(axis=0) == pytest.approx(mean[1], abs=0.05)
+    assert np.allclose(np.cov(drawn.T), covariance[1], atol=0.03 * np.trace(covariance[1]))
+
+
+@pytest.mark.parametrize("learning", [0.0, 0.3, 1.0])
+def test_slow_numbers_take_their_share_and_all_else_the_whole(learning: float) -> None:
+    mixture, linearised, rng = any_mixture(3), any_line(3), np.random.default_rng(4)
+    measured, variance = rng.normal(size=(CHAINS, SEEN)), np.full((CHAINS, SEEN), 0.2)
+    slow, fast = slice(3, STATES), slice(0, 3)
+    whole = update_mixture(mixture, linearised, measured, variance).mixture
+    part = update_mixture(
+        mixture, linearised, measured, variance, partial=partial_update_shares(STATES, slow, learning)
+    ).mixture
+    assert np.allclose(part.mean[..., fast], whole.mean[..., fast])
+    assert np.allclose(
+        part.mean[..., slow] - mixture.mean[..., slow], learning * (whole.mean - mixture.mean)[..., slow]
+    )
+    assert np.allclose(part.covariance[..., fast, fast], whole.covariance[..., fast, fast])
+    assert np.linalg.eigvalsh(part.covariance).min() > 0.0
+    lost = (mixture.covariance - part.covariance)[..., slow, slow]
+    assert np.allclose(lost, (1.0 - (1.0 - learning) ** 2) * (mixture.covariance - whole.covariance)[..., slow, slow])
+
+
+class LinearTrajectory:
+    """Frames of one chain of which the filtered estimates are known, ``seconds`` apart (None: begun anew)."""
+
+    def __init__(
+        self, mixtures: list[ModeMixture], forward: FloatArray, noise: FloatArray, seconds: list[float | None]
+    ) -> None:
+        self._estimates = [(mixture.mean[:, 0], mixture.covariance[:, 0]) for mixture in mixtures]
+        self._forward, self._noise, self._seconds = forward[None], noise[None], seconds
+
+    def __len__(self) -> int:
+        return len(self._estimates)
+
+    def filtered(self, frame: int) -> tuple[FloatArray, FloatArray]:
+        return self._estimates[frame]
+
+    def seconds_on(self, frame: int) -> float | None:
+        return self._seconds[frame]
+
+    def passage(
+        self, frame: int, now: tuple[FloatArray, FloatArray], later: tuple[FloatArray, FloatArray], dt_s: float
+    ) -> SmootherTransition:
+        return SmootherTransition(now[1], self._forward, self._noise, later[0] - now[0] @ self._forward[0].T, later[1])
+
+    def moved(
+        self, now: tuple[FloatArray, FloatArray], correction: FloatArray, covariance: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        return now[0] + correction, covariance
+
+
+def estimates_of(trajectory: LinearTrajectory) -> dict[int, tuple[FloatArray, FloatArray]]:
+    found = {frame: estimate for frame, estimate in Smoother(trajectory).iterate_backwards() if estimate is not None}
+    assert len(found) == len(trajectory)
+    return found
+
+
+def test_looking_back_is_the_least_squares_of_all_measurements() -> None:
+    """A line of Gaussian steps and measurements, solved at once and by the recursion."""
+    rng, steps, n, m = np.random.default_rng(2), 6, 3, 2
+    forward, noise = rng.normal(size=(n, n)), positive(rng, size=n)
+    h, r = rng.normal(size=(m, n)), np.full(m, 0.4)
+    start, spread = rng.normal(size=n), positive(rng, size=n)
+    seen = rng.normal(size=(steps, m))
+    linearised = Linearisation(np.zeros((1, m)), h[None], np.zeros((1, m, m)), np.zeros((1, n)))
+    filtered = []
+    mixture = ModeMixture(start[None, None], spread[None, None], np.ones((1, 1)))
+    for k in range(steps):
+        if k:
+            mixture = predict_mixture(mixture, forward[None], noise[None, None])
+        mixture = update_mixture(mixture, linearised, seen[None, k], r[None]).mixture
+        filtered.append(mixture)
+    trajectory = LinearTrajectory(filtered, forward, noise, [0.1] * (steps - 1) + [None])
+    found = estimates_of(trajectory)
+    smoothed, covariance = [found[k][0][0] for k in range(steps)], found[0][1][0]
+    information = np.zeros((steps * n, steps * n))
+    vector = np.zeros(steps * n)
+    information[:n, :n] += np.linalg.inv(spread)
+    vector[:n] += np.linalg.inv(spread) @ start
+    for k in range(steps):
+        own = slice(k * n, (k + 1) * n)
+        information[own, own] += h.T @ np.diag(1.0 / r) @ h
+        vector[own] += h.T @ (seen[k] / r)
+        if k:
+            both_steps = np.r_[(k - 1) * n : (k + 1) * n]
+            move = np.hstack((-forward, np.eye(n)))
+            information[np.ix_(both_steps, both_steps)] += move.T @ np.linalg.inv(noise) @ move
+    batch = np.linalg.solve(information, vector).reshape(steps, n)
+    assert np.allclose(smoothed, batch, atol=1e-8)
+    assert np.allclose(covariance, np.linalg.inv(information)[:n, :n], atol=1e-8)
+
+    apart = estimates_of(LinearTrajectory(filtered, forward, noise, [0.1, None, 0.1, 0.0, 0.1, None]))
+    assert np.array_equal(apart[1][0], filtered[1].mean[:, 0]), "begun anew after it"
+    assert apart[3] is apart[4], "of one moment there is one estimate"
+    assert not np.allclose(apart[0][0], smoothed[0]), "what came after the break says nothing"

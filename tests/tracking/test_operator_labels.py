@@ -1,0 +1,93 @@
+"""What a person says of spots: it waits, holds, follows, and ends."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.model.types import Detections, FloatArray, MarkerLabel
+from carpus.core.tracking.association.operator_labels import (
+    LABEL_TIMEOUT_S,
+    REJECTION_VALID_S,
+    LabelledDetections,
+    OperatorLabels,
+)
+
+MARKERS = ("WRIST", "MCP3")
+EXPECTED_PX = np.array([[100.0, 100.0], [200.0, 100.0]])
+
+
+def spots(*place_px: tuple[float, float]) -> Detections:
+    count = len(place_px)
+    return Detections(np.reshape(np.array(place_px), (count, 2)), *(np.ones(count),) * 4)
+
+
+def shown(
+    hints: OperatorLabels, index: int, time_s: float, seen: Detections, at: FloatArray = EXPECTED_PX
+) -> LabelledDetections:
+    return hints.apply_labels(index, time_s, seen, lambda: at)
+
+
+def test_a_spot_that_is_named_is_followed_to_the_picture_that_hears_it() -> None:
+    hints = OperatorLabels(MARKERS)
+    shown(hints, 0, 0.0, spots((50.0, 50.0), (199.0, 100.0)))
+    hints.add(MarkerLabel(0, "MCP3", (200.0, 101.0)))
+    heard = shown(hints, 1, 0.1, spots((203.0, 104.0), (50.0, 50.0)))
+    assert heard.labelled is not None
+    assert (heard.labelled.marker, heard.labelled.blob, heard.labelled.label.frame_index) == (1, 0, 1)
+    assert heard.labelled.label.pixel == (203.0, 104.0)
+    assert hints.pop_applied() == [], "by the tracker, if it follows the hand"
+    hints.mark_applied(heard.labelled)
+    assert [one.marker for one in hints.pop_applied()] == ["MCP3"]
+    assert shown(hints, 2, 0.2, spots((203.0, 104.0))).labelled is None
+
+
+@pytest.mark.parametrize(("after_s", "is_heard"), [(0.9, True), (1.1, False)])
+def test_an_answer_waits_for_its_spot_and_no_longer(after_s: float, is_heard: bool) -> None:
+    hints = OperatorLabels(MARKERS)
+    shown(hints, 0, 0.0, spots((200.0, 100.0)))
+    hints.add(MarkerLabel(0, "MCP3", (200.0, 100.0)))
+    hints.add(MarkerLabel(0, "NOBODY", (200.0, 100.0)))
+    later_s = after_s * LABEL_TIMEOUT_S
+    for index, at_s in ((1, 0.0), (2, later_s)):
+        assert shown(hints, index, at_s, spots((20.0, 20.0))).labelled is None
+    assert (shown(hints, 3, later_s, spots((200.0, 100.0))).labelled is not None) == is_heard
+
+
+@pytest.mark.parametrize(("after_s", "is_out"), [(0.99, True), (1.01, False)])
+def test_a_spot_that_is_no_disc_stays_left_out_for_its_time(after_s: float, is_out: bool) -> None:
+    hints = OperatorLabels(MARKERS)
+    both = spots((200.0, 100.0), (230.0, 100.0))
+    shown(hints, 0, 0.0, both)
+    hints.add(MarkerLabel(0, "MCP3", None, ((230.0, 100.0),)))
+    first = shown(hints, 1, 0.0, both)
+    assert first.is_rejected.tolist() == [False, True]
+    assert first.detections.pixel.tolist() == [[200.0, 100.0]]
+    assert len(hints.pop_applied()) == 1
+    assert shown(hints, 2, after_s * REJECTION_VALID_S, both).is_rejected.tolist() == [False, is_out]
+
+
+def test_a_marker_that_was_held_keeps_the_spot_nearer_to_it() -> None:
+    """What was no disc went out of sight beside its marker; what comes back nearer to a held one is that one's."""
+    for is_held in (False, True):
+        hints = OperatorLabels(MARKERS)
+        near = EXPECTED_PX[0] + [10.0, 0.0]
+        seen = spots((float(near[0]), float(near[1])))
+        shown(hints, 0, 0.0, seen)
+        hints.add(MarkerLabel(0, "MCP3", None, ((float(near[0]), float(near[1])),)))
+        assert shown(hints, 1, 0.1, seen).is_rejected.all()
+        hints.follow(EXPECTED_PX if is_held else np.full((2, 2), np.nan))
+        back = EXPECTED_PX[0] + [4.0, 0.0]
+        found = shown(hints, 2, 0.2, spots((float(back[0]), float(back[1]))))
+        assert found.is_rejected.tolist() == [not is_held]
+
+
+def test_of_a_lost_hand_a_spot_is_known_by_its_place_alone() -> None:
+    hints, nowhere = OperatorLabels(MARKERS), np.full((2, 2), np.nan)
+    seen = spots((230.0, 100.0))
+    shown(hints, 0, 0.0, seen, nowhere)
+    hints.add(MarkerLabel(0, "MCP3", None, ((230.0, 100.0),)))
+    assert shown(hints, 1, 0.1, seen, nowhere).is_rejected.all()
+    assert len(shown(hints, 2, 0.2, spots(), nowhere).is_rejected) == 0
+    assert shown(hints, 3, 0.3, spots((236.0, 100.0)), nowhere).is_rejected.all()
+    assert not shown(hints, 4, 0.4, spots((300.0, 100.0)), nowhere).is_rejected.any()

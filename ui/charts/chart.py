@@ -1,0 +1,697 @@
+"""A chart: panels with words and lines on pyqtgraph's scene, one for the screen, for paper and for pictures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+import pyqtgraph as pg
+from numpy.typing import ArrayLike
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import (
+    QFont,
+    QFontMetricsF,
+    QPainter,
+    QPainterPath,
+    QPen,
+    QResizeEvent,
+    QShowEvent,
+    QTransform,
+)
+from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QSizePolicy, QWidget
+
+from carpus.core.model.types import FloatArray
+from carpus.ui.charts import axes
+from carpus.ui.charts.axes import Panel
+from carpus.ui.charts.series import Curve, CurveDrawing
+from carpus.ui.charts.style import RIGHT_MIDDLE, PlotStyle, dash_pen, draw_text, screen_style
+from carpus.ui.kit.card import paint_card
+from carpus.ui.kit.theme import Theme
+
+pg.setConfigOptions(antialias=True, mouseRateLimit=-1)  # Qt joins movements itself; the last of a drag must not be lost
+
+WHEEL_FACTOR = -math.log(1.25) / math.log(1.02) / 120.0
+"""In the terms of pyqtgraph: a notch shows a quarter more or less."""
+PAN_FRACTION = 0.1
+"""A notch sideways goes on by this part of what is shown."""
+SYMBOLS = pg.graphicsItems.ScatterPlotItem.Symbols
+GROUND, BAND, GRID, LINES, CURVES, FRONT = -30, -20, -10, -5, 0, 10
+"""What lies over what within a panel."""
+
+
+@dataclass(frozen=True, slots=True)
+class AxisLabel:
+    """ChartText at a value of an axis."""
+
+    value: float
+    text: str
+    token: str = "text2"
+    is_bold: bool = False
+
+
+class Plot(pg.ViewBox):
+    """A panel with a fixed scale upwards. Nothing in it moves by mouse before it is given ``hands``."""
+
+    mouse_handler: Any = None
+
+    def __init__(self, chart: Chart, panel: Panel) -> None:
+        super().__init__(enableMenu=False, enableMouse=False, defaultPadding=0.0)
+        self.disableAutoRange()
+        self.setFlag(self.GraphicsItemFlag.ItemHasNoContents)
+        self.setBorder(QPen(Qt.PenStyle.NoPen))
+        self.chart, self.panel, self.plot_style = chart, panel, chart.plot_style
+        chart.add_item(self)
+        self.setGeometry(panel.box)
+        x, y = (panel.start_s, panel.end_s), (panel.scale.low, panel.scale.high)
+        if chart.is_printing:
+            self.invertY()
+            x, y = (0.0, panel.box.width()), (0.0, panel.box.height())
+        self.setRange(xRange=x, yRange=y, padding=0.0)
+
+    @property
+    def local_panel(self) -> Panel:
+        """The panel in its own pixels, as it is ranged now."""
+        panel = self.panel
+        start, end = (panel.start_s, panel.end_s) if self.chart.is_printing else self.viewRange()[0]
+        return Panel(QRectF(0.0, 0.0, panel.box.width(), panel.box.height()), panel.scale, start, end)
+
+    def to_item_x(self, times: ArrayLike) -> FloatArray:
+        """Where times are for an item in the panel. On paper that is in its unit, cut at the panel's ends: a line of
+        pyqtgraph that is stretched with a scale has no width there, and a drawing forgets what is cut."""
+        times = np.asarray(times, dtype=np.float64)
+        return np.clip(self.local_panel.x(times), 0.0, self.panel.box.width()) if self.chart.is_printing else times
+
+    def to_item_y(self, value: ArrayLike) -> FloatArray:
+        """The same of values."""
+        value = np.asarray(value, dtype=np.float64)
+        return self.local_panel.y(value) if self.chart.is_printing else value
+
+    def add_to_layer(self, item: Any, layer: int) -> Any:
+        """Add an item of pyqtgraph."""
+        item.setZValue(layer)
+        item.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        if not self.chart.is_printing and GROUND < layer < CURVES:  # what stays, and is no larger than the panel
+            item.setCacheMode(item.CacheMode.DeviceCoordinateCache)
+        self.addItem(item, ignoreBounds=True)
+        return item
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def pen(self, token: str, width: float = 1.0, dash: Sequence[float] = (), alpha: int = 255) -> QPen:
+        """A pen ``width`` design pixels wide whatever the scale."""
+        pen = dash_pen(self.plot_style.color(token, alpha), width * self.plot_style.unit, dash)
+        pen.setCosmetic(not self.chart.is_printing)
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        return pen
+
+    def add_grid(self) -> None:
+        self.add_to_layer(Grid(self), GRID)
+
+    def add_bars(self, stretches: Sequence[tuple[float, float]], token: str) -> None:
+        """Stretches of the time in a colour, with a seam; of several colours pyqtgraph's own are pictures, which paper
+        shows in another size."""
+        if stretches:
+            start, end = np.array(stretches).T
+            low, high = self.to_item_y((self.panel.scale.low, self.panel.scale.high)).tolist()
+            brush, pen = pg.mkBrush(self.plot_style.color(token)), self.pen("surface", 2.0)
+            x0, x1 = self.to_item_x(start), self.to_item_x(end)
+            self.add_to_layer(pg.BarGraphItem(x0=x0, x1=x1, y0=low, y1=high, brush=brush, pen=pen), GROUND)
+
+    def add_band(self, low: float, high: float, token: str, hatched: str = "") -> None:
+        """Values from ``low`` to ``high`` filled, and hatched in a second token where there is one."""
+        brush = pg.mkBrush(self.plot_style.color(token))
+        ends = self.to_item_y((low, high)).tolist()
+        self.add_to_layer(pg.LinearRegionItem(ends, "horizontal", brush, QPen(Qt.PenStyle.NoPen), movable=False), BAND)
+        if hatched:
+            self.add_to_layer(Hatching(self, [(-math.inf, math.inf, low, high)], hatched, 90), BAND)
+
+    def add_horizontal_line(
+        self, value: float, token: str, dash: Sequence[float] = (8.0, 6.0), words: str = "", *, below: bool = False
+    ) -> Any:
+        """A line at a value, with words at its left end; none where it is unknown."""
+        if not math.isfinite(value):
+            return None
+        line = self.add_to_layer(
+            pg.InfiniteLine(float(self.to_item_y(value)), angle=0, pen=self.pen(token, 1.5, dash)), LINES
+        )
+        if words:
+            self.add_label(value, words, token, below=below)
+        return line
+
+    def add_label(
+        self, value: float, words: str, token: str = "text2", *, below: bool = False, small: bool = False
+    ) -> Any:
+        """Words at the left end just over, or under, a value."""
+        unit = self.plot_style.unit
+        face = self.plot_style.label_font if small else self.plot_style.end_label_font
+        item = self.chart.add_text(words, face, token, (0.0, 0.0 if below else 1.0))
+        panel = self.panel
+        item.setPos(panel.box.left() + 6 * unit, float(panel.y(value)) + (3 * unit if below else -2 * unit))
+        return item
+
+    def scene_x(self, time: float) -> float:
+        """Where a time is in the chart, as the panel is ranged now."""
+        return float(self.panel.box.left() + self.local_panel.x(time))
+
+    def add_line(
+        self, x: Sequence[float], y: Sequence[float], token: str, width: float = 0.0, dash: Sequence[float] = (),
+        connect: str = "all", layer: int = CURVES,
+    ) -> None:  # fmt: skip
+        """A line through points, as wide as curves are unless told."""
+        pen = self.pen(token, width or self.plot_style.line_width / self.plot_style.unit, dash)
+        self.add_to_layer(pg.PlotCurveItem(self.to_item_x(x), self.to_item_y(y), pen=pen, connect=connect), layer)
+
+    def add_curves(self, *, is_cached: bool = True) -> Curves:
+        """Still without any; ``is_cached`` as a picture where a cursor goes over them more often than they change."""
+        return self.add_to_layer(Curves(self, is_cached=is_cached), CURVES)  # type: ignore[no-any-return]
+
+    def add_cursor(self, time: float, token: str = "text", width: float = 1.5) -> Any:
+        return self.add_to_layer(pg.InfiniteLine(time, angle=90, pen=self.pen(token, width)), FRONT)
+
+    # --- mouse --------------------------------------------------------------------------------------------
+    def enable_mouse(self, handler: Any) -> None:
+        """Let the mouse move it along its one free axis."""
+        self.mouse_handler = handler
+        self.setMouseEnabled(x=True, y=False)
+        self.state["wheelScaleFactor"] = WHEEL_FACTOR
+
+    def wheelEvent(self, event: Any, axis: int | None = None) -> None:
+        """With Ctrl longer or shorter about the mouse; sideways, or with Shift, along the axis; else the page."""
+        if self.mouse_handler is None:
+            event.ignore()
+        elif event.orientation() == Qt.Orientation.Horizontal or event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            (start, end), _ = self.viewRange()
+            self.translateBy(x=-event.delta() / 120.0 * PAN_FRACTION * (end - start))
+            event.accept()
+        elif event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self.childTransform()  # brings it up to date, also before the next painting
+            super().wheelEvent(event, 0)
+        else:
+            event.ignore()
+
+    def mouseDragEvent(self, event: Any, axis: int | None = None) -> None:
+        if self.mouse_handler is not None:
+            event.accept()
+            if not self.mouse_handler.drag(event):
+                self.childTransform()
+                super().mouseDragEvent(event, 0)
+
+    def mouseClickEvent(self, event: Any) -> None:
+        if self.mouse_handler is not None and event.button() == Qt.MouseButton.LeftButton:
+            event.accept()
+            self.mouse_handler.click(event)
+
+
+class PixelItem(pg.GraphicsObject):
+    """Something among the items of a panel that is drawn in its pixels."""
+
+    def __init__(self, plot: Plot, *, is_cached: bool = True) -> None:
+        super().__init__()
+        self.plot = plot
+        if is_cached and not plot.chart.is_printing:
+            self.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+
+    def boundingRect(self) -> QRectF:
+        return QRectF(self.plot.viewRect())
+
+    def viewRangeChanged(self, *_: object) -> None:
+        self.prepareGeometryChange()
+        self.update()
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        inverse, _ = self.plot.childTransform().inverted()
+        painter.setTransform(inverse, True)
+        at = painter.transform()  # what rounding leaves of a scale makes Qt four times slower
+        painter.setTransform(QTransform(round(at.m11(), 9), 0.0, 0.0, round(at.m22(), 9), at.dx(), at.dy()))
+        self.paint_pixels(painter, self.plot.plot_style, self.plot.local_panel)
+
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        raise NotImplementedError
+
+
+class Grid(PixelItem):
+    """A line at each value of the scale, the one at zero stronger."""
+
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        for value in panel.scale.ticks:
+            y = float(panel.y(value))
+            y = round(y) + 0.5 if style.unit == 1.0 else y
+            painter.setPen(QPen(style.color("line" if value else "border"), style.grid_width))
+            painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
+
+
+class Curves(PixelItem):
+    """All curves of a panel with their bands and gaps; how they are drawn is in :class:`CurveDrawing`, which also
+    says why
+    pyqtgraph's own curves, fills and dashes are not."""
+
+    def __init__(self, plot: Plot, *, is_cached: bool) -> None:
+        super().__init__(plot, is_cached=is_cached)
+        self.drawing: Callable[[Panel], tuple[CurveDrawing, int]] | None = None
+
+    def set_curves(self, curves: Sequence[Curve]) -> None:
+        self.set_drawing_source(lambda panel: (CurveDrawing(self.plot.plot_style, [(panel, curves)]), 0))
+
+    def set_drawing_source(self, drawing: Callable[[Panel], tuple[CurveDrawing, int]]) -> None:
+        """Of many panels worked out at once, and which of them this is."""
+        self.drawing = drawing
+        self.update()
+
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if self.drawing is not None:
+            drawing, number = self.drawing(panel)
+            drawing.paint(painter, style, number)
+
+
+class Hatching(PixelItem):
+    """Diagonal lines over stretches (start, end, low, high) of a panel. pyqtgraph has none: a brush with a pattern is
+    stretched with the scale, and is a picture of dots on paper."""
+
+    def __init__(
+        self,
+        plot: Plot,
+        stretches: Sequence[tuple[float, float, float, float]],
+        token: str = "border",
+        alpha: int = 130,
+    ) -> None:
+        super().__init__(plot)
+        self.stretches, self._token, self._alpha = stretches, token, alpha
+
+    def set_stretches(self, stretches: Sequence[tuple[float, float, float, float]]) -> None:
+        self.stretches = stretches
+        self.update()
+
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        for start, end, low, high in self.stretches:
+            left, right = (float(panel.x(at)) for at in np.clip((start, end), panel.start_s, panel.end_s))
+            top, bottom = float(panel.y(high)), float(panel.y(low))
+            if right > left:
+                axes.draw_hatching(
+                    painter, style, QRectF(left, top, right - left, bottom - top), self._token, self._alpha, phase=0.5
+                )
+
+
+class PaintedLayer(pg.GraphicsObject):
+    """Something painted over the panels of a chart, kept as a picture until it is updated: what changes ten times a
+    second and more, of which each as an item of pyqtgraph costs as much as a curve."""
+
+    def __init__(
+        self, chart: Chart, area: QRectF, paint: Callable[[QPainter], None], *, is_cached: bool = True
+    ) -> None:
+        super().__init__()
+        self._paint, self._area = paint, area
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        self.setZValue(FRONT)
+        if is_cached:
+            self.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+        chart.add_item(self)
+
+    def boundingRect(self) -> QRectF:
+        return self._area
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        self._paint(painter)
+
+
+class Symbols(pg.ScatterPlotItem):
+    """Symbols over the panels of a chart. On paper they are drawn here: pyqtgraph leaves out what is beyond the widget,
+    and draws them in the device's unit."""
+
+    chart: Chart
+
+    def viewRect(self) -> QRectF:
+        return self.chart.area
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        if not self.chart.is_printing:
+            super().paint(painter, option, widget)
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for spot in self.points():
+            pen = QPen(spot.pen())
+            pen.setCosmetic(False)
+            painter.setPen(pen)
+            painter.setBrush(spot.brush())
+            x, y, size = spot.pos().x(), spot.pos().y(), spot.size()
+            painter.drawPath(QTransform(size, 0.0, 0.0, size, x, y).map(SYMBOLS[spot.symbol()]))
+
+    def mouseClickEvent(self, event: Any) -> None:
+        event.ignore()  # it is the panel's
+
+
+class ChartText(pg.TextItem):
+    """Words over the panels, placed by ``setPos``; rich text by :meth:`show_rich`."""
+
+    _rich = ""
+
+    def __init__(self, chart: Chart, words: str, face: QFont, token: str, anchor: tuple[float, float]) -> None:
+        super().__init__(anchor=anchor, color=chart.plot_style.color(token))
+        self.textItem.document().setDocumentMargin(0.0)
+        self.setFont(face)
+        self.setText(words)
+        if not chart.is_printing:
+            self.textItem.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+            self.setFlag(self.GraphicsItemFlag.ItemHasNoContents)
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        self.setZValue(20)
+        chart.add_item(self)
+
+    def show_rich(self, html: str) -> None:
+        if html != self._rich:  # pyqtgraph compares with what Qt makes of it, which differs always
+            self._rich = html
+            self.textItem.setHtml(html)
+            self.updateTextPos()
+
+
+class Axis(pg.AxisItem):
+    """Words beside a panel at its values, the first before the others: one that would touch another is left out.
+
+    pyqtgraph's axis has one font and one colour for all, and lets words touch or leaves out the whole lot.
+    """
+
+    def __init__(
+        self,
+        plot: Plot,
+        side: str,
+        labels: Callable[[float, float], Iterable[AxisLabel]],
+        gap: float,
+        room: float = math.inf,
+    ) -> None:
+        """``gap`` design pixels from the panel; words get smaller where they are longer than the ``room``."""
+        super().__init__(side)
+        self.plot, self._labels, self._gap, self._room = plot, labels, gap, room
+        if not plot.chart.is_printing:
+            self.setCacheMode(self.CacheMode.DeviceCoordinateCache)
+        plot.chart.add_item(self)
+        self.linkToView(plot)
+        self.linkedViewChanged(plot)
+        self.setZValue(1)
+
+    def boundingRect(self) -> QRectF:
+        box, style, area = self.plot.panel.box, self.plot.plot_style, self.plot.chart.area
+        height = QFontMetricsF(style.end_label_font).height()
+        if self.orientation == "left":
+            return QRectF(area.left(), box.top() - height, box.left() - area.left(), box.height() + 2 * height)
+        top = box.bottom() if self.orientation == "bottom" else box.top() - self._gap * style.unit - 1.5 * height
+        return QRectF(area.left(), top, area.width(), 1.6 * height + self._gap * style.unit)
+
+    def shape(self) -> QPainterPath:
+        return QPainterPath()
+
+    def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
+        style, own = self.plot.plot_style, self.plot.local_panel
+        start, end = own.start_s, own.end_s
+        panel = Panel(self.plot.panel.box, own.scale, start, end)
+        unit = style.unit
+        taken: list[tuple[float, float]] = []
+        for label in self._labels(start, end):
+            face = style.end_label_font if label.is_bold else style.label_font
+            metrics = QFontMetricsF(face)
+            width, gap = metrics.horizontalAdvance(label.text), self._gap * unit
+            if self.orientation == "left":
+                middle, least = float(panel.y(label.value)), metrics.capHeight() + 5 * unit
+                low, high, apart = middle - least / 2, middle + least / 2, 0.0
+            else:
+                middle = float(panel.x(label.value))
+                area = self.plot.chart.area  # what is beyond it is not painted, or only half
+                low = max(min(middle - width / 2, area.right() - width), area.left())
+                high = low + width
+                apart = metrics.height() if self.orientation == "bottom" else 4 * unit
+                if not panel.box.left() - 0.5 <= middle <= panel.box.right() + 0.5:
+                    continue
+            if any(low < other_high + apart and high > other_low - apart for other_low, other_high in taken):
+                continue
+            taken.append((low, high))
+            color = style.color(label.token)
+            if self.orientation == "left":
+                height, right = metrics.height(), panel.box.left() - gap
+                at = QRectF(right - 300 * unit, middle - height / 2, 300 * unit, height)
+                draw_text(painter, at, label.text, fit_font(face, label.text, self._room), color, RIGHT_MIDDLE)
+            else:
+                below = self.orientation == "bottom"
+                base = panel.box.bottom() + gap + metrics.ascent() if below else panel.box.top() - gap
+                draw_text(painter, QPointF(low, base), label.text, face, color)
+
+
+def date_labels(labels: Sequence[tuple[float, str]]) -> Callable[[float, float], list[AxisLabel]]:
+    """Of the days that are shown the last one, the first one, then those between, the last ones first."""
+
+    def select_labels(start: float, end: float) -> list[AxisLabel]:
+        some = [label for label in labels if start <= label[0] <= end]
+        ends = [some[-1], *some[:1][: len(some) - 1]] if some else []
+        return [
+            *(AxisLabel(*one, "text", is_bold=True) for one in ends),
+            *(AxisLabel(*one, is_bold=True) for one in some[::-1]),
+        ]
+
+    return select_labels
+
+
+def fit_font(face: QFont, text: str, room_px: float) -> QFont:
+    """The font, or one as small as half of it, with which a text has room."""
+    width = QFontMetricsF(face).horizontalAdvance(text)
+    if width <= room_px or width <= 0.0:
+        return face
+    smaller = QFont(face)
+    smaller.setPixelSize(max(int(face.pixelSize() * room_px / width), face.pixelSize() // 2, 1))
+    return smaller
+
+
+def scale_labels(panel: Panel) -> list[AxisLabel]:
+    """Of a fixed scale, its ends first."""
+    scale = panel.scale
+    ends = (max(scale.ticks), min(scale.ticks)) if scale.ticks else ()
+    out = []
+    for value, text in sorted(scale.labels, key=lambda one: one[0] not in ends):
+        strong = scale.bold_ends and value in ends and value != 0.0
+        out.append(AxisLabel(value, text, "text" if strong else "text2", strong))
+    return out
+
+
+class Chart(pg.GraphicsView):
+    """A card with panels. A subclass says in :meth:`build` what is in it, for the present ``look`` and ``area``."""
+
+    default_px, min_px = (736, 360), (420, 200)
+    """Width and height."""
+    is_card = True
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(background=None)
+        self._theme = theme
+        self.plot_style = screen_style(theme)
+        self.area = QRectF()
+        self.is_printing = False
+        self.plots: list[Plot] = []
+        self._items: list[Any] = []
+        """The scene does not keep them alive."""
+        self.setCentralWidget(None)
+        # Items of pyqtgraph say too late for an index that they have another size.
+        self.scene().setItemIndexMethod(QGraphicsScene.ItemIndexMethod.NoIndex)
+        self.setAntialiasing(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setViewportUpdateMode(self.ViewportUpdateMode.BoundingRectViewportUpdate)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        theme.changed.connect(self.refresh)
+
+    # --- for a subclass -----------------------------------------------------------------------------------
+    def build(self) -> None:
+        """Add plots and words."""
+        raise NotImplementedError
+
+    def paint_background(self, painter: QPainter) -> None:
+        """What lies under everything, on the screen alone."""
+
+    def sizeHint(self) -> QSize:
+        return QSize(*self.default_px)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(*self.min_px)
+
+    # --- building -----------------------------------------------------------------------------------------
+    def add_plot(self, panel: Panel) -> Plot:
+        plot = Plot(self, panel)
+        self.plots.append(plot)
+        return plot
+
+    def add_item(self, item: Any) -> Any:
+        """Put an item over, or beside, the panels."""
+        self._items.append(item)
+        self.scene().addItem(item)
+        return item
+
+    def remove_item(self, item: Any) -> None:
+        self._items.remove(item)
+        self.scene().removeItem(item)
+
+    def add_axis(
+        self,
+        plot: Plot,
+        side: str,
+        labels: Callable[[float, float], Iterable[AxisLabel]] | Iterable[AxisLabel],
+        gap: float,
+    ) -> Axis:
+        """Words left of, under or over a plot: by what is shown of it, or always the same."""
+        said = labels if callable(labels) else lambda *_, own=tuple(labels): own
+        room = math.inf if self.is_printing else plot.panel.box.left() - gap * self.plot_style.unit - 2.0
+        return Axis(plot, side, said, gap, room)
+
+    def add_text(
+        self, words: str, face: QFont, token: str = "text", anchor: tuple[float, float] = (0.0, 0.0)
+    ) -> ChartText:
+        """Words over the panels; placed by ``setPos``."""
+        return ChartText(self, words, face, token, anchor)
+
+    def add_symbols(
+        self, symbol: str = "o", size: float = 10.0, pen: QPen | None = None, fill: str = "",
+        positions: Sequence[QPointF] = (), alpha: int = 255,
+    ) -> Any:  # fmt: skip
+        """Symbols over the panels at places of the chart, ``size`` design pixels wide; discs have a seam."""
+        unit = self.plot_style.unit
+        pen = pg.mkPen(self.plot_style.color("surface"), width=1.5 * unit) if pen is None else pen
+        symbols = Symbols(
+            x=[one.x() for one in positions],
+            y=[one.y() for one in positions],
+            symbol=symbol,
+            size=size * unit,
+            pen=pen,
+            brush=pg.mkBrush(self.plot_style.color(fill, alpha) if fill else None),
+        )
+        symbols.chart = self
+        symbols.setZValue(FRONT)
+        return self.add_item(symbols)
+
+    def add_end_labels(self, plot: Plot, labels: Sequence[tuple[float, str, str]]) -> None:
+        """Words (value, text, token) at the right ends of their lines, pushed apart where they would touch, and kept
+        above what stands under the panel; pyqtgraph's axis lets them touch."""
+        panel, unit, face = plot.panel, self.plot_style.unit, self.plot_style.end_label_font
+        height = QFontMetricsF(face).height()
+        taken, lowest = -math.inf, panel.box.bottom() + height / 2 - len(labels) * height
+        for middle, text, token in sorted((float(panel.y(value)), text, token) for value, text, token in labels):
+            top, lowest = max(min(middle - height / 2, lowest), taken), lowest + height
+            taken = top + height
+            self.add_text(text, face, token).setPos(panel.box.right() + 12 * unit, top)
+
+    def legend_lines(
+        self, entries: Sequence[tuple[str, str, str]], width: float
+    ) -> list[list[tuple[float, str, str, str]]]:
+        """What the signs (symbol, words, token) mean, in as many lines as it needs, each with its left end."""
+        metrics, unit = QFontMetricsF(self.plot_style.end_label_font), self.plot_style.unit
+        lines: list[list[tuple[float, str, str, str]]] = [[]]
+        across = 8 * unit
+        for sign, words, token in entries:
+            needs = 17 * unit + metrics.horizontalAdvance(words)
+            if lines[-1] and across + needs > width:
+                lines.append([])
+                across = 8 * unit
+            lines[-1].append((across, sign, words, token))
+            across += needs + 18 * unit
+        return lines
+
+    def add_legend(self, entries: Sequence[tuple[str, str, str]], box: QRectF) -> None:
+        """At the lower end of a box, in lines: pyqtgraph's legend has one column, or many of the same width. A filled
+        disc is written ``O``."""
+        unit, face = self.plot_style.unit, self.plot_style.end_label_font
+        height = QFontMetricsF(face).height()
+        for number, line in enumerate(reversed(self.legend_lines(entries, box.width()))):
+            middle = box.bottom() - 10 * unit - number * height
+            for left, sign, words, token in line:
+                pen = pg.mkPen(self.plot_style.color(token), width=1.6 * unit)
+                fill = token if sign == "O" else "surface"
+                self.add_symbols(sign.lower(), 9.0, pen, fill, [QPointF(box.left() + left + 5 * unit, middle)])
+                self.add_text(words, face, "text2", (0.0, 0.5)).setPos(box.left() + left + 17 * unit, middle)
+
+    def refresh(self) -> None:
+        """What is shown has changed: build it anew, once it is seen."""
+        if self.isVisible():
+            self.plot_style = screen_style(self._theme)
+            self.area = QRectF(self.rect())
+            self._rebuild()
+            self.resetCachedContent()
+            self.viewport().update()
+
+    def _rebuild(self) -> None:
+        for item in self._items:
+            self.scene().removeItem(item)
+        self._items, self.plots = [], []
+        self.build()
+
+    # --- life ---------------------------------------------------------------------------------------------
+    @property
+    def mouse_target(self) -> QWidget:
+        """What the mouse meets."""
+        port: QWidget = self.viewport()
+        return port
+
+    def close(self) -> bool:
+        """As any widget: it may be shown again. pyqtgraph takes the scene apart."""
+        return QGraphicsView.close(self)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self.refresh()
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
+        super().resizeEvent(event)
+        if event is not None:
+            self.refresh()
+
+    def drawBackground(self, painter: QPainter, area: QRectF) -> None:
+        if self.is_printing:
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        # A chart that is no card itself lies on one.
+        painter.fillRect(area, self._theme.color("canvas" if self.is_card else "surface"))
+        if self.is_card:
+            paint_card(painter, self._theme, QRectF(self.rect()))
+        self.paint_background(painter)
+
+    # --- on paper -----------------------------------------------------------------------------------------
+    def render_on_paper(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
+        """The same as lines and letters, in any unit: it is built for that, and then again for the screen."""
+        self.plot_style, self.area, self.is_printing = style, QRectF(0.0, 0.0, box.width(), box.height()), True
+        self.setSceneRect(self.area)
+        try:
+            self._rebuild()
+            self.scene().render(painter, box, self.area)
+        finally:
+            self.is_printing = False
+            self.plot_style = screen_style(self._theme)
+            self.resizeEvent(None)
+            self.refresh()
+
+
+def span_html(words: str, style: PlotStyle, token: str, size_px: float, weight: int) -> str:
+    """Words in a colour, size and weight of their own, for a text of several."""
+    color = style.color(token).name()
+    return f'<span style="color:{color};font-size:{round(size_px)}px;font-weight:{int(weight)}">{escape(words)}</span>'
+
+
+class HoverLabel(pg.TextItem):
+    """Lines of words in a small frame beside a point, within the chart: what is under the mouse."""
+
+    def __init__(self, chart: Chart) -> None:
+        look = chart.plot_style
+        super().__init__(color=look.color("text"), border=look.color("border"), fill=look.color("surface"))
+        self._chart = chart
+        self.textItem.document().setDocumentMargin(6.0)
+        self.setFont(look.end_label_font)
+        self.setZValue(30)
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        chart.add_item(self)
+
+    def show_lines(self, position: QPointF | None, lines: Sequence[str]) -> None:
+        """Nothing without a point."""
+        self.setVisible(position is not None)
+        if position is None:
+            return
+        self.setText("\n".join(lines))
+        size, area = self.textItem.boundingRect(), QRectF(self._chart.rect()).adjusted(4, 4, -4, -4)
+        left = (
+            position.x() + 12 if position.x() + 12 + size.width() <= area.right() else position.x() - 12 - size.width()
+        )
+        left = min(max(left, area.left()), max(area.right() - size.width(), area.left()))
+        self.setPos(left, min(max(position.y() - 12 - size.height(), area.top()), area.bottom() - size.height()))

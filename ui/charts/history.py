@@ -1,0 +1,335 @@
+"""The last seconds of what was tracked, wrist and fingers, as arrays ready to draw; how well each disc was seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.measures.wrist_centre import DEFAULT_CENTRE_M, estimate_wrist_centre, rotation_in_w0
+from carpus.core.model.hand.exercises import STILL_RADIUS_MM, Exercise, get_exercise
+from carpus.core.model.hand.forearm_rotation import to_clinical_wrist_angles
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.ui.charts.series import MAX_STEP_S, Series
+from carpus.ui.words.finger_angle_estimates import (
+    BoolArray,
+    angle_weights,
+    estimate_finger_angles,
+    find_measured_angles,
+    joint_names,
+)
+from carpus.ui.words.finger_angles import FINGER_ANGLES
+
+VISIBLE_S = 10.0
+BUFFER_S = 11.0
+"""A little more than is shown, so that lines run out of the picture instead of ending in it."""
+MarkerVisibility = Literal["seen", "partly", "hidden"]
+VISIBILITY_WINDOW_S = 0.4
+"""How well a disc is seen is judged over this long: hidden after 0.3 s, and seen again as soon."""
+MIN_VISIBLE_FRACTION, MIN_PARTLY_VISIBLE_FRACTION = 0.75, 0.25
+POINT_INTERVAL_S = 0.1
+"""Small panels draw every third frame of thirty a second: ten points, two pixels each on a large screen. Of fewer
+frames they draw more, or the points would lie further apart than what is joined."""
+HOME_S = 0.5
+"""The forearm's place is the median over this long."""
+FIT_INTERVAL_S = 1.0
+FIT_POSES = 600
+"""Where the wrist turns is fitted once a second to this many of its poses, spread over all that was seen."""
+_TIME, _ANGLES, _SDS, _STATUS, _POSITION, _SPEEDS, _AXES = (
+    0,
+    slice(1, 4),
+    slice(4, 7),
+    7,
+    slice(8, 11),
+    slice(11, 13),
+    slice(13, 22),
+)
+_POSE = [*range(8, 11), *range(13, 22)]
+_COLUMNS = 22
+
+
+@dataclass(frozen=True, slots=True)
+class AngleBlock:
+    """Samples of all figures: ``time_s`` (n,) from ``start_s`` on, ``value_deg``, ``sd_deg``, ``predicted`` (n, F)."""
+
+    time_s: FloatArray
+    value_deg: FloatArray
+    sd_deg: FloatArray
+    predicted: BoolArray
+    start_s: float
+    max_step_s: float
+
+    def series(self, index: int) -> Series:
+        return Series(
+            self.time_s, self.value_deg[:, index], self.sd_deg[:, index], self.predicted[:, index],
+            self.max_step_s, self.start_s,
+        )  # fmt: skip
+
+
+class History:
+    """Frames in, arrays of the last ten seconds out: degrees, millimetres, seconds of the recording.
+
+    Figures of the fingers are numbered as in :data:`ui.words.finger_angles.FIGURES`; without discs on them all are
+    unknown.
+    """
+
+    def __init__(self, protocol: MarkerProtocol) -> None:
+        self.clear(protocol)
+
+    def clear(
+        self, protocol: MarkerProtocol, exercise: Exercise | None = None, start_angles_rad: FloatArray | None = None
+    ) -> None:
+        """Begin again; the wrist's angles are read as the exercise has them, from where the hand started."""
+        self._protocol, self._exercise = protocol, exercise or get_exercise("")
+        self._start_rad = np.zeros(3) if start_angles_rad is None else start_angles_rad
+        self._rows = np.empty((0, _COLUMNS))
+        self._index = np.empty(0, dtype=np.int64)
+        self._fingers = _FingerSamples.from_frames(protocol, ())
+        self._weights = angle_weights(protocol.joint_names())
+        self._home_mm = np.full(3, math.nan)
+        self._home_rotation = np.full((3, 3), math.nan)
+        self._centre_mm = 1000.0 * DEFAULT_CENTRE_M
+        self._poses: list[FloatArray] = []
+        self._pose_stride, self._pose_count, self._last_fit_s = 1, 0, -math.inf
+        self.last_index = -1
+        self._waited_s = 0.0
+
+    def add_waiting_time(self, seconds: float) -> None:
+        """Time goes on without frames: what is missing grows at the right."""
+        self._waited_s += seconds
+
+    def append(self, frames: Sequence[TrackedFrame]) -> None:
+        """Add frames in order; what is older than needed goes."""
+        fresh = [frame for frame in frames if frame.index > self.last_index]
+        if not fresh:
+            return
+        self.last_index = fresh[-1].index
+        self._waited_s = 0.0
+        known, more = self._fingers, _FingerSamples.from_frames(self._protocol, fresh)
+        if more.value_deg.shape[1]:
+            self._weights = angle_weights(joint_names(self._protocol, len(fresh[-1].kinematics.joint_angles_rad)))
+        more_rows = np.array([_to_row(frame) for frame in fresh])
+        read_rad = to_clinical_wrist_angles(np.radians(more_rows[:, _ANGLES]), self._exercise, self._start_rad)
+        more_rows[:, _ANGLES] = np.degrees(read_rad)
+        self._rows = np.concatenate((self._rows, more_rows))
+        self._collect_poses(more_rows)
+        self._index = np.concatenate((self._index, [frame.index for frame in fresh]))
+        self._fingers = known.append(more) if len(known.value_deg) else more
+        recent = self._rows[:, _TIME] >= self._rows[-1, _TIME] - BUFFER_S
+        if not recent.all():
+            self._rows, self._index, self._fingers = (
+                self._rows[recent],
+                self._index[recent],
+                self._fingers.select(recent),
+            )
+        if self.has_fingers:
+            of_late = self._rows[:, _TIME] >= self._rows[-1, _TIME] - VISIBILITY_WINDOW_S
+            self._visible_fraction = np.asarray(self._fingers.is_visible[of_late].mean(axis=0))
+            self._has_visible_markers = find_measured_angles(
+                self._protocol, self._visible_fraction[None] >= MIN_PARTLY_VISIBLE_FRACTION
+            )[0]
+        if not np.isfinite(self._home_mm).all() and self._rows[-1, _TIME] - self._rows[0, _TIME] >= HOME_S:
+            self.set_home()
+
+    def set_home(self) -> None:
+        """Take the wrist's present place as the forearm's place at rest."""
+        recent = self._rows[self._rows[:, _TIME] >= self.end_s - HOME_S, _POSITION] if len(self._rows) else self._rows
+        known = recent[np.isfinite(recent).all(axis=1)] if len(recent) else recent
+        if len(known):
+            self._home_mm = np.median(known, axis=0)
+            turned = self._rows[self._rows[:, _TIME] >= self.end_s - HOME_S, _AXES]
+            self._home_rotation = np.nanmedian(turned, axis=0).reshape(3, 3)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @property
+    def has_fingers(self) -> bool:
+        return bool(self._fingers.value_deg.shape[1] > 0)
+
+    @property
+    def end_s(self) -> float:
+        """The right end of the curves: time of the newest frame, NaN before the first."""
+        return float(self._rows[-1, _TIME]) + self._waited_s if len(self._rows) else math.nan
+
+    @property
+    def is_waiting(self) -> bool:
+        return self._waited_s > 0.0
+
+    @property
+    def angles_deg(self) -> FloatArray:
+        """Newest deviation, flexion, pro/supination (3,)."""
+        return self._rows[-1, _ANGLES] if len(self._rows) else np.full(3, math.nan)
+
+    @property
+    def sds_deg(self) -> FloatArray:
+        """Their standard deviations (3,)."""
+        return self._rows[-1, _SDS] if len(self._rows) else np.full(3, math.nan)
+
+    @property
+    def status(self) -> TrackStatus:
+        """Of the newest frame; lost before the first."""
+        return TrackStatus(int(self._rows[-1, _STATUS])) if len(self._rows) else TrackStatus.LOST
+
+    @property
+    def speeds(self) -> FloatArray:
+        """Newest linear speed in mm/s and angular speed in degrees per second (2,)."""
+        return self._rows[-1, _SPEEDS] if len(self._rows) else np.full(2, math.nan)
+
+    def angle_series(self, column: int) -> Series:
+        rows = self._rows
+        return Series(
+            rows[:, _TIME], rows[:, 1 + column], rows[:, 4 + column], rows[:, _STATUS] == TrackStatus.PREDICTED
+        )
+
+    def speed_series(self, column: int) -> Series:
+        """Linear (0) or angular (1) speed; the filter gives no deviation for them."""
+        rows = self._rows
+        return Series(rows[:, _TIME], rows[:, 11 + column], None, rows[:, _STATUS] == TrackStatus.PREDICTED)
+
+    # --- fingers ------------------------------------------------------------------------------------------
+    def angle_block(self, *, speeds: bool = False) -> AngleBlock:
+        """The curves of all figures over the shown time up to now; speeds in degrees/s without sign."""
+        rows, hand, now_s = self._rows, self._fingers, self.end_s
+        if not self.has_fingers:
+            none = np.empty((0, len(FINGER_ANGLES)))
+            return AngleBlock(np.empty(0), none, none, none.astype(bool), now_s, MAX_STEP_S)
+        frame_s = float(rows[-1, _TIME] - rows[0, _TIME]) / max(int(self._index[-1] - self._index[0]), 1)
+        every = max(1, int(POINT_INTERVAL_S / frame_s + 0.25)) if frame_s > 0.0 else 1
+        longest_s = MAX_STEP_S + 2 * (every - 1) * frame_s  # what is left out at both ends of a gap is none
+        part = (rows[:, _TIME] >= now_s - VISIBLE_S) & (self._index % every == 0)
+        value, sd = hand.value_deg[part], hand.sd_deg[part]
+        if speeds:
+            value, sd = np.abs(hand.speed_deg_s[part]), np.zeros_like(value)
+        return AngleBlock(
+            rows[part, _TIME] - now_s, value, sd, ~hand.is_measured[part] | self._weights.is_inferred, now_s, longest_s
+        )
+
+    def angle_value(self, index: int) -> tuple[float, float, bool]:
+        """Newest value, its standard deviation, and whether its discs have been seen of late, as :meth:`seen` says."""
+        hand = self._fingers
+        if not len(self._rows) or not self.has_fingers:
+            return math.nan, math.nan, False
+        value, sd = float(hand.value_deg[-1, index]), float(hand.sd_deg[-1, index])
+        shown = bool(self._has_visible_markers[index]) and self.status == TrackStatus.TRACKED
+        return value, sd, shown and math.isfinite(value)
+
+    def angle_speed_deg_s(self, index: int) -> float:
+        return float(self._fingers.speed_deg_s[-1, index]) if len(self._rows) and self.has_fingers else math.nan
+
+    def is_inferred(self, index: int) -> bool:
+        """Whether the figure only follows another joint."""
+        return bool(self._weights.is_inferred[index])
+
+    @property
+    def has_inferred_angles(self) -> bool:
+        """Whether the end joints only follow the middle joints."""
+        return bool(self._weights.is_inferred.any())
+
+    def marker_visibility(self) -> dict[str, MarkerVisibility]:
+        """How well each disc has been seen of late: light, map, cells and the large number all go by it."""
+        if not len(self._rows) or not self.has_fingers:
+            return dict.fromkeys(self._protocol.markers, "hidden")
+        return {
+            name: "seen"
+            if part >= MIN_VISIBLE_FRACTION
+            else "hidden"
+            if part < MIN_PARTLY_VISIBLE_FRACTION
+            else "partly"
+            for name, part in zip(self._protocol.markers, self._visible_fraction.tolist(), strict=True)
+        }
+
+    # --- place --------------------------------------------------------------------------------------------
+    def path_mm(self) -> FloatArray:
+        """Places of the wrist from its home over the shown time (n, 3), gaps as NaN."""
+        rows = self._rows[self._rows[:, _TIME] >= self.end_s - VISIBLE_S] if len(self._rows) else self._rows
+        return np.asarray(rows[:, _POSITION] - self._home_mm)
+
+    def axes(self) -> FloatArray:
+        """Axes of W2 in W0 as columns over the shown time (n, 3, 3)."""
+        rows = self._rows[self._rows[:, _TIME] >= self.end_s - VISIBLE_S] if len(self._rows) else self._rows
+        return rows[:, _AXES].reshape(-1, 3, 3)
+
+    def _collect_poses(self, rows: FloatArray) -> None:
+        """Poses for the fit, thinned out by two whenever they become too many: a long set costs no more than a short
+        one, and its beginning stays in it."""
+        for row in rows:
+            if np.isfinite(row[_POSITION]).all() and int(row[_STATUS]) == TrackStatus.TRACKED:
+                if self._pose_count % self._pose_stride == 0:
+                    self._poses.append(row[_POSE])
+                self._pose_count += 1
+        if len(self._poses) > FIT_POSES:
+            self._poses, self._pose_stride = self._poses[::2], 2 * self._pose_stride
+        if len(self._poses) > 1 and self.end_s - self._last_fit_s >= FIT_INTERVAL_S:
+            self._last_fit_s = self.end_s
+            poses = np.array(self._poses)
+            turned = poses[:, 3:].reshape(-1, 3, 3)
+            found = estimate_wrist_centre(1e-3 * poses[:, :3], turned, np.ones(len(poses), dtype=bool))
+            self._centre_mm = 1000.0 * found.centre_w2_m
+
+    def home_centre_mm(self) -> FloatArray:
+        """Where the wrist turned about at home, (3,) from the home of its disc."""
+        return np.asarray(self._home_rotation @ self._centre_mm)
+
+    def centre_mm(self) -> FloatArray:
+        """Where the wrist turns about now, (3,) from the home of its disc; NaN where that is not known."""
+        if not len(self._rows):
+            return np.full(3, math.nan)
+        row = self._rows[-1]
+        return np.asarray(row[_POSITION] - self._home_mm + row[_AXES].reshape(3, 3) @ self._centre_mm)
+
+    def forearm_offset_mm(self) -> float:
+        """How far the forearm is from its home now: the point that the wrist turns about, not the disc above it, which
+        goes round that point with every bend."""
+        return float(np.linalg.norm(self.centre_mm() - self.home_centre_mm()))
+
+    def has_forearm_moved(self) -> bool:
+        distance = self.forearm_offset_mm()
+        return math.isfinite(distance) and distance > STILL_RADIUS_MM
+
+
+@dataclass(frozen=True, slots=True)
+class _FingerSamples:
+    """Figures (n, F), discs seen (n, M); F is 0 where there are no fingers."""
+
+    value_deg: FloatArray
+    sd_deg: FloatArray
+    speed_deg_s: FloatArray
+    is_measured: BoolArray
+    is_visible: BoolArray
+
+    @staticmethod
+    def from_frames(protocol: MarkerProtocol, frames: Sequence[TrackedFrame]) -> _FingerSamples:
+        joints = len(frames[-1].kinematics.joint_angles_rad) if frames else 0
+        if not joints:
+            none = np.empty((len(frames), 0))
+            return _FingerSamples(none, none, none, none.astype(bool), none.astype(bool))
+        _, value, sd, measured, seen = estimate_finger_angles(protocol, frames)
+        weight = angle_weights(joint_names(protocol, joints)).weight
+        speed = np.degrees(np.array([frame.kinematics.joint_velocity_rad_s for frame in frames]) @ weight.T)
+        return _FingerSamples(value, sd, np.where(np.isfinite(value), speed, math.nan), measured, seen)
+
+    def append(self, more: _FingerSamples) -> _FingerSamples:
+        return _FingerSamples(*(np.concatenate((getattr(self, f.name), getattr(more, f.name))) for f in fields(self)))
+
+    def select(self, part: BoolArray) -> _FingerSamples:
+        return _FingerSamples(*(getattr(self, f.name)[part] for f in fields(self)))
+
+
+def _to_row(frame: TrackedFrame) -> FloatArray:
+    row = np.empty(_COLUMNS)
+    row[_TIME] = frame.timestamp_s
+    row[_ANGLES] = np.degrees(frame.kinematics.angles_rad)
+    row[_SDS] = np.degrees(frame.kinematics.angles_sd_rad)
+    row[_STATUS] = frame.status
+    row[_POSITION] = 1000.0 * frame.kinematics.position_m
+    row[11] = 1000.0 * math.hypot(*frame.kinematics.velocity_m_s)
+    row[12] = math.degrees(math.hypot(*frame.kinematics.angular_velocity_rad_s))
+    row[_AXES] = rotation_in_w0(frame.kinematics.rotation_w2_w0, frame.kinematics.w0_turn_rad).ravel()
+    if frame.status == TrackStatus.LOST:
+        row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_SPEEDS] = row[_AXES] = math.nan
+    return row

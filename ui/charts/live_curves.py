@@ -1,0 +1,208 @@
+"""Ten running seconds of the three angles, or of the two speeds, on fixed scales."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QFontMetricsF, QPainter
+
+from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise, get_exercise
+from carpus.core.model.hand.forearm_rotation import axis_limits_deg
+from carpus.core.model.rounding import round_half_away
+from carpus.ui.charts import axes
+from carpus.ui.charts.axes import Panel, Scale
+from carpus.ui.charts.chart import LINES, AxisLabel, Chart, Hatching, PaintedLayer, fit_font, scale_labels
+from carpus.ui.charts.history import VISIBLE_S, History
+from carpus.ui.charts.series import Curve
+from carpus.ui.charts.session import add_limits, add_targets
+from carpus.ui.charts.style import draw_text, paint_dot
+from carpus.ui.kit import numbers
+from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.kit.theme import CURVE_TOKENS, Theme
+from carpus.ui.words import terms
+
+LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 132, 112, 24, 28, 30
+DOT_PX = 7
+"""Room for the newest value, which stands half outside the panel."""
+SPEED_TOP_MM_S, SPEED_TOP_DEG_S = 400.0, 400.0
+ZERO_BAND_DEG = 0.5
+"""Within this of zero the word for the direction stays as it was, so that it does not flutter."""
+
+
+class LiveCurves(Chart):
+    """Shows the history it is given, the newest value at 0 s on the right. Nothing here moves by mouse."""
+
+    default_px, min_px = (696, 396), (420, 170)  # the number above it never gives way
+
+    def __init__(self, theme: Theme, history: History) -> None:
+        super().__init__(theme)
+        self._history = history
+        self._exercise = get_exercise("")
+        self._targets_deg = (math.nan, math.nan)
+        self._speeds = False
+        self._single = False
+        self._values: list[tuple[str, str, str]] = []
+        self._last_values = [1.0, 1.0, 1.0]
+        self._values_layer: PaintedLayer | None = None
+        self.setAccessibleName(self.tr("Curves of the last ten seconds"))
+
+    def set_exercise(self, exercise: Exercise, target_positive_deg: float, target_negative_deg: float) -> None:
+        """Which angle is trained, its targets, and what should stay within limits."""
+        self._exercise = exercise
+        self._targets_deg = (target_positive_deg, target_negative_deg)
+        self.refresh()
+
+    def show_speeds(self, on: bool) -> None:
+        """Linear and angular speed instead of the angles."""
+        if on != self._speeds:
+            self._speeds = on
+            self.update_values()
+            self.refresh()
+
+    def show_single(self, on: bool) -> None:
+        """Only the trained angle, where large text leaves no room for three."""
+        if on != self._single:
+            self._single = on
+            self.refresh()
+
+    @property
+    def is_showing_speeds(self) -> bool:
+        return self._speeds
+
+    def update_values(self) -> None:
+        """Take the figures at the right anew; called at most ten times a second."""
+        if self._speeds:
+            linear, angular = self._history.speeds if not self._history.is_waiting else (math.nan, math.nan)
+            words = (self.tr("Turning"), numbers.format_speed(angular), ""), (self.tr("Moving"), _mm_s(linear), "")
+            self._values = list(words)
+            self._update_values_layer()
+            return
+        angles, sds = self._history.angles_deg, self._history.sds_deg
+        self._values = []
+        for k in range(3):
+            if math.isfinite(angles[k]) and abs(angles[k]) > ZERO_BAND_DEG:
+                self._last_values[k] = float(angles[k])
+            known = math.isfinite(angles[k]) and not self._history.is_waiting
+            name = terms.direction_name(k, self._last_values[k], self._exercise) if known else self.tr("no value")
+            if known and abs(angles[k]) < ZERO_BAND_DEG:
+                name = terms.neutral_name(k, self._exercise)
+            self._values.append(
+                (name, numbers.format_degrees(angles[k]) if known else "", numbers.format_sd(sds[k]) if known else "")
+            )
+        self._update_values_layer()
+
+    def _update_values_layer(self) -> None:
+        if self._values_layer is not None:
+            self._values_layer.update()
+
+    # --- places -------------------------------------------------------------------------------------------
+    def panels(self) -> list[tuple[Panel, int]]:
+        """The panels with the column each shows; the trained angle is twice as high and first. Time ends at now."""
+        scale = self._theme.text_scale
+        left, right = LEFT_PX * scale, RIGHT_PX * scale
+        width = self.width() - left - right
+        order: list[tuple[int, Scale, float]]
+        if self._speeds:
+            order = [
+                (1, axes.positive_scale(SPEED_TOP_DEG_S, 100.0, "°/s", self.tr("Turning")), 1.0),
+                (0, axes.positive_scale(SPEED_TOP_MM_S, 100.0, " mm/s", self.tr("Moving")), 1.0),
+            ][: 1 if self._single else 2]
+        else:
+            order = [(k, self._angle_scale(k), 2.0 if k == self._main_column() else 1.0) for k in self._column_order()]
+        between = BETWEEN_PX * scale
+        height = self.height() - (TOP_PX + BOTTOM_PX) * scale - between * (len(order) - 1)
+        unit = height / sum(share for _, _, share in order)
+        top = TOP_PX * scale
+        out = []
+        for column, panel_scale, share in order:
+            out.append(
+                (
+                    Panel(axes.align_to_pixels(QRectF(left, top, width, unit * share)), panel_scale, -VISIBLE_S, 0.0),
+                    column,
+                )
+            )
+            top += unit * share + between
+        return out
+
+    def _main_column(self) -> int:
+        return FLEXION if self._exercise.angle is None else self._exercise.angle
+
+    def _column_order(self) -> list[int]:
+        first = self._main_column()
+        return [first] if self._single else [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
+
+    def _angle_scale(self, k: int) -> Scale:
+        names = terms.direction_names(k, self._exercise)
+        return axes.angle_scale(*axis_limits_deg(k, self._exercise), *names, is_sparse=k != self._main_column())
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def build(self) -> None:
+        placed, scale = self.panels(), self._theme.text_scale
+        self._curves = []
+        for place, (panel, column) in enumerate(placed):
+            own = self.add_plot(panel)
+            if not self._speeds:
+                add_limits(own, self._exercise, column, is_first=place == 0)
+            own.add_grid()
+            if not self._speeds and place == 0:
+                add_targets(own, *self._targets_deg)
+            self.add_axis(own, "left", scale_labels(panel), 12)
+            hatching = own.add_to_layer(Hatching(own, ()), LINES)
+            self._curves.append((own.add_curves(is_cached=False), hatching, column))
+        ago = [AxisLabel(-float(ago), str(ago)) for ago in (2, 4, 6, 8)]
+        ends = [AxisLabel(0.0, self.tr("now")), AxisLabel(0.55 - VISIBLE_S, self.tr("10 s ago"))]
+        self.add_axis(self.plots[-1], "bottom", [*ends, *ago], 9 * scale)
+        right, top = placed[0][0].box.right(), placed[0][0].box.top() - DOT_PX
+        area = QRectF(right - DOT_PX, top, 2 * DOT_PX, placed[-1][0].box.bottom() + DOT_PX - top)
+        self._dots = PaintedLayer(self, area, self._paint_dots, is_cached=False)
+        area = QRectF(right + DOT_PX, 0.0, self.width() - right - DOT_PX - 1, self.height())
+        self._values_layer = PaintedLayer(self, area, self._paint_values)
+        self.draw()
+
+    def draw(self) -> None:
+        """What moves has changed."""
+        history = self._history
+        if not self.plots or not self.isVisible():
+            return
+        for own, (curves, hatching, column) in zip(self.plots, self._curves, strict=True):
+            series = (history.speed_series(column) if self._speeds else history.angle_series(column)).shift_time(
+                history.end_s
+            )
+            token = "curve_c" if self._speeds else CURVE_TOKENS[column]
+            curves.show([Curve(series, token)])
+            panel = own.panel
+            is_late = history.is_waiting and len(series.value) > 0
+            if is_late or hatching.stretches:
+                low, high = panel.scale.low, panel.scale.high
+                hatching.show([(float(series.time_s[-1]), 0.0, low, high)] if is_late else ())
+        self._dots.update()
+
+    def _paint_dots(self, painter: QPainter) -> None:
+        """The newest value of each panel."""
+        history = self._history
+        for own, (_, _, column) in zip(self.plots, self._curves, strict=True):
+            value = float(history.speeds[column] if self._speeds else history.angles_deg[column])
+            if not history.is_waiting and math.isfinite(value):
+                token = "curve_c" if self._speeds else CURVE_TOKENS[column]
+                paint_dot(painter, self.plot_style, own.panel.point(0.0, value), token, 5.0)
+
+    def _paint_values(self, painter: QPainter) -> None:
+        for (panel, column), place in zip(self.panels(), range(3), strict=False):
+            if self._values:
+                self._paint_value(painter, panel, *self._values[place if self._speeds else column])
+
+    def _paint_value(self, painter: QPainter, panel: Panel, name: str, value: str, spread: str) -> None:
+        theme, scale = self._theme, self._theme.text_scale
+        left = panel.box.right() + 14 * scale
+        middle = panel.box.center().y()
+        face = fit_font(font(14 * scale, REGULAR), name, self.width() - left - 4)
+        draw_text(painter, QPointF(left, middle - 5 * scale), name, face, theme.color("text2"))
+        at, face = QPointF(left, middle + 18 * scale), font(20 * scale, SEMIBOLD)
+        draw_text(painter, at, value, face, theme.color("text"))
+        at += QPointF(QFontMetricsF(face).horizontalAdvance(value) + 5 * scale, 0.0)
+        draw_text(painter, at, spread, font(14 * scale, MEDIUM), theme.color("text2"))
+
+
+def _mm_s(value: float) -> str:
+    return f"{round_half_away(value)}{numbers.NARROW_GAP}mm/s" if math.isfinite(value) else numbers.UNKNOWN

@@ -1,0 +1,168 @@
+"""Where the wrist was, how fast it went and turned, and its ZYZ angles over a session, as the papers draw them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from PySide6.QtCore import QRectF
+
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import FloatArray
+from carpus.core.results.motion_curves import MotionCurves
+from carpus.ui.charts.axes import Panel, Scale
+from carpus.ui.charts.chart import Plot
+from carpus.ui.charts.paths import AXIS_LETTERS, AXIS_TOKENS
+from carpus.ui.charts.series import Series, find_max_step_s
+from carpus.ui.charts.session import SessionPlot, Value, add_panel_name, find_nearest_row
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import tr
+
+MotionKind = Literal["place", "zyz"]
+AXIS_LIMITS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0)
+"""Ends of an axis: the smallest that holds the whole session, so that it does not move while one looks."""
+ZYZ_SUM = "α+γ"
+ZYZ_NAMES = ("α", "β", "γ")
+_UNITS = ("mm", "mm/s", "°/s")
+_FILE_UNITS = ("mm", "mm_s", "deg_s")
+
+
+def panel_words() -> tuple[str, str, str]:
+    """What the panels of places and speeds are called."""
+    return tr("Place"), tr("Speed"), tr("Turning")
+
+
+@dataclass(frozen=True, slots=True)
+class MotionPlot(SessionPlot):
+    """Instead of the angles: ``place`` over linear over angular velocity, each along three axes; or ``zyz``."""
+
+    motion: MotionCurves | None = None
+    kind: MotionKind = "place"
+
+    @property
+    def has_readings(self) -> bool:
+        """Several numbers beside each panel, one under the other."""
+        return True
+
+    def quantity(self, key: int) -> FloatArray:
+        """(N, 3) of a panel of places and speeds."""
+        assert self.motion is not None
+        return (self.motion.position_mm, self.motion.velocity_mm_s, self.motion.angular_velocity_deg_s)[key]
+
+    def panel_order(self) -> list[int]:
+        return [0, 1, 2]
+
+    def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
+        """Three panels of the same height; of large text the speed alone, or beta."""
+        keys = [1] if single else self.panel_order()
+        height = (box.height() - between * (len(keys) - 1)) / len(keys)
+        out = []
+        for place, key in enumerate(keys):
+            area = QRectF(box.left(), box.top() + place * (height + between), box.width(), height)
+            out.append((Panel(area, self._scale(key), *self.visible_s), key))
+        return out
+
+    def _scale(self, key: int) -> Scale:
+        if self.kind == "zyz":
+            return _zyz_scale(key)
+        known = np.abs(self.quantity(key))
+        most = float(np.nanmax(known)) if np.isfinite(known).any() else 0.0
+        top = next((step for step in AXIS_LIMITS if step >= most), AXIS_LIMITS[-1])
+        unit = _UNITS[key]
+        labels = (
+            (top, f"+{_plain(top)}{_unit_suffix(unit)}"),
+            (0.0, "0"),
+            (-top, f"{MINUS}{_plain(top)}{_unit_suffix(unit)}"),
+        )
+        return Scale(-1.4 * top, 1.4 * top, (top, 0.0, -top), labels)
+
+    def add_background(self, plot: Plot, place: int, key: int) -> None:
+        plot.add_grid()
+        add_panel_name(plot, self.panel_name(key))
+
+    def panel_name(self, key: int) -> str:
+        if self.kind == "zyz":
+            return (*ZYZ_NAMES[:2], f"γ, {ZYZ_SUM}")[key]
+        return panel_words()[key]
+
+    def all_series(self, key: int) -> list[tuple[str, str, Series]]:
+        assert self.motion is not None
+        motion = self.motion
+        step_s = find_max_step_s(motion.time_s)
+        if self.kind == "zyz":
+            sd = motion.zyz_sd_deg[:, key]
+            own = Series(motion.time_s, motion.zyz_deg[:, key], sd, motion.is_predicted, step_s)
+            shown = [(ZYZ_NAMES[key], ("curve_b", "curve_a", "curve_b")[key], own)]
+            if key == 2:  # what stays known where the two are not
+                total = Series(motion.time_s, motion.zyz_sum_deg, None, motion.is_predicted, step_s)
+                shown.append((ZYZ_SUM, "curve_c", total))
+            return shown
+        values = self.quantity(key)
+        return [
+            (letter, token, Series(motion.time_s, values[:, axis], None, motion.is_predicted, step_s))
+            for axis, (letter, token) in enumerate(zip(AXIS_LETTERS, AXIS_TOKENS, strict=True))
+        ]
+
+    def visible_curves(self, key: int, points: int) -> list:  # type: ignore[type-arg]
+        return [self._curve(series, token, points) for _, token, series in self.all_series(key)]
+
+    def curve_series(self, key: int) -> list[tuple[str, Series]]:
+        if self.kind == "zyz":
+            names = (("zyz_alpha",), ("zyz_beta",), ("zyz_gamma", "zyz_alpha_plus_gamma"))[key]
+            return [(name, series) for name, (_, _, series) in zip(names, self.all_series(key), strict=True)]
+        named = ("position", "velocity", "angular_velocity")[key]
+        return [(f"{named}_{letter.lower()}", series) for letter, _, series in self.all_series(key)]
+
+    def unit(self, key: int) -> str:
+        return "deg" if self.kind == "zyz" else _FILE_UNITS[key]
+
+    def read_values(self, key: int, time_s: float) -> list[Value]:
+        out = []
+        row = find_nearest_row(self.curves.time_s, time_s)
+        for name, token, series in self.all_series(key):
+            value = sd = math.nan
+            if len(series.time_s) and abs(float(series.time_s[row]) - time_s) <= series.max_step_s:
+                value = float(series.value[row])
+                sd = math.nan if series.sd is None else float(series.sd[row])
+            out.append(Value(name, token, value, sd, text=self._value_text(name, value, sd)))
+        return out
+
+    def _value_text(self, name: str, value: float, sd: float) -> str:
+        if not math.isfinite(value):
+            return f"{name} {numbers.UNKNOWN}"
+        if self.kind == "zyz":
+            return f"{name} {numbers.format_signed_degrees(value)} {numbers.format_sd(sd)}"
+        shown = format_rounded(value)
+        return f"{name} {shown.replace('-', MINUS)}"
+
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def _plain(value: float) -> str:
+    return format_rounded(value)
+
+
+def _unit_suffix(unit: str) -> str:
+    return unit if unit.startswith("°") else f"{numbers.NARROW_GAP}{unit}"
+
+
+def _zyz_scale(key: int) -> Scale:
+    if key == 1:
+        return Scale(-20.0, 110.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (0.0, "0°")), bold_ends=False)
+    labels = ((180.0, "+180°"), (-180.0, f"{MINUS}180°"))
+    return Scale(-250.0, 250.0, (180.0, 90.0, 0.0, -90.0, -180.0), labels, bold_ends=False)
+
+
+def zyz_words(plots: Sequence[MotionCurves]) -> str:
+    """How much of the time ZYZ is known, and what is known all the time."""
+    known = [np.isfinite(curves.zyz_deg[:, 0]) for curves in plots]
+    every = np.concatenate(known) if known else np.zeros(0, dtype=bool)
+    share = f"{format_rounded(100.0 * float(every.mean()))}{numbers.NARROW_GAP}%" if len(every) else numbers.UNKNOWN
+    return tr(
+        "α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and "
+        "α + γ are known."
+    ).format(share=share)

@@ -1,0 +1,538 @@
+"""Ways through the room in the three planes of the papers: of the wrist with the hand's axes, and of finger joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pyqtgraph as pg
+from pyqtgraph.functions import arrayToQPolygonF
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen
+
+from carpus.core.model.hand.exercises import STILL_RADIUS_MM
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import FloatArray, Side
+from carpus.core.results.motion_curves import MotionCurves
+from carpus.ui.charts.axes import Panel, Scale, align_to_pixels
+from carpus.ui.charts.chart import CURVES, FRONT, GRID, LINES, Chart, PaintedLayer, PixelItem, Plot
+from carpus.ui.charts.history import VISIBLE_S, History
+from carpus.ui.charts.series import find_runs
+from carpus.ui.charts.style import RIGHT_MIDDLE, PlotStyle, dash_pen, draw_text, paint_dot
+from carpus.ui.kit import numbers
+from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.kit.text import paint_status
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr
+from carpus.ui.words.finger_angles import FINGERS
+from carpus.ui.words.marker_words import finger_name
+
+EDGE_PX, HEAD_PX, BETWEEN_PX = 20, 34, 14
+STILL_SPAN_MM, FREE_SPAN_MM = 60.0, 600.0
+"""Side of the squares while it is measured: for exercises with a still forearm, and for all others."""
+LIVE_AXIS_FRACTION = 0.22
+BAR_LENGTHS_MM = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
+MIN_SPAN_MM = 40.0
+"""A hand that lies still is not looked at more closely."""
+MAX_BAR_FRACTION = 0.3
+MIN_LINES_WITH_TITLE = 8.0
+"""Height of a panel, in lines of its words, from which it has its name under it."""
+VIEW_MARGIN = 1.3
+AXES_COUNT = 9
+"""The hand's axes are drawn so often along the whole way, evenly in time."""
+AXIS_FRACTION, CURRENT_AXIS_FRACTION = 0.075, 0.16
+RECENT_S = 1.0
+_FINGER_JOINTS = ("MCP", "PIP", "DIP", "TIP")
+_THUMB_JOINTS = ("CMC", "MCP", "IP", "TIP")
+_JOINT_TOKENS = ("curve_a", "curve_b", "curve_c", "accent")
+UP = (0, 2, 2)
+ACROSS = (1, 0, 1)
+ACROSS_SIGN = (-1.0, 1.0, -1.0)
+"""From above and from the fingers Y of W0 points to the left of the picture, on both hands."""
+AXIS_TOKENS = ("curve_c", "curve_a", "curve_b")
+"""X turns pro/supination, Y flexion, Z deviation: each axis has the colour of its angle."""
+AXIS_LETTERS = ("X", "Y", "Z")
+PLANE_LETTERS = ("XY", "ZX", "ZY")
+
+
+@dataclass(frozen=True, slots=True)
+class PathLine:
+    """One line: ``position_mm`` (N, 3) in W0, its colour, what it is called at its end, and where it was not
+    ``is_visible``."""
+
+    position_mm: FloatArray
+    token: str
+    name: str
+    is_visible: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class PathPlot:
+    """All ways that are drawn together; ``axes`` (N, 3, 3) of the hand along the first one, None for none; ``low_mm``
+    and ``high_mm`` (3,) what they need in W0."""
+
+    time_s: FloatArray
+    paths: Sequence[PathLine]
+    axes: FloatArray | None
+    side: Side
+    low_mm: FloatArray
+    high_mm: FloatArray
+    margin: float = VIEW_MARGIN
+    recent_s: float = RECENT_S
+    """What is drawn strongly before the present place."""
+    axis_fraction: float = CURRENT_AXIS_FRACTION
+    """Length of the hand's axes at the present place, of the panel's height."""
+    is_whole: bool = True
+    """All of a session, with the hand's axes along it."""
+
+    def per_mm(self, box: QRectF) -> float:
+        """Painter units for a millimetre in a panel of this size, the same in all three planes and in both
+        directions."""
+        needs = np.maximum(self.margin * (self.high_mm - self.low_mm), MIN_SPAN_MM)
+        fits = [(box.width() / needs[ACROSS[plane]], box.height() / needs[UP[plane]]) for plane in range(3)]
+        return float(min(min(fit) for fit in fits))
+
+    def bar_mm(self, box: QRectF) -> float:
+        """Length of the scale bar: the longest round one that takes up a third of a panel at most."""
+        most = MAX_BAR_FRACTION * box.width() / self.per_mm(box)
+        return max((length for length in BAR_LENGTHS_MM if length <= most), default=BAR_LENGTHS_MM[0])
+
+
+def wrist_path(curves: MotionCurves) -> PathPlot:
+    """The WRIST disc's way with the hand's axes (wrist paper, figures 3 and 5)."""
+    way = PathLine(curves.position_mm, "accent", "", ~curves.is_predicted)
+    return _plot(curves, [way], curves.axes)
+
+
+def finger_paths(curves: MotionCurves, finger: int) -> PathPlot:
+    """The ways of a finger's joints, or of finger 0 of all five tips (hand paper, figures 2 and 3)."""
+    if finger:
+        kinds = _THUMB_JOINTS if finger == 1 else _FINGER_JOINTS
+        named = [(f"{kind}{finger}", token, kind) for kind, token in zip(kinds, _JOINT_TOKENS, strict=True)]
+    else:
+        named = [
+            (f"TIP{k}", "text" if k == 1 else "curve_a" if k % 2 else "curve_b", finger_name(str(k))) for k in FINGERS
+        ]
+    there = curves.joint_names
+    at = [(there.index(joint), token, words) for joint, token, words in named if joint in there]
+    ways = [PathLine(curves.joint_mm[:, k], token, words, curves.is_joint_seen[:, k]) for k, token, words in at]
+    return _plot(curves, ways, None)
+
+
+def _plot(curves: MotionCurves, paths: Sequence[PathLine], axes: FloatArray | None) -> PathPlot:
+    every = np.concatenate([np.empty((0, 3)), *(way.position_mm for way in paths)])
+    known = every[np.isfinite(every).all(axis=1)]
+    low, high = (known.min(axis=0), known.max(axis=0)) if len(known) else (np.zeros(3), np.zeros(3))
+    return PathPlot(curves.time_s, paths, axes, curves.side, low, high)
+
+
+def plane_names(side: Side) -> tuple[tuple[str, str, str, str], ...]:
+    """Up, across, title and letters of the three planes."""
+    thumb = tr("thumb ←") if side == "right" else tr("thumb →")
+    return (
+        (tr("fingers ↑"), thumb, tr("From above"), PLANE_LETTERS[0]),
+        (tr("up ↑"), tr("fingers →"), tr("From the side"), PLANE_LETTERS[1]),
+        (tr("up ↑"), thumb, tr("From the fingers"), PLANE_LETTERS[2]),
+    )
+
+
+def plane_panels(style: PlotStyle, box: QRectF, gap: float) -> list[Panel]:
+    """Three panels side by side in a box, none higher than wide, with a line of words over each and one under it
+    where there is room."""
+    width = max(math.floor((box.width() - 2 * gap) / 3), 1.0)
+    line = _line_height(style)
+    below = line if box.height() >= MIN_LINES_WITH_TITLE * line else 0.0
+    height = max(min(width, box.height() - line - below), 1.0)
+    if not below:
+        height = min(height, (MIN_LINES_WITH_TITLE - 2.0) * line - 2.0)  # so that no title is asked for
+    height = max(math.floor(height), 1.0)
+    top = box.top() + line + 0.5 * (box.height() - line - below - height)
+    places = [align_to_pixels(QRectF(box.left() + plane * (width + gap), top, width, height)) for plane in range(3)]
+    return [Panel(place, Scale(-1.0, 1.0, (), ()), -1.0, 1.0) for place in places]
+
+
+class PlaneItem(PixelItem):
+    """Ways in one plane up to ``until_s``, NaN for the whole way without an end, with the hand's axes as three lines:
+    their letters and the names of the ways find room that pyqtgraph does not look for."""
+
+    def __init__(self, plot: Plot, plane: int) -> None:
+        super().__init__(plot, is_cached=False)
+        self.plane, self.occupied = plane, list[QRectF]()
+        self.plot_data: PathPlot | None = None
+        self.until_s = math.nan
+
+    def show_paths(self, plot_data: PathPlot | None, until_s: float) -> None:
+        self.plot_data, self.until_s = plot_data, until_s
+        self.update()
+
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if self.plot_data is None:
+            return
+        if self.plot_data.axes is not None and self.plot_data.is_whole:
+            self._paint_axes_along(painter, style, panel, self.plot_data.axes)
+        taken = [*self.occupied]
+        row = self._current_row()
+        for way in self.plot_data.paths:
+            x, y = self._project_positions(panel, way.position_mm)
+            self._paint_path(painter, style, way, x, y)
+            if row >= 0 and math.isfinite(float(x[row] + y[row])):
+                paint_dot(painter, style, QPointF(float(x[row]), float(y[row])), way.token, 4.5)
+        for way in self.plot_data.paths:
+            self._paint_name(painter, style, panel, way, self._project_positions(panel, way.position_mm), taken)
+        if row >= 0 and self.plot_data.axes is not None:
+            place = self._project_positions(panel, self.plot_data.paths[0].position_mm[row : row + 1])
+            at = QPointF(float(place[0][0]), float(place[1][0]))
+            self._paint_axes(
+                painter,
+                style,
+                at,
+                self.plot_data.axes[row],
+                panel.box.height() * self.plot_data.axis_fraction,
+                lettered=True,
+            )
+
+    def _current_row(self) -> int:
+        assert self.plot_data is not None
+        if not math.isfinite(self.until_s) or not len(self.plot_data.time_s):
+            return -1
+        return int(np.abs(self.plot_data.time_s - self.until_s).argmin())
+
+    def _project_positions(self, panel: Panel, place_mm: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Where they are in the panel."""
+        assert self.plot_data is not None
+        away = place_mm - 0.5 * (self.plot_data.low_mm + self.plot_data.high_mm)
+        scale = self.plot_data.per_mm(panel.box)
+        across, up, sign = ACROSS[self.plane], UP[self.plane], ACROSS_SIGN[self.plane]
+        center = panel.box.center()
+        return center.x() + sign * away[:, across] * scale, center.y() - away[:, up] * scale
+
+    def _paint_path(self, painter: QPainter, style: PlotStyle, path: PathLine, x: FloatArray, y: FloatArray) -> None:
+        """Solid where it was seen, dashed where it was not; of a way with an end what lies ahead is faint."""
+        assert self.plot_data is not None
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        known = np.isfinite(x) & np.isfinite(y)
+        row = self._current_row()
+        for first, last in find_runs(known):
+            for seen in (True, False):
+                for start, stop in find_runs(path.is_visible[first:last] == seen):
+                    begin, end = max(first + start - 1, first), first + stop
+                    pen = QPen(style.color(path.token), style.line_width if row >= 0 else 0.5 * style.line_width)
+                    if row >= 0:
+                        pen.setColor(style.color(path.token, 120))
+                    if not seen:
+                        pen.setDashPattern([2.2, 2.2])
+                    painter.setPen(pen)
+                    painter.drawPolyline(arrayToQPolygonF(x[begin:end], y[begin:end]))
+        if row >= 0:
+            recent = int(np.searchsorted(self.plot_data.time_s, self.plot_data.time_s[row] - self.plot_data.recent_s))
+            painter.setPen(QPen(style.color(path.token), 2.0 * style.line_width))
+            for first, last in find_runs(known[recent : row + 1]):
+                painter.drawPolyline(
+                    arrayToQPolygonF(x[recent + first : recent + last], y[recent + first : recent + last])
+                )
+
+    def _paint_name(
+        self, painter: QPainter, style: PlotStyle, panel: Panel, path: PathLine,
+        places: tuple[FloatArray, FloatArray], occupied: list[QRectF],
+    ) -> None:  # fmt: skip
+        """At the outermost point of the way that is free; none where there is no room."""
+        x, y = places
+        known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
+        if not path.name or not len(known):
+            return
+        metrics = QFontMetricsF(style.end_label_font)
+        width, height = metrics.horizontalAdvance(path.name), metrics.height()
+        ends = (0, int(np.argmin(y[known])), int(np.argmax(y[known])), int(np.argmax(x[known])))
+        for row in known[list(ends)].tolist():
+            for left in (float(x[row]) + 5 * style.unit, float(x[row]) - width - 5 * style.unit):
+                box = QRectF(left, float(y[row]) - height / 2, width, height)
+                inside = panel.box.adjusted(2, 2, -2, -2).contains(box)
+                if inside and not any(box.intersects(other) for other in occupied):
+                    occupied.append(box)
+                    painter.fillRect(box.adjusted(-1, 2, 1, -2), style.color("surface", 200))
+                    color = style.color(path.token)
+                    draw_text(painter, box, path.name, style.end_label_font, color, Qt.AlignmentFlag.AlignCenter)
+                    return
+
+    def _paint_axes_along(self, painter: QPainter, style: PlotStyle, panel: Panel, axes: FloatArray) -> None:
+        assert self.plot_data is not None
+        place_mm = self.plot_data.paths[0].position_mm
+        known = np.flatnonzero(np.isfinite(place_mm).all(axis=1) & np.isfinite(axes).all(axis=(1, 2)))
+        if not len(known):
+            return
+        rows = known[np.unique(np.linspace(0, len(known) - 1, AXES_COUNT).round().astype(np.int64))]
+        x, y = self._project_positions(panel, place_mm[rows])
+        for k, row in enumerate(rows.tolist()):
+            at = QPointF(float(x[k]), float(y[k]))
+            self._paint_axes(painter, style, at, axes[row], panel.box.height() * AXIS_FRACTION, lettered=False)
+
+    def _paint_axes(
+        self,
+        painter: QPainter,
+        style: PlotStyle,
+        position: QPointF,
+        turned: FloatArray,
+        length: float,
+        *,
+        lettered: bool,
+    ) -> None:
+        across, up, sign = ACROSS[self.plane], UP[self.plane], ACROSS_SIGN[self.plane]
+        letters: list[QPointF] = []
+        named = PLANE_LETTERS[self.plane]  # the plane's own first: where two would touch, the third goes without
+        for axis in sorted(range(3), key=lambda axis: AXIS_LETTERS[axis] not in named):
+            away = QPointF(sign * float(turned[across, axis]) * length, -float(turned[up, axis]) * length)
+            if not math.isfinite(away.x() + away.y()):
+                return
+            width = (2.0 if lettered else 1.0) * style.unit
+            color = style.color(AXIS_TOKENS[axis], 255 if lettered else 170)
+            painter.setPen(QPen(color, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawLine(position, position + away)
+            reach = math.hypot(away.x(), away.y())
+            size = style.label_font.pixelSize()
+            center = position + away * (1.0 + 0.7 * size / max(reach, 1e-6))
+            free = all(math.hypot((center - other).x(), (center - other).y()) > size for other in letters)
+            box = QRectF(center.x() - size, center.y() - size, 2 * size, 2 * size)
+            small, edge = box.adjusted(size / 3, size / 3, -size / 3, -size / 3), 0.6 * size
+            inside = QRectF(self.plot.rect()).adjusted(edge, edge, -edge, -edge).contains(center)
+            inside = inside and not any(small.intersects(other) for other in self.occupied)
+            if lettered and reach >= size and free and inside:
+                letters.append(center)
+                face, middle = font(size, SEMIBOLD, display=False), Qt.AlignmentFlag.AlignCenter
+                draw_text(painter, box, AXIS_LETTERS[axis], face, color, middle)
+
+
+class RotationCentreItem(PixelItem):
+    """Where the point that the wrist turns about must stay, a ring, and where it is, a cross."""
+
+    def __init__(self, plot: Plot, plane: int, words: str) -> None:
+        super().__init__(plot, is_cached=False)
+        self._plane, self._words = plane, words
+        self._centre: tuple[FloatArray, FloatArray, float] | None = None
+
+    def show_centre(self, home_mm: FloatArray, now_mm: FloatArray, per_mm: float) -> None:
+        self._centre = home_mm, now_mm, per_mm
+        self.update()
+
+    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if self._centre is None or not np.isfinite(self._centre[0] + self._centre[1]).all():
+            return
+        home, now = (
+            panel.box.center() + _project_point(self._plane, place) * self._centre[2] for place in self._centre[:2]
+        )
+        radius = STILL_RADIUS_MM * self._centre[2]
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(dash_pen(style.color("border"), style.unit, (4, 3)))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(home, radius, radius)
+        painter.setPen(QPen(style.color("text"), 1.5 * style.unit))
+        for dx, dy in ((4.0, 0.0), (0.0, 4.0)):
+            arm = QPointF(dx * style.unit, dy * style.unit)
+            painter.drawLine(now - arm, now + arm)
+        if self._words:
+            at = QPointF(home.x() + 6, home.y() - radius - 4)
+            draw_text(painter, at, self._words, style.label_font, style.color("text2"))
+
+
+def _project_point(plane: int, place: FloatArray) -> QPointF:
+    """Of something in W0, as it goes on in the picture."""
+    return QPointF(ACROSS_SIGN[plane] * float(place[ACROSS[plane]]), -float(place[UP[plane]]))
+
+
+def has_title(style: PlotStyle, panel: Panel) -> bool:
+    """Whether there is a line of words under a square too."""
+    return panel.box.height() > (MIN_LINES_WITH_TITLE - 2.0) * _line_height(style) - 1.0
+
+
+def _line_height(style: PlotStyle) -> float:
+    return QFontMetricsF(style.label_font).height() + 4 * style.unit
+
+
+class PlanesChart(Chart):
+    """Three squares, each with its frame and a cross through its middle."""
+
+    def add_planes(self, panels: Sequence[Panel]) -> list[PlaneItem]:
+        out = []
+        for plane, panel in enumerate(panels):
+            plot = self.add_plot(panel)
+            plot.setBorder(plot.pen("line", self.plot_style.grid_width / self.plot_style.unit))
+            for angle in (0, 90):
+                line = pg.InfiniteLine(0.0, angle, plot.pen("line", self.plot_style.grid_width / self.plot_style.unit))
+                plot.add_to_layer(line, GRID)
+            out.append(plot.add_to_layer(PlaneItem(plot, plane), CURVES))
+        return out
+
+
+class PathsChart(PlanesChart):
+    """The card with the ways of a session, of the wrist with the hand's axes or of finger joints, up to the player's
+    time; on paper all of them, without a title."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme)
+        self._plot: PathPlot | None = None
+        self._title = ""
+        self._time_s = math.nan
+        self._planes: list[PlaneItem] = []
+        self.setAccessibleName(self.tr("Ways in three planes"))
+
+    def show_plot(self, plot: PathPlot, title: str = "") -> None:
+        self._plot, self._title = plot, title
+        self.refresh()
+
+    def set_time(self, time_s: float) -> None:
+        self._time_s = time_s
+        for item in self._planes:
+            item.show_paths(self._plot, self._time_s)
+
+    def panels(self) -> list[Panel]:
+        if self.is_printing:
+            return plane_panels(self.plot_style, self.area, 16 * self.plot_style.unit)
+        head = HEAD_PX * self._theme.text_scale
+        box = QRectF(self.rect()).adjusted(EDGE_PX, head, -EDGE_PX, -10)
+        return plane_panels(self.plot_style, box, BETWEEN_PX)
+
+    def build(self) -> None:
+        ways, look, line = self._plot, self.plot_style, _line_height(self.plot_style)
+        self._planes = []
+        if ways is None:
+            return
+        if not self.is_printing:
+            scale = self._theme.text_scale
+            self.add_text(self._title, font(14 * scale, SEMIBOLD), "text", (0.0, 0.5)).setPos(EDGE_PX, 19 * scale)
+        panels = self.panels()
+        self._planes = self.add_planes(panels)
+        for panel, item, (up, across, title, letters) in zip(panels, self._planes, plane_names(ways.side), strict=True):
+            box = panel.box
+            self.add_text(f"{letters} · {up}", look.label_font, "text2", (0.0, 0.5)).setPos(
+                box.left(), box.top() - line / 2
+            )
+            self.add_text(across, look.label_font, "text2", (1.0, 0.5)).setPos(box.right(), box.top() - line / 2)
+            if has_title(look, panel):
+                self.add_text(title, look.end_label_font, "text", (0.0, 0.5)).setPos(
+                    box.left(), box.bottom() + line / 2
+                )
+            self._add_bar(item, ways)
+            item.show_paths(ways, math.nan if self.is_printing else self._time_s)
+
+    def _add_bar(self, item: PlaneItem, plot_data: PathPlot) -> None:
+        """How long so many millimetres are, in the lower left corner."""
+        plot, look, unit = item.plot, self.plot_style, self.plot_style.unit
+        box, line = plot.panel.box, _line_height(look)
+        item.occupied.append(QRectF(0.0, box.height() - 1.6 * line, 0.32 * box.width(), 1.6 * line))
+        length, across, up = plot_data.bar_mm(box), 2.0 / box.width(), 2.0 / box.height()  # a panel goes from -1 to 1
+        start, y = -1.0 + 8 * unit * across, -1.0 + 8 * unit * up
+        plot.add_line([start, start + length * plot_data.per_mm(box) * across], [y, y], "border", 1.5, layer=LINES)
+        words = self.add_text(f"{format_rounded(length)}{numbers.NARROW_GAP}mm", look.label_font, "text2", (0.0, 1.0))
+        words.setPos(box.left() + 8 * unit, box.bottom() - 10 * unit)
+
+
+class LivePathChart(PlanesChart):
+    """The card with the path of the wrist and its axes over the last seconds, in three squares of fixed size (figures 3
+    and 5 of the wrist paper)."""
+
+    default_px, min_px = (520, 242), (380, 180)
+
+    def __init__(self, theme: Theme, history: History) -> None:
+        super().__init__(theme)
+        self._history = history
+        self._side: Side = "right"
+        self._pure = True
+        self._planes: list[PlaneItem] = []
+        self._centre_items: list[RotationCentreItem] = []
+        self.setAccessibleName(self.tr("Path of the wrist"))
+
+    def set_exercise(self, side: Side, pure_wrist: bool) -> None:
+        self._side, self._pure = side, pure_wrist
+        self.refresh()
+
+    # --- places -------------------------------------------------------------------------------------------
+    def _head(self) -> QRectF:
+        return QRectF(20, 12, self.width() - 40, 24 * self._theme.text_scale)
+
+    def panels(self) -> list[Panel]:
+        """The squares of the three planes; both axes in millimetres from the forearm's place at rest."""
+        scale = self._theme.text_scale
+        top = self._head().bottom() + 6
+        size = min((self.width() - 40 - 2 * 15) / 3, self.height() - top - 46 * scale)
+        gap = (self.width() - 40 - 3 * size) / 2
+        boxes = [align_to_pixels(QRectF(20 + plane * (size + gap), top, size, size)) for plane in range(3)]
+        return [Panel(box, Scale(-1.0, 1.0, (), ()), -1.0, 1.0) for box in boxes]
+
+    def _span_mm(self) -> float:
+        return STILL_SPAN_MM if self._pure else FREE_SPAN_MM
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def build(self) -> None:
+        look, scale = self.plot_style, self._theme.text_scale
+        self.add_text(self.tr("Path of the wrist, last 10 s"), font(14 * scale, SEMIBOLD), "text", (0.0, 0.5)).setPos(
+            20, self._head().center().y()
+        )
+        self._planes = self.add_planes(self.panels())
+        self._centre_items = []
+        for plane, (item, (up, across, title, letters)) in enumerate(
+            zip(self._planes, plane_names(self._side), strict=True)
+        ):
+            box, metrics = item.plot.panel.box, QFontMetricsF(look.label_font)
+            fits = metrics.horizontalAdvance(up) + metrics.horizontalAdvance(across) + 24 <= box.width()
+            height = metrics.height()
+            over = box.top() + 4 * scale
+            beside = over if fits else box.bottom() - 4 * scale - height  # below, the ring may lie
+            for words, anchor, x, y in ((up, 0.0, box.left() + 8, over), (across, 1.0, box.right() - 8, beside)):
+                self.add_text(words, look.label_font, "text2", (anchor, 0.0)).setPos(x, y)
+                wide = metrics.horizontalAdvance(words)
+                item.occupied.append(QRectF(x - anchor * wide - box.left(), y - box.top(), wide, height))
+            self.add_text(title, look.end_label_font).setPos(box.left(), box.bottom() + 4)
+            self.add_text(letters, look.end_label_font, "text2", (1.0, 0.0)).setPos(box.right(), box.bottom() + 4)
+            if self._pure:
+                ball = item.plot.add_to_layer(
+                    RotationCentreItem(item.plot, plane, self.tr("15 mm") if plane == 0 else ""), FRONT
+                )
+                self._centre_items.append(ball)
+        words = self.tr("{span} × {span} mm, fixed").format(span=format_rounded(self._span_mm()))
+        if self._pure:
+            words += self.tr(" · cross: where the wrist turns; it must stay in the ring")
+        at = self._planes[0].plot.panel.box.bottom() + 26 * scale
+        self.add_text(words, font(12 * scale, REGULAR), "text2").setPos(20, at)
+        self._forearm_layer = PaintedLayer(self, self._head(), self._paint_forearm)
+        self.draw()
+
+    def draw(self) -> None:
+        """What moves has changed."""
+        if not self.plots or not self.isVisible():
+            return
+        history = self._history
+        way, turned, half = history.path_mm(), history.axes(), np.full(3, self._span_mm() / 2)
+        line = PathLine(way, "accent", "", np.ones(len(way), dtype=bool))
+        time_s = np.linspace(-VISIBLE_S, 0.0, len(way))
+        ways = PathPlot(
+            time_s, [line], turned, self._side, -half, half, 1.0, VISIBLE_S / 2, LIVE_AXIS_FRACTION, is_whole=False
+        )
+        for item in self._planes:
+            item.show_paths(ways if len(way) else None, 0.0)
+        for ball in self._centre_items:
+            ball.show_centre(history.home_centre_mm(), history.centre_mm(), ways.per_mm(ball.plot.panel.box))
+        self._forearm_layer.update()
+
+    def _paint_forearm(self, painter: QPainter) -> None:
+        head, distance = self._head(), self._history.forearm_offset_mm()
+        if not self._pure or not math.isfinite(distance):
+            return
+        moved = distance > STILL_RADIUS_MM
+        pattern = self.tr("arm moved ({distance})") if moved else self.tr("forearm still ({distance})")
+        words = pattern.format(distance=numbers.format_millimetres(distance))
+        scale = self._theme.text_scale
+        face = font(12 * scale, MEDIUM)
+        draw_text(painter, head, words, face, self._theme.color("warn" if moved else "text2"), RIGHT_MIDDLE)
+        size = 16 * scale
+        left = head.right() - QFontMetricsF(face).horizontalAdvance(words) - size - 6
+        box = QRectF(left, head.center().y() - size / 2, size, size)
+        paint_status(painter, self._theme, "warn" if moved else "good", box)
+
+
+def paint_paths(painter: QPainter, style: PlotStyle, plot: PathPlot, box: QRectF) -> None:
+    """The chart on paper, with its words, in a box."""
+    chart = PathsChart(Theme("light"))
+    chart.show_plot(plot)
+    chart.render_on_paper(painter, style, box)
+    chart.deleteLater()

@@ -1,0 +1,212 @@
+"""A chart whose plots can be looked into: zoom and pan along the one axis they share, read-out, pictures and tables."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
+from PySide6.QtGui import QContextMenuEvent, QGuiApplication, QResizeEvent
+from PySide6.QtWidgets import QFileDialog, QMenu
+
+from carpus.core.model.errors import CarpusFault
+from carpus.ui.charts import export
+from carpus.ui.charts.axes import Panel
+from carpus.ui.charts.chart import Chart, Plot
+from carpus.ui.kit.button import icon_button
+from carpus.ui.kit.theme import Theme
+
+ZOOM_STEP = 1.25
+"""How much a notch of the wheel or a key changes what is shown."""
+
+
+class ZoomChart(Chart):
+    """The window is the part of the shared axis that is shown, None for all."""
+
+    min_span = 1.0
+    """Least length of the axis that is shown."""
+
+    def __init__(self, theme: Theme, file_name: str) -> None:
+        super().__init__(theme)
+        self._window: tuple[float, float] | None = None
+        self._is_updating = False
+        self.menu = PlotMenu(self, file_name)
+        self.scene().sigMouseMoved.connect(self.hover)
+        self.viewport().grabGesture(Qt.GestureType.PinchGesture)
+        self.menu_button = icon_button(theme, "ellipsis", self.tr("Zoom, copy and save"))
+        self.menu_button.setParent(self)
+        self.menu_button.setProperty("floats", True)  # over a corner in which nothing is written
+        self.menu_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.menu_button.clicked.connect(
+            lambda: self.menu.open(self.menu_button.mapToGlobal(QPoint(0, self.menu_button.height())))
+        )
+
+    # --- for a subclass -----------------------------------------------------------------------------------
+    def extent(self) -> tuple[float, float] | None:
+        """Ends of the shared axis; None while there is nothing."""
+        raise NotImplementedError
+
+    def zoom_center(self) -> float:
+        """What zooming by key goes about: else the middle."""
+        return sum(self.x_range()) / 2
+
+    def drag(self, event: Any) -> bool:
+        """A drag that is more than moving along; whether it was taken."""
+        return False
+
+    def click(self, event: Any) -> None:
+        """A click of the left button."""
+
+    def hover(self, position: QPointF | None) -> None:
+        """The mouse is somewhere, or gone."""
+
+    def update_range(self) -> None:
+        """Another part of the axis is shown."""
+
+    def table(self) -> export.Table:
+        """Head and rows of what is shown."""
+        raise NotImplementedError
+
+    # --- window -------------------------------------------------------------------------------------------
+    @property
+    def zoom_range(self) -> tuple[float, float] | None:
+        return self._window
+
+    def x_range(self) -> tuple[float, float]:
+        """Left and right end of what is shown."""
+        return self._window or self.extent() or (0.0, 1.0)
+
+    def show_window(self, window: tuple[float, float] | None) -> None:
+        extent = self.extent()
+        if window is not None and extent is not None:
+            low, high = extent
+            span = min(max(window[1] - window[0], min(self.min_span, high - low)), high - low)
+            start = min(max(window[0], low), high - span)
+            window = None if span >= (high - low) * (1.0 - 1e-9) else (start, start + span)
+        self._window = window
+        self._is_updating = True
+        if self.plots:
+            self.plots[0].setXRange(*self.x_range(), padding=0.0)
+        self._is_updating = False
+        self.update_range()
+
+    def zoom(self, factor: float, center: float) -> None:
+        """Show that many times as much, with ``center`` staying where it is."""
+        start, end = self.x_range()
+        span = (end - start) * factor
+        begin = center - (center - start) / (end - start) * span
+        self.show_window((begin, begin + span))
+
+    def zoom_in(self) -> None:
+        self.zoom(1.0 / ZOOM_STEP, self._visible_zoom_center())
+
+    def zoom_out(self) -> None:
+        self.zoom(ZOOM_STEP, self._visible_zoom_center())
+
+    def show_all(self) -> None:
+        self.show_window(None)
+
+    def _visible_zoom_center(self) -> float:
+        start, end = self.x_range()
+        return min(max(self.zoom_center(), start), end)
+
+    def add_plot(self, panel: Panel) -> Plot:
+        """All plots go along together."""
+        first, plot, extent = next(iter(self.plots), None), super().add_plot(panel), self.extent()
+        if extent is None or self.is_printing:
+            return plot
+        plot.setLimits(xMin=extent[0], xMax=extent[1], minXRange=min(self.min_span, extent[1] - extent[0]))
+        plot.enable_mouse(self)
+        if first is not None:
+            plot.setXLink(first)
+        else:
+            plot.sigXRangeChanged.connect(lambda _, ends: self._apply_range(*ends))
+        return plot
+
+    def _apply_range(self, start: float, end: float) -> None:
+        now, extent = self.x_range(), self.extent()
+        if extent is None or self._is_updating:
+            return
+        tolerance = 1e-6 * (extent[1] - extent[0])
+        if abs(start - now[0]) > tolerance or abs(end - now[1]) > tolerance:
+            self.show_window((start, end))
+
+    def viewportEvent(self, event: QEvent) -> bool:
+        """Two fingers go apart or together on the panels."""
+        if event.type() == QEvent.Type.Gesture and self.plots:
+            pinch = event.gesture(Qt.GestureType.PinchGesture)  # type: ignore[attr-defined]
+            if pinch is not None and pinch.scaleFactor() > 0.0:
+                at = self.viewport().mapFromGlobal(pinch.centerPoint().toPoint())
+                self.zoom(1.0 / pinch.scaleFactor(), float(self.plots[0].mapSceneToView(QPointF(at)).x()))
+                return True
+        if event.type() == QEvent.Type.Leave:
+            self.hover(None)
+        return bool(super().viewportEvent(event))
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        self.menu.open(event.globalPos())
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
+        if event is not None:
+            self.menu_button.adjustSize()  # where a layout is in the card Qt leaves this to us
+            self.menu_button.move(self.width() - self.menu_button.width() - 6, 2)
+        super().resizeEvent(event)
+
+
+class PlotMenu(QObject):
+    """What can be done with a plot, in words. ``fault_raised`` carries a fault of saving, ``saved`` the path
+    written."""
+
+    fault_raised = Signal(object)
+    saved = Signal(str)
+
+    def __init__(self, card: ZoomChart, file_name: str) -> None:
+        super().__init__(card)
+        self._card, self._file_name = card, file_name
+        self.start_folder = ""
+        """Where saving begins."""
+
+    def build_menu(self) -> QMenu:
+        card, menu = self._card, QMenu(self._card)
+        for words, action in (
+            (self.tr("Show all") + "\t0", card.show_all),
+            (self.tr("Zoom in") + "\t+", card.zoom_in),
+            (self.tr("Zoom out") + "\t-", card.zoom_out),
+            ("", None),
+            (self.tr("Copy picture"), self.copy_picture),
+            (self.tr("Save picture (PNG)…"), self.save_picture),
+            (self.tr("Save drawing (SVG)…"), lambda: self._save_with_dialog("svg", "SVG (*.svg)")),
+            (self.tr("Save values (CSV)…"), lambda: self._save_with_dialog("csv", "CSV (*.csv)")),
+        ):
+            if action is None:
+                menu.addSeparator()
+            else:
+                menu.addAction(words).triggered.connect(lambda _=False, action=action: action())
+        return menu
+
+    def open(self, position: QPoint) -> None:
+        if self._card.extent() is not None:
+            menu = self.build_menu()
+            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            menu.popup(position)
+
+    def copy_picture(self) -> None:
+        QGuiApplication.clipboard().setImage(export.render_image(self._card))
+
+    def save_picture(self) -> None:
+        self._save_with_dialog("png", "PNG (*.png)")
+
+    def _save_with_dialog(self, kind: str, filter_words: str) -> None:
+        start = str(Path(self.start_folder) / f"{self._file_name}.{kind}")
+        path, _ = QFileDialog.getSaveFileName(self._card, self.tr("Save"), start, filter_words)
+        if path:
+            self.save(Path(path))
+
+    def save(self, path: Path) -> None:
+        """Write a picture, drawing or table, as the name ends; a fault is told."""
+        try:
+            export.save_chart(self._card, self._card.table, path)
+        except CarpusFault as fault:
+            self.fault_raised.emit(fault)
+        else:
+            self.saved.emit(str(path))

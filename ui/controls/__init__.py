@@ -1,1 +1,0 @@
-"""The few controls every screen is built of, painted from the tokens."""

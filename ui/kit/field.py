@@ -1,0 +1,291 @@
+"""Fields: the search line with its icon, the labelled field, the row of exclusive choices."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from datetime import date
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtWidgets import (
+    QAbstractSpinBox,
+    QButtonGroup,
+    QComboBox,
+    QHBoxLayout,
+    QLineEdit,
+    QSpinBox,
+    QStyle,
+    QStyleOptionComboBox,
+    QWidget,
+)
+
+from carpus.ui.kit import numbers
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.fonts import font
+from carpus.ui.kit.layouts import FlowLayout, column_layout, row_layout
+from carpus.ui.kit.text import MEDIUM, Icon, Text, caption
+from carpus.ui.kit.theme import Theme
+
+
+def add_inside(line: QLineEdit, *parts: QWidget | None, edge_px: int = 15) -> None:
+    """Put signs and words over a line to type in, which leaves room for them; None is what stretches."""
+    row = row_layout(margins=(edge_px, 0, edge_px, 0), parent=line)
+    for part in parts:
+        if part is None:
+            row.addStretch(1)
+        else:
+            part.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            row.addWidget(part)
+
+
+class SearchField(QLineEdit):
+    """A line with a magnifier before and a key hint behind the text."""
+
+    def __init__(self, theme: Theme, placeholder: str, hint: str) -> None:
+        super().__init__()
+        self._theme = theme
+        shown = caption(theme, hint)
+        add_inside(self, Icon(theme, "search", 18, (18, 20), "text2"), None, shown)
+        self.textChanged.connect(lambda text: shown.setVisible(not text))
+        self.setPlaceholderText(placeholder)
+        self.setAccessibleName(placeholder)
+        theme.changed.connect(self._apply_theme)
+        self._apply_theme()
+
+    def _apply_theme(self) -> None:
+        self.setFont(font(16 * self._theme.text_scale))
+        self.setTextMargins(self._theme.px(30), 0, self._theme.px(60), 0)
+        self.setFixedHeight(self._theme.px(44))
+
+
+class _WheelFilter(QObject):
+    """Passes the wheel on to the page: who scrolls it would change what lies under the mouse, unseen."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() != QEvent.Type.Wheel:
+            return False
+        event.ignore()
+        return True
+
+
+def ignore_wheel(field: QAbstractSpinBox | QComboBox) -> None:
+    """The wheel neither changes a field nor brings the keyboard to it."""
+    field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    field.installEventFilter(_WheelFilter(field))
+
+
+class Combo(QComboBox):
+    """As wide as its longest choice; where there is less room the end of the chosen one is left out, not cut. The wheel
+    scrolls the page that it lies in and chooses nothing."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        ignore_wheel(self)
+
+    def set_choices(self, choices: Iterable[tuple[object, str]], selected: object = None) -> None:
+        """Values with their words in place of those before; the first unless another is ``selected``. Tells nobody."""
+        self.blockSignals(True)
+        self.clear()
+        for number, (value, words) in enumerate(choices):
+            self.addItem(words, value)
+            if value == selected:
+                self.setCurrentIndex(number)
+        self.blockSignals(False)
+
+    def choose(self, value: object) -> None:
+        self.setCurrentIndex(self.findData(value))
+
+    def initStyleOption(self, option: QStyleOptionComboBox) -> None:
+        super().initStyleOption(option)
+        part = QStyle.SubControl.SC_ComboBoxEditField
+        room = self.style().subControlRect(QStyle.ComplexControl.CC_ComboBox, option, part, self).width()
+        option.currentText = self.fontMetrics().elidedText(option.currentText, Qt.TextElideMode.ElideRight, room)
+
+
+class LabelledField(QWidget):
+    """A field under its caption, with what belongs to it ``beside`` it."""
+
+    def __init__(self, theme: Theme, label: str, field: QWidget, *beside: QWidget) -> None:
+        super().__init__()
+        self.name = name = Text(theme, label, 14, MEDIUM, "text2")
+        name.setBuddy(field)
+        field.setAccessibleName(label.replace("&", ""))
+        column = column_layout(name, gap=4, margins=(0, 0, 0, 0), parent=self)
+        if beside:
+            column.addLayout(row_layout((field, 1), *beside, gap=6))
+        else:
+            column.addWidget(field)
+
+
+def number_field(theme: Theme, maximum: int, suffix: str = "", empty_text: str = "", minimum: int = 0) -> QSpinBox:
+    """A whole number with its unit; ``empty_text`` is shown for the least."""
+    field = QSpinBox()
+    ignore_wheel(field)
+    field.setRange(minimum, maximum)
+    field.setSuffix(suffix)
+    field.setSpecialValueText(empty_text)
+    theme.on_change(field, lambda: field.setFixedWidth(theme.px(110)))
+    field.lineEdit().setTextMargins(10, 0, 10, 0)  # the style sheet's padding does not reach the text of a spin box
+    return field
+
+
+class DateField(QLineEdit):
+    """A day as people type one, empty for none."""
+
+    def value(self) -> date | None:
+        """None where nothing, or no day, is typed."""
+        return numbers.parse_date(self.text())
+
+    def set_value(self, day: date | None) -> None:
+        self.setText(numbers.format_date(day) if day is not None else "")
+
+
+class NumberField(QLineEdit):
+    """A number with a decimal comma or point, empty for none. What is refused stays; its edge is marked, as that of
+    what is in doubt, and the tooltip tells why."""
+
+    def __init__(self, theme: Theme, width_px: int = 110, max_length: int = 12) -> None:
+        super().__init__(maxLength=max_length)
+        self._theme, self._width_px = theme, width_px
+        self.textChanged.connect(lambda _: self._apply_theme())
+        theme.changed.connect(self._apply_theme)
+
+    @property
+    def is_empty(self) -> bool:
+        return not self.text().strip().removesuffix("°").strip()
+
+    def value(self) -> float:
+        """NaN where nothing, or no number, is written."""
+        text = self.text().strip().removesuffix("°").strip().replace(",", ".").replace("\N{MINUS SIGN}", "-")
+        try:
+            value = float(text)
+        except ValueError:
+            return math.nan
+        return value if math.isfinite(value) else math.nan
+
+    def set_value(self, value: float) -> None:
+        """Show a number; NaN empties the field."""
+        self.setText(
+            numbers.format_significant(value, 6).replace("-", "\N{MINUS SIGN}") if math.isfinite(value) else ""
+        )
+
+    @property
+    def problem(self) -> str:
+        """Why it cannot be kept; empty when it can."""
+        return ""
+
+    @property
+    def warning(self) -> str:
+        """Why it should be looked at again; empty where nothing is unusual."""
+        return ""
+
+    def _apply_theme(self) -> None:
+        self.setFixedWidth(self._theme.px(self._width_px))
+        token = "bad" if self.problem else "warn" if self.warning else ""
+        edge = getattr(self._theme.tokens, token) if token else ""
+        self.setStyleSheet(f"QLineEdit {{ border: 2px solid {edge}; }}" if edge else "")
+        self.setToolTip(self.problem or self.warning)
+        self.setAccessibleDescription(self.problem or self.warning)
+
+
+class DegreesField(NumberField):
+    """An angle above 0, or from a lowest one, to the largest; ``empty_text`` stands where it is empty. ``direction`` is
+    the sign of the value, which the person never sees."""
+
+    def __init__(self, theme: Theme, maximum: int, empty_text: str, direction: float = 1.0) -> None:
+        super().__init__(theme)
+        self._minimum, self._maximum, self.direction = 0, maximum, direction
+        self.setPlaceholderText(empty_text)
+        self.editingFinished.connect(lambda: self.set_value(self.value()) if math.isfinite(self.value()) else None)
+        self._apply_theme()
+
+    def value(self) -> float:
+        value = super().value()
+        is_possible = (value >= self._minimum if self._minimum else value > 0.0) and value <= self._maximum
+        return self.direction * value if is_possible else math.nan
+
+    def set_minimum(self, minimum: int) -> None:
+        """0, beyond which an angle must be, or the lowest that can be entered."""
+        self._minimum = minimum
+        self._apply_theme()
+
+    def set_value(self, value: float) -> None:
+        super().set_value(self.direction * value)
+        if not self.is_empty:
+            self.setText(f"{self.text()}°")
+
+    @property
+    def problem(self) -> str:
+        if self.is_empty or math.isfinite(self.value()):
+            return ""
+        return self.tr("Up to {most}°, or empty").format(most=self._maximum)
+
+
+class ChoiceRow(QWidget):
+    """Exclusive choices side by side; Tab leads to the chosen one, arrow keys choose another. The chosen one is filled
+    and says so by its check state."""
+
+    chosen = Signal(object)
+
+    def __init__(
+        self, theme: Theme, options: Sequence[tuple[object, str]], current: object = None, *, wraps: bool = False
+    ) -> None:
+        """``wraps``: in several lines where there is little room."""
+        super().__init__()
+        row = FlowLayout(8) if wraps else QHBoxLayout()
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(8)
+        self.setLayout(row)
+        self._group = QButtonGroup(self)
+        self._values: list[object] = []
+        for number, (value, text) in enumerate(options):
+            button = ChoiceButton(theme, text)
+            self._group.addButton(button, number)
+            self._values.append(value)
+            row.addWidget(button)
+        if isinstance(row, QHBoxLayout):
+            row.addStretch(1)
+        self._group.idClicked.connect(lambda number: self.chosen.emit(self._values[number]))
+        self._group.idToggled.connect(self._update_tab_stop)
+        self.choose(current if current in self._values else self._values[0])
+
+    def choose(self, value: object) -> None:
+        """One of the values; with another the choice is taken back: the person must make it."""
+        if value in self._values:
+            self._group.button(self._values.index(value)).setChecked(True)
+            return
+        self._group.setExclusive(False)
+        for button in self.buttons():
+            button.setChecked(False)
+        self._group.setExclusive(True)
+
+    def _update_tab_stop(self) -> None:
+        """Qt does it only once a button has had the keyboard."""
+        at = max(self._group.checkedId(), 0)
+        for number, button in enumerate(self.buttons()):
+            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if number == at else Qt.FocusPolicy.ClickFocus)
+
+    def value(self) -> object:
+        """What is chosen; None before anything is."""
+        chosen = self._group.checkedId()
+        return self._values[chosen] if chosen >= 0 else None
+
+    def buttons(self) -> list[ChoiceButton]:
+        return [self._group.button(number) for number in range(len(self._values))]  # type: ignore[misc]
+
+
+class ChoiceButton(Button):
+    """One of several; chosen = accent outline, soft fill and a check. The space bar chooses; Enter is not its own."""
+
+    def __init__(self, theme: Theme, text: str, *, height_px: int = 40) -> None:
+        super().__init__(theme, text, "plain", height_px=height_px)
+        self.on_enter = "pass"
+        self.setCheckable(True)
+        self.toggled.connect(lambda on: self.set_label(self.text(), icon="check" if on else ""))
+
+    def _colors(self):  # type: ignore[no-untyped-def]
+        if self.isChecked():
+            color = self._theme.color
+            return color("soft"), color("text"), color("accent"), color("text2")
+        return super()._colors()

@@ -1,0 +1,119 @@
+"""A form as a table: each field is an attribute of a value with its label, its widget, and its rule with the words of
+its fault. One loop lays them out, fills them, checks them and reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import takewhile
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, QWidget
+
+from carpus.ui.kit.button import CheckButton
+from carpus.ui.kit.field import ChoiceRow, Combo, LabelledField
+from carpus.ui.kit.layouts import row_layout
+from carpus.ui.kit.theme import Theme
+
+Validator = Callable[[Any], str]
+"""What is wrong with a value, in words; empty for nothing."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Field:
+    """``name`` is the attribute; ``trailing`` stands behind the widget. One that ``continues_row`` stands in the line
+    of the
+    one before, right behind its widget where it has no label; ``stretch`` of the line's room is its own."""
+
+    name: str
+    label: str
+    widget: QWidget
+    validator: Validator = lambda _: ""
+    trailing: Sequence[QWidget] = ()
+    continues_row: bool = False
+    stretch: int = 0
+    change_signal: str = ""
+    """The signal of a change, where it is not that of its kind."""
+
+
+def require_choice(message: str) -> Validator:
+    """One of several, of which none is chosen by itself."""
+    return lambda value: message if value is None else ""
+
+
+def limit_length(max_length: int, message: str) -> Validator:
+    """Nothing that is typed is ever cut; ``message`` name the ``{max_length}`` of letters that are too many."""
+    return lambda text: message.format(count=len(text) - max_length) if len(text) > max_length else ""
+
+
+_WIDGET_ACCESS: Sequence[tuple[type[QWidget], Callable[[Any], Any], Callable[[Any, Any], object], str]] = (
+    (ChoiceRow, ChoiceRow.value, ChoiceRow.choose, "chosen"),
+    (Combo, Combo.currentData, Combo.choose, "currentIndexChanged"),
+    (CheckButton, CheckButton.isChecked, CheckButton.setChecked, "toggled"),
+    (QSpinBox, QSpinBox.value, QSpinBox.setValue, "valueChanged"),
+    (QLineEdit, lambda line: " ".join(line.text().split()), QLineEdit.setText, "textChanged"),
+    (QPlainTextEdit, lambda text: text.toPlainText().strip(), QPlainTextEdit.setPlainText, "textChanged"),
+)
+"""How each kind of widget is read and filled, and the signal by which it tells that it was changed. One of ours may
+have a ``value`` of its own, and ``set_value``."""
+
+
+class Form(QObject):
+    """The widgets of a table by the names of its fields. ``changed`` whenever something else is in one."""
+
+    changed = Signal()
+
+    def __init__(self, theme: Theme, fields: Sequence[Field]) -> None:
+        super().__init__()
+        self._fields = {field.name: field for field in fields}
+        self._accessors: dict[str, tuple[Callable[[], Any], Callable[[Any], object]]] = {}
+        self.labelled_widgets: dict[str, Any] = {}
+        """Each field under its label; the bare widget where it has none."""
+        for number, field in enumerate(fields):
+            widget = field.widget
+            read, show, tells = next(kind[1:] for kind in _WIDGET_ACCESS if isinstance(widget, kind[0]))
+            read, show = getattr(type(widget), "value", read), getattr(type(widget), "set_value", show)
+            self._accessors[field.name] = partial(read, widget), partial(show, widget)
+            getattr(widget, field.change_signal or tells).connect(lambda *_: self.changed.emit())
+            if field.label:
+                behind = takewhile(lambda one: one.continues_row and not one.label, fields[number + 1 :])
+                beside = [part for one in behind for part in (one.widget, *one.trailing)]
+                self.labelled_widgets[field.name] = LabelledField(
+                    theme, field.label, field.widget, *field.trailing, *beside
+                )
+            elif not field.continues_row:
+                self.labelled_widgets[field.name] = field.widget
+
+    def layout_rows(self) -> list[QHBoxLayout]:
+        """All of it to be laid out from top to bottom."""
+        lines: list[QHBoxLayout] = []
+        for name, part in self.labelled_widgets.items():
+            if not self._fields[name].continues_row:
+                lines.append(row_layout(gap=24))
+            lines[-1].addWidget(part, self._fields[name].stretch)
+        for line in lines:
+            if line.count() > 1 and not any(line.stretch(place) for place in range(line.count())):
+                line.addStretch(1)
+        return lines
+
+    def __getitem__(self, name: str) -> Any:
+        """The widget of a field."""
+        return self._fields[name].widget
+
+    def fill(self, value: object) -> None:
+        """Show what the attributes of a value are; none of several choices where it is not among them."""
+        for name, (_, show) in self._accessors.items():
+            show(getattr(value, name))
+
+    def values(self) -> dict[str, Any]:
+        """What is typed and chosen, by the names of the fields."""
+        return {name: read() for name, (read, _) in self._accessors.items()}
+
+    def find_error(self) -> tuple[QWidget | None, str]:
+        """The first field that is wrong, and what is wrong with it; empty words where all is well."""
+        for name, value in self.values().items():
+            if words := self._fields[name].validator(value):
+                return self[name], words
+        return None, ""

@@ -1,0 +1,236 @@
+"""How figures, times and dates are written on the screen; one rule each, by the person's locale for dates."""
+
+from __future__ import annotations
+
+import math
+import re
+from contextlib import suppress
+from datetime import date, datetime
+
+from PySide6.QtCore import QDate
+
+from carpus.core.model.rounding import format_rounded, round_half_away
+from carpus.ui.kit import language
+from carpus.ui.kit.translate import tr
+
+NARROW_GAP = "\N{NO-BREAK SPACE}"
+UNKNOWN = "\N{EN DASH}"
+
+
+def format_degrees(value_deg: float) -> str:
+    """``42°`` without sign (the word carries it); a dash when unknown.
+
+    >>> degrees(-41.6), degrees(44.5), degrees(-44.5), degrees(float("nan"))
+    ('42°', '45°', '45°', '–')
+    """
+    return f"{round_half_away(abs(value_deg))}°" if math.isfinite(value_deg) else UNKNOWN
+
+
+def format_signed_degrees(value_deg: float) -> str:
+    """``−3°`` below zero, where no word carries the sign.
+
+    >>> signed_degrees(-3.2), signed_degrees(-0.3)
+    ('−3°', '0°')
+    """
+    shown = format_degrees(value_deg)
+    minus = "\N{MINUS SIGN}" if value_deg < 0 and shown != format_degrees(0.0) else ""
+    return f"{minus}{shown}"
+
+
+def format_with_sd(value_deg: float, sd_deg: float) -> str:
+    """``57° ± 2°`` with no-break spaces; without the spread when that is unknown."""
+    if not math.isfinite(value_deg) or not math.isfinite(sd_deg):
+        return format_degrees(value_deg)
+    return f"{format_degrees(value_deg)}{NARROW_GAP}{format_sd(sd_deg)}"
+
+
+def format_sd(sd_deg: float) -> str:
+    """``± 2°``; empty when unknown. A spread below half a degree still says one, never none."""
+    if not math.isfinite(sd_deg):
+        return ""
+    return f"±{NARROW_GAP}{max(1, round_half_away(sd_deg))}°"
+
+
+def format_speed(value_deg_s: float) -> str:
+    """``38°/s``."""
+    return f"{round_half_away(abs(value_deg_s))}°/s" if math.isfinite(value_deg_s) else UNKNOWN
+
+
+def format_millimetres(value_mm: float) -> str:
+    """``12 mm``."""
+    return f"{round_half_away(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
+
+
+def format_shortest(value: float) -> str:
+    """With a decimal only where there is one.
+
+    >>> shortest(2.5), shortest(5.0)
+    ('2.5', '5')
+    """
+    return format_fixed(value, int(value % 1 != 0))
+
+
+def format_fixed(value: float, decimals: int) -> str:
+    """``12.5`` with that many decimals, written as the person's language writes it; a dash when unknown.
+
+    >>> fixed(12.46, 1), fixed(float("nan"), 1), fixed(-0.04, 1)
+    ('12.5', '–', '0.0')
+    """
+    if not math.isfinite(value):
+        return UNKNOWN
+    return _localise(format_rounded(value, decimals))
+
+
+def format_signed(value: float, decimals: int) -> str:
+    """``+1.3``, ``−0.4``: with its sign, also above zero."""
+    return f"{'−' if value < 0 else '+'}{format_fixed(abs(value), decimals)}"
+
+
+def format_significant(value: float, digits: int) -> str:
+    """``0.65`` with that many figures that mean something, none but them.
+
+    >>> figures(0.6512, 3), figures(12.0, 3)
+    ('0.651', '12')
+    """
+    return _localise(f"{value:.{digits}g}") if math.isfinite(value) else UNKNOWN
+
+
+def format_integer(value: int) -> str:
+    """``1,250``: thousands apart, as the person's language parts them."""
+    return language.locale().toString(value)
+
+
+def _localise(plain: str) -> str:
+    """A number as Python writes it, with the language's decimal sign."""
+    return plain.replace(".", language.locale().decimalPoint())
+
+
+def format_clock(seconds: float) -> str:
+    """``01:24``, hours only when there are some.
+
+    >>> clock(84.9), clock(3661)
+    ('01:24', '1:01:01')
+    """
+    if not math.isfinite(seconds):
+        return UNKNOWN
+    whole = int(max(0.0, seconds))
+    hours, rest = divmod(whole, 3600)
+    return (f"{hours}:" if hours else "") + f"{rest // 60:02d}:{rest % 60:02d}"
+
+
+def format_clock_tenths(seconds: float) -> str:
+    """``00:20.6``."""
+    tenths = int(max(0.0, seconds) * 10 + 1e-6)
+    return f"{format_clock(tenths // 10)}{language.locale().decimalPoint()}{tenths % 10}"
+
+
+def format_short_date(when: date | datetime) -> str:
+    """``Fri 13 Nov`` in the person's language."""
+    return language.locale().toString(_to_qdate(when), tr("ddd d MMM"))
+
+
+def format_day_month(when: date | datetime) -> str:
+    """``13 Nov``."""
+    return language.locale().toString(_to_qdate(when), tr("d MMM"))
+
+
+def format_distinct_day(when: datetime, *others: datetime) -> str:
+    """``13 Nov``, or ``13 Nov, 15:29`` where another session is of the same day."""
+    same = any(other != when and other.date() == when.date() for other in others)
+    return f"{format_day_month(when)}, {format_distinct_time(when, *others)}" if same else format_day_month(when)
+
+
+def format_distinct_time(when: datetime, *others: datetime) -> str:
+    """``15:29``, or ``15:29:07`` where another session is of the same minute."""
+    day, minute = when.date(), (when.hour, when.minute)  # of hundreds of sessions with each row: nothing is written
+    same = any(other != when and other.date() == day and (other.hour, other.minute) == minute for other in others)
+    return f"{when:%H:%M:%S}" if same else f"{when:%H:%M}"
+
+
+def format_time_or_day(when: datetime, now: datetime) -> str:
+    """``13 Nov``, or ``15:29`` of the same day: short, for the head of a column."""
+    return format_distinct_time(when, now) if when.date() == now.date() else format_day_month(when)
+
+
+def format_recording_time(minutes: float) -> str:
+    """How long a disk takes recordings: ``8 min``, ``17 h``, ``more other 99 h``."""
+    if minutes < 600.0:
+        return tr("{minutes} min").format(minutes=format_rounded(minutes))
+    hours = minutes / 60.0
+    return tr("more than 99 h") if hours > 99.0 else tr("{hours} h").format(hours=format_rounded(hours))
+
+
+def format_long_date(when: date | datetime) -> str:
+    """``Friday 20 November 2026``."""
+    return language.locale().toString(_to_qdate(when), tr("dddd d MMMM yyyy"))
+
+
+def format_date(when: date | datetime) -> str:
+    """``20 Nov 2026``."""
+    return language.locale().toString(_to_qdate(when), tr("d MMM yyyy"))
+
+
+def qt_date_format() -> str:
+    """How a day is typed and shown in a field, in Qt's letters."""
+    return tr("d MMM yyyy")
+
+
+def format_date_time(when: datetime, *others: datetime) -> str:
+    """``20 Nov 2026, 11:36``; to be told from ``others``, by the second where need be."""
+    return f"{format_date(when)}, {format_distinct_time(when, *others)}"
+
+
+def format_days_ago(when: date | datetime, today: date) -> str:
+    """``yesterday``, ``7 days ago``; empty for the future."""
+    days = (today - (when.date() if isinstance(when, datetime) else when)).days
+    if days < 0:
+        return ""
+    return {0: tr("today"), 1: tr("yesterday")}.get(days, tr("{days} days ago").format(days=days))
+
+
+def format_weeks_since(day: date, today: date) -> str:
+    """``13 weeks``, of less than one ``5 days``; empty for the future."""
+    days = (today - day).days
+    if days < 0:
+        return ""
+    weeks = days // 7
+    if weeks:
+        return tr("1 week") if weeks == 1 else tr("{count} weeks").format(count=weeks)
+    return tr("1 day") if days == 1 else tr("{count} days").format(count=days)
+
+
+MIN_YEAR = 1900
+
+
+def parse_date(text: str) -> date | None:
+    """A day as people type one, day before month: ``21.8.2026``, ``21/8/26``, ``2026-08-21``, or as Carpus writes it.
+
+    >>> day_typed("21.8.26"), day_typed("2026-08-21"), day_typed("31.2.2026"), day_typed("soon")
+    (datetime.date(2026, 8, 21), datetime.date(2026, 8, 21), None, None)
+    >>> day_typed("21.8.202"), day_typed("21.8.99999999999"), day_typed("21.8.2026 5")  # a slip, and a year nobody has
+    (None, None, None)
+    >>> day_typed("3 Oct 2026") == day_typed("3 October 2026") == date(2026, 10, 3)
+    True
+    """
+    if found := re.fullmatch(r"(\d{1,4})[\s./-]+(\d{1,2})[\s./-]+(\d{1,4})", text.strip().strip(".")):
+        day, month, year = map(int, found.groups() if len(found[1]) < 3 else reversed(found.groups()))
+        with suppress(ValueError):
+            typed_day = date(year + 2000 if year < 100 else year, month, day)
+            return typed_day if typed_day.year >= MIN_YEAR else None
+        return None
+    for pattern in (qt_date_format(), qt_date_format().replace("MMM", "MMMM")):  # the month written out too
+        typed = language.locale().toDate(text.strip(), pattern)
+        if typed.isValid():
+            return date(typed.year(), typed.month(), typed.day())
+    return None
+
+
+def format_ordinal(number: int) -> str:
+    """``6th``; other languages translate the whole pattern."""
+    last = 0 if number % 100 in (11, 12, 13) else number % 10
+    pattern = {1: tr("{number}st"), 2: tr("{number}nd"), 3: tr("{number}rd")}.get(last, tr("{number}th"))
+    return pattern.format(number=number)
+
+
+def _to_qdate(when: date | datetime) -> QDate:
+    return QDate(when.year, when.month, when.day)

@@ -1,0 +1,63 @@
+"""A table that a person saves where they were asked, for a spreadsheet in the form of their region."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Sequence
+from itertools import count
+from pathlib import Path
+
+from PySide6.QtCore import QLocale
+
+from carpus.core.formats.output_files import TableDialect, open_new_file, require_folder, write_rows
+from carpus.ui.kit import language
+
+OFFERED_REGIONS = ("en_GB", "en_US", "de_DE", "de_AT", "de_CH", "it_IT", "it_CH")
+"""Regions that a sheet offers beside the person's own."""
+
+
+def regional_table_form(region: str) -> TableDialect:
+    """The form in which spreadsheets of a region (``de_DE``) read a table. Raises ValueError where there is none of
+    that name."""
+    locale = QLocale(region.replace("-", "_"))
+    asked = region.replace("-", "_").split("_")
+    if locale.language() == QLocale.Language.C or not set(asked) <= set(locale.name().split("_")):
+        raise ValueError(f"no region is called “{region}”; names are as de_DE, it_IT, en_GB")
+    decimal = "," if locale.decimalPoint() == "," else "."
+    # Spreadsheets of Switzerland part cells by a semicolon, with a decimal point.
+    is_swiss = locale.territory() in (QLocale.Country.Switzerland, QLocale.Country.Liechtenstein)
+    return TableDialect(";" if decimal == "," or is_swiss else ",", decimal, has_bom=True)
+
+
+def user_region() -> str:
+    """The person's, by the computer's formats; by the language where the computer has none."""
+    system = QLocale.system()
+    return (language.locale() if system.language() == QLocale.Language.C else system).name()
+
+
+def encode_table(head: Sequence[str], rows: Iterable[Iterable[object]]) -> bytes:
+    """All of it in the form of the person's region; no cell is calculated by a spreadsheet that opens it."""
+    text = io.StringIO()
+    write_rows(text, head, (map(str, row) for row in rows), regional_table_form(user_region()))
+    return text.getvalue().encode("utf-8-sig")
+
+
+def save_private(path: Path, content: bytes) -> None:
+    """Write a file that nobody else may read, in place of what is there. Raises :class:`DiskFull` or
+    :class:`OutputNotWritable`; then what was there stays."""
+    require_folder(path)
+    with open_new_file(path, overwrite=True) as file:
+        file.write(content)
+
+
+def save_table(path: Path, head: Sequence[str], rows: Iterable[Iterable[object]]) -> None:
+    """Write a table; as :func:`save_private`."""
+    save_private(path, encode_table(head, rows))
+
+
+def companion_path(path: Path, ending: str, *, can_replace: bool) -> Path:
+    """The name of a second table beside the first, of which alone a person was asked: one that is there is replaced
+    only where the first is."""
+    names = (f"{path.stem}{ending}{'' if number == 1 else f'-{number}'}{path.suffix}" for number in count(1))
+    places = (path.with_name(name) for name in names)
+    return next(place for place in places if can_replace or not place.exists())

@@ -1,0 +1,123 @@
+"""What the report of a session, or over several, says: gathered from them, and written."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from carpus.core.measures.manual_measurements import ManualValue, session_values
+from carpus.core.platform.provenance import parameter_section, version_with_revision
+from carpus.core.results.motion_curves import compute_motion_curves
+from carpus.core.results.progress import (
+    compute_progress,
+    error_limits,
+    find_other_hand,
+    find_previous,
+    select_latest_versions,
+)
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.report_form import ReportForm
+from carpus.core.results.session_results import SessionResults, compute_data_digest, compute_session_results
+from carpus.core.results.valid_data import joint_curves, wrist_curves
+from carpus.core.session.values import Session
+from carpus.ui.report.pdf import write_report
+from carpus.ui.report.progress_page import ProgressReport
+from carpus.ui.report.session_page import SessionReport
+from carpus.ui.words.fingers import progress_choices, progress_keys
+
+
+def build_session_report(
+    session: Session,
+    *,
+    choices: RepetitionChoices | None = None,
+    history: Sequence[SessionResults] = (),
+    pseudonym: str = "",
+    dominance: str = "unknown",
+    therapist: str = "",
+    manual_values: Sequence[ManualValue] = (),
+    comment: str = "",
+    form: ReportForm | None = None,
+    language: str = "",
+) -> SessionReport:
+    """What the page of a session says; ``history`` figures of the patient's other sessions, in any order,
+    ``manual_values``
+    all that was ever measured by hand: what counts of the session's day and hand is told; ``language`` of the page,
+    empty for the window's."""
+    figures = compute_session_results(session, choices, error_limits(history))
+    known = next((other for other in history if other.session_id == figures.session_id), figures)
+    older = all(one is not figures for one in select_latest_versions((*history, figures)))
+    figures = replace(figures, earlier_results=known.earlier_results, is_superseded=older)
+    earlier = [other for other in history if other.when < figures.when]
+    alike = [other for other in earlier if (other.exercise.id, other.side) == (figures.exercise.id, figures.side)]
+    fair = [point.results for point in compute_progress(alike).points if point.is_comparable]
+    made_by, source = (
+        parameter_section(session.header.parameters, "provenance"),
+        parameter_section(session.header.parameters, "source"),
+    )
+    return SessionReport(
+        results=figures,
+        curves=wrist_curves(session),
+        joints=joint_curves(session),
+        motion=compute_motion_curves(session),
+        markers=len(session.header.protocol.markers),
+        pseudonym=pseudonym or session.header.subject_id or "–",
+        session_number=sum(one.side == figures.side for one in select_latest_versions(earlier)) + 1 if history else 0,
+        dominance=dominance,
+        therapist=therapist,
+        previous=find_previous(history, figures),
+        first=fair[0] if fair else None,
+        other_hand=find_other_hand(history, figures),
+        digest=compute_data_digest(session),
+        settings_digest=hashlib.sha256(session.header.parameters.encode()).hexdigest(),
+        revision=str(made_by.get("revision") or ""),
+        recording_digest=str(source.get("sha256") or ""),
+        manual_values=session_values(manual_values, figures.side, figures.when.date()),
+        comment=comment,
+        form=form or ReportForm(),
+        language=language,
+    )
+
+
+def write_session_report(report: Session | SessionReport, output_path: Path, **context: object) -> Path:
+    """Write the report of a session, two pages; ``context`` as of :func:`build_session_report` when a session is given.
+    Faults as :func:`write_report`.
+    """
+    page = build_session_report(report, **context) if isinstance(report, Session) else report  # type: ignore[arg-type]
+    return write_report(page, output_path)
+
+
+def write_progress_report(
+    report: Sequence[SessionResults] | ProgressReport, output_path: Path, **context: object
+) -> Path:
+    """Write the one-page report over sessions; faults as :func:`write_report`."""
+    page = report if isinstance(report, ProgressReport) else build_progress_report(report, **context)  # type: ignore[arg-type]
+    return write_report(page, output_path)
+
+
+def build_progress_report(
+    sessions: Sequence[SessionResults],
+    *,
+    pseudonym: str = "",
+    therapist: str = "",
+    choice: str | None = None,
+    manual_values: Sequence[ManualValue] = (),
+    form: ReportForm | None = None,
+    language: str = "",
+    other_hand: SessionResults | None = None,
+) -> ProgressReport:
+    """The course of the newest session's exercise and hand; the other hand's last session beside it, which is
+    ``other_hand`` where that is none of the ``sessions``.
+
+    ``choice`` of the whole hand is followed, as of :func:`progress_choices`; the first of them by itself.
+    ``manual_values`` is what counts of what was measured by hand of this hand and person.
+    """
+    newest = max(sessions, key=lambda figures: figures.when)
+    alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
+    kinds = progress_choices(newest)
+    followed = progress_keys(choice if choice is not None else kinds[0][0]) if kinds else ()
+    course = compute_progress(alike, other_hand or find_other_hand(sessions, newest), followed)
+    course = replace(course, manual_measurements=tuple(manual_values))
+    name = pseudonym or newest.subject_id or "–"
+    return ProgressReport(course, name, therapist, version_with_revision(), form or ReportForm(), language)

@@ -1,0 +1,46 @@
+"""A report page by page, the same on the screen and on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from carpus.core.results.report_form import ReportForm
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.kit.language import use_language
+from carpus.ui.kit.translate import tr
+from carpus.ui.report.page import Body, Page
+
+
+class Report(Protocol):
+    """What can be shown, printed and saved: on whose form, of which sessions, and what is on its pages."""
+
+    @property
+    def form(self) -> ReportForm: ...
+
+    @property
+    def language(self) -> str:
+        """The language it is written in, by two letters; empty for the window's."""
+
+    @property
+    def kind(self) -> str:
+        """What it is, in a word, for the name of its file."""
+
+    @property
+    def pseudonym(self) -> str: ...
+
+    @property
+    def sessions(self) -> Sequence[SessionResults]: ...
+
+    def bodies(self) -> Sequence[Body]: ...
+
+
+def layout_pages(report: Report) -> list[Page]:
+    """The pages, laid out in the language of the report. Only where the window lives, as all widgets."""
+    with use_language(report.language):
+        bodies, simulated = report.bodies(), any(figures.is_simulated for figures in report.sessions)
+        pages = []
+        for number, body in enumerate(bodies, 1):
+            words = tr("page {number} of {count}").format(number=number, count=len(bodies)) if len(bodies) > 1 else ""
+            pages.append(Page(report.form, body(words), simulated=simulated))
+        return pages

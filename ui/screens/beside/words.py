@@ -1,0 +1,257 @@
+"""Sentences and cells of two sessions side by side. A difference is one only beyond measurement error."""
+
+from __future__ import annotations
+
+import math
+
+from carpus.core.results.measure import Measure, MeasureKey, negate_measure
+from carpus.core.results.progress import Comparison, Progress, ProgressPoint
+from carpus.core.results.session_results import SessionResults
+from carpus.core.results.side_by_side import SessionPair
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import Cell, TableColumn, TableContent, TableRow
+from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.kit.icons import State
+from carpus.ui.kit.theme import CURVE_TOKENS
+from carpus.ui.kit.translate import tr
+from carpus.ui.words import terms
+from carpus.ui.words.finger_angles import FINGERS, FingerAngle
+from carpus.ui.words.fingers import LOWER_BOUND, is_thumb_exercise, main_kind, progress_choices, progress_keys
+from carpus.ui.words.progress import comparison_name, range_name, uncertainty_words
+from carpus.ui.words.progress import headline as progress_headline
+from carpus.ui.words.ranges import is_deficit, mean_words, repetition_words
+from carpus.ui.words.verdicts import difference_words, no_change_words, reason_words
+
+_VALUE = TableColumn(SEMIBOLD, scale=1.14)
+COLUMNS = (
+    TableColumn(MEDIUM),
+    _VALUE,
+    _VALUE,
+    TableColumn(is_right_aligned=True, is_wrapped=False),
+    TableColumn(token="text2", is_right_aligned=True),
+    TableColumn(),
+)
+"""Movement, both sessions, the difference, its error, what is said of it."""
+
+
+def session_name(figures: SessionResults, other: SessionResults) -> str:
+    """What tells one of the two from the other: the hand, or the day; both where both differ."""
+    day = numbers.format_distinct_day(figures.when, other.when)
+    if figures.side == other.side:
+        if figures.when == other.when and figures.exercise.id != other.exercise.id:
+            return terms.exercise_name(figures.exercise.id)
+        return day
+    if figures.when.date() == other.when.date():
+        return terms.side_name(figures.side)
+    return tr("{side}, {day}").format(side=terms.side_name(figures.side), day=day)
+
+
+def picture_words(figures: SessionResults, other: SessionResults, affected: str, *, mirrored: bool) -> str:
+    """``Right, affected``, ``Left, healthy · mirrored``, ``20 Nov``: over a picture."""
+    name = session_name(figures, other)
+    if figures.side != other.side and affected in ("right", "left"):
+        pattern = tr("{name}, affected") if figures.side == affected else tr("{name}, healthy")
+        name = pattern.format(name=name)
+    return tr("{name} · mirrored").format(name=name) if mirrored else name
+
+
+def headline(comparison: SessionPair) -> tuple[str, str]:
+    """The answer in one sentence, and the figures behind it."""
+    main = comparison.main_comparison
+    if not comparison.is_comparable:
+        return tr("Shown beside each other, not judged."), ""
+    if main is None:
+        return tr("Not judged: there is no movement that both have."), ""
+    if comparison.relation == "dates":
+        return progress_headline(_to_progress(comparison))
+    if main.verdict == "not_judged":
+        why = reason_words(main.reasons) or tr("not measured")
+        return tr("Not judged: {why}.").format(why=why), tr("What is hidden does not count.")
+    if not main.is_beyond_error:
+        return tr("No difference beyond measurement error between right and left."), _basis(main)
+    size = numbers.format_degrees(main.display_difference_deg)
+    if _is_bound(main):
+        size = tr("at least {size}").format(size=size)
+    pattern = {
+        (True, True): tr("{movement}: {size} less on the right than on the left."),
+        (True, False): tr("{movement}: {size} more on the right than on the left."),
+        (False, True): tr("{movement}: {size} less on the left than on the right."),
+        (False, False): tr("{movement}: {size} more on the left than on the right."),
+    }[comparison.first.side == "right", main.difference_deg < 0.0]
+    return pattern.format(movement=comparison_name(main, comparison.ranges), size=size), _basis(main)
+
+
+def _basis(one: Comparison) -> str:
+    pattern = (
+        tr("{movement} {first} against {second}: more than the measurement error of {limit}.")
+        if one.is_beyond_error
+        else tr("{movement} {first} against {second}: within the measurement error of {limit}.")
+    )
+    return pattern.format(
+        movement=comparison_name(one), first=_format_end(one.after), second=_format_end(one.before),
+        limit=numbers.format_degrees(one.limit_deg),
+    )  # fmt: skip
+
+
+def _format_end(row: Measure) -> str:
+    if row.wrist_angle >= 0:
+        return terms.end_words(row.mean, row.quantity)
+    return f"{f'{LOWER_BOUND}{numbers.NARROW_GAP}' if row.is_lower_bound else ''}{numbers.format_degrees(row.mean)}"
+
+
+def _is_bound(one: Comparison) -> bool:
+    """Whether a difference is a lower bound, since one of the two was hidden in part."""
+    return one.is_beyond_error and one.lower_bounds[0] != one.lower_bounds[1]
+
+
+def unfair_words(comparison: SessionPair) -> str:
+    """Why nothing is judged; empty for a fair pair."""
+    if comparison.is_comparable:
+        return ""
+    return tr("Not a fair pair: {why}. Figures are shown, nothing is judged.").format(
+        why=reason_words(comparison.reasons)
+    )
+
+
+def doubts(comparison: SessionPair) -> list[str]:
+    """What was doubtful about the sessions of a fair pair."""
+    if not comparison.is_comparable:
+        return []
+    course = _to_progress(comparison)
+    return [words for point in course.points if (words := uncertainty_words(point, course))]
+
+
+def _to_progress(both: SessionPair) -> Progress:
+    """The pair as the progress shows two sessions."""
+    points = (ProgressPoint(both.second, ()), ProgressPoint(both.first, ()))
+    return Progress(points, both.ranges, None)
+
+
+def facts_words(comparison: SessionPair) -> str:
+    """What was compared, and what is left out of it."""
+    first, second = comparison.first, comparison.second
+    days = abs((first.when.date() - second.when.date()).days)
+    if not comparison.is_comparable:
+        parts = []
+    elif not days:
+        parts = [tr("same exercise, same day, same set-up")]
+    elif days == 1:
+        parts = [tr("same exercise, same set-up, 1 day apart")]
+    else:
+        parts = [tr("same exercise, same set-up, {count} days apart").format(count=days)]
+    names = (session_name(first, second), session_name(second, first))
+    for name, figures in zip(names, (first, second), strict=True):
+        parts.append(tr("{name}: {what}").format(name=name, what=repetition_words(figures)))
+    return "; ".join(parts)
+
+
+def difference_table(comparison: SessionPair) -> TableContent:
+    """The ranges that both have, then what only one has."""
+    pattern = tr("{name}, mean ± sd")
+    first, second = session_name(comparison.first, comparison.second), session_name(comparison.second, comparison.first)
+    heads = (
+        tr("Movement"), pattern.format(name=first), pattern.format(name=second), tr("Difference"), tr("Error"),
+        Cell(tr("In words"), MEDIUM, "text2", state="none"),  # as far in as the words below it
+    )  # fmt: skip
+    rows = [_shared_row(one, comparison) for one in comparison.ranges]
+    rows += [_single_row(row, comparison, is_first=is_first) for row, is_first in comparison.unpaired if row.count]
+    return TableContent(COLUMNS, heads, tuple(rows))
+
+
+def value_words(row: Measure) -> str:
+    """``57° ± 2°``; ``≥ 57°`` of a joint that was hidden; ``lacks 5°`` of an end that was never reached."""
+    if not row.count:
+        return tr("not seen")
+    if row.is_lower_bound and row.wrist_angle < 0:
+        return f"{LOWER_BOUND}{numbers.NARROW_GAP}{numbers.format_degrees(row.mean)}"
+    return terms.deficit_words(mean_words(negate_measure(row))) if is_deficit(row) else mean_words(row)
+
+
+def _shared_row(one: Comparison, both: SessionPair) -> TableRow:
+    known = math.isfinite(one.difference_deg) and (one.is_beyond_error or not any(one.lower_bounds))
+    in_part = not one.is_joint and (one.after.is_lower_bound or one.before.is_lower_bound)
+    limited = tr("limited by the camera's view") if in_part else ""
+    words = "; ".join(part for part in (_judgement(one, both), limited) if part)
+    said = difference_words(one.display_difference_deg) if known else numbers.UNKNOWN
+    if _is_bound(one):
+        said = tr("at least {difference}").format(difference=said)
+    look = (SEMIBOLD, "text") if one.is_beyond_error else (REGULAR, "text2")
+    sign: State = "none" if one.verdict == "not_judged" else _state(one, both)
+    return (
+        _name_cell(one.after, comparison_name(one, both.ranges)), value_words(one.after), value_words(one.before),
+        Cell(said, *look), numbers.format_degrees(one.limit_deg) if both.is_comparable else numbers.UNKNOWN,
+        Cell(words, *look, state=sign),
+    )  # fmt: skip
+
+
+def _single_row(row: Measure, both: SessionPair, *, is_first: bool) -> TableRow:
+    """What only one of the two has."""
+    cells = [value_words(row), numbers.UNKNOWN]
+    words = tr("not judged: only one of the two has it") if both.is_comparable else tr("not judged")
+    return (
+        _name_cell(row, range_name(row, names_arc=True)), *(cells if is_first else cells[::-1]),
+        Cell(numbers.UNKNOWN, REGULAR, "text2"), numbers.UNKNOWN, Cell(words, REGULAR, "text2", state="none"),
+    )  # fmt: skip
+
+
+def _name_cell(row: Measure, name: str) -> str | Cell:
+    """A movement with the colour of its curve."""
+    return (
+        name
+        if row.wrist_angle < 0 or row.quantity == "arc"
+        else Cell(name, MEDIUM, mark_token=CURVE_TOKENS[row.wrist_angle])
+    )
+
+
+def _state(one: Comparison, both: SessionPair) -> State:
+    if not one.is_beyond_error:
+        return "open"
+    if both.relation == "hands":
+        return "warn"
+    return "good" if one.verdict == "improved" else "bad"
+
+
+def _judgement(one: Comparison, both: SessionPair) -> str:
+    if one.verdict == "not_judged":
+        if not both.is_comparable:  # the strip says why
+            return tr("not judged")
+        return tr("not judged: {why}").format(why=reason_words(one.reasons) or tr("not measured"))
+    if both.relation == "dates":
+        if not one.is_beyond_error:
+            return no_change_words()
+        return tr("improved, beyond error") if one.verdict == "improved" else tr("worse, beyond error")
+    if not one.is_beyond_error:
+        return tr("no difference beyond error")
+    less, than_left = one.difference_deg < 0.0, both.second.side == "left"
+    return {
+        (True, True): tr("less than the left, beyond error"),
+        (True, False): tr("less than the right, beyond error"),
+        (False, True): tr("more than the left, beyond error"),
+        (False, False): tr("more than the right, beyond error"),
+    }[less, than_left]
+
+
+def hand_comparison_note() -> str:
+    """What the other hand is to be taken for."""
+    return tr("The other hand is a comparison, not a norm: hands of one person differ by themselves.")
+
+
+MIDDLE_JOINTS = "middle"
+"""The middle joints of all fingers."""
+
+
+def comparison_choices(first: SessionResults, second: SessionResults) -> list[tuple[str, str]]:
+    """What of the whole hand can be compared, as value and words; nothing unless both are of fingers."""
+    if not (first.joint_ranges and second.joint_ranges):
+        return []
+    found = progress_choices(first)
+    if main_kind(first) == "middle" and not is_thumb_exercise(first):
+        return [(MIDDLE_JOINTS, tr("Middle joints of all fingers")), *found]  # no finger stands for the others
+    return found
+
+
+def measure_keys(choice: str) -> tuple[MeasureKey, ...]:
+    """What a choice of :func:`comparison_choices` compares; nothing for the wrist."""
+    if choice == MIDDLE_JOINTS:
+        return tuple((FingerAngle(finger, "middle").joint, "arc") for finger in FINGERS[1:])
+    return progress_keys(choice)

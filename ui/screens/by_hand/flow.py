@@ -1,0 +1,138 @@
+"""The flow of values measured by hand: asked for from the progress, kept in the register."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+from PySide6.QtCore import Qt
+
+from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.fault_text import MessageText
+from carpus.core.model.types import Side
+from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
+from carpus.ui.shell.flow import Flow, ScreenContext
+from carpus.ui.shell.messages import Answer
+
+
+class ManualMeasurementsFlow(Flow):
+    """The form for today, and what of it is not kept yet."""
+
+    screen_name, guide_page, parent_tab = "by_hand", "figures", "progress"
+    screen: ManualMeasurementsScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        super().__init__(context, ManualMeasurementsScreen(context.theme, context.today))
+        self._unsaved_values: dict[str, Sequence[ManualValue]] = {}
+        self.screen.save_requested.connect(self._confirm_save)
+        self.screen.close_button.clicked.connect(self.navigate_back)
+
+    def open(self) -> None:
+        """The form of the patient who is open, for today; with what was written and not kept, if it was left so."""
+        patient, screen = self.context.current.patient, self.screen
+        if patient is not None and screen.record.patient_id == patient.patient_id and screen.has_unsaved:
+            self.context.navigator.switch_screen("by_hand")
+            return
+        self._load(is_refresh=False)
+
+    def navigate_back(self) -> None:
+        """Back to the progress; what is written and not saved is asked about first."""
+        if not self.screen.has_unsaved:
+            self._return_to_progress()
+            return
+        self._confirm_leave(self._discard)
+
+    def prompt_before_close(self) -> bool:
+        """The form is open, and what is written in it would be lost with the window."""
+        if self.context.navigator.underlying_screen != self.screen_name or not self.screen.has_unsaved:
+            return False
+        self._confirm_leave(self.context.window.close_without_prompt)
+        return True
+
+    def _confirm_leave(self, on_discard: Callable[[], None]) -> None:
+        self.context.messages.show_question(
+            MessageText(
+                self.tr("Leave without saving?"),
+                self.tr("Values are written that are not kept yet."),
+                self.tr("Save them, or let them go."),
+            ),
+            (
+                Answer(self.tr("Let them go"), on_discard, "L", is_risky=True),
+                Answer(self.tr("Back to the form"), lambda: None),
+            ),
+            icon="file-text",
+        )
+
+    def _return_to_progress(self) -> None:
+        patient = self.context.current.patient
+        if patient is not None:
+            self.context.navigator.open_screen("progress", patient.patient_id)
+        else:
+            self.return_to_patients()
+
+    def _discard(self) -> None:
+        self.screen.show_record(self.screen.record)
+        self._return_to_progress()
+
+    def _load(self, *, is_refresh: bool) -> None:
+        patient, library = self.context.current.patient, self.context.library
+        if patient is None:
+            return
+        patient_id, initials = patient.patient_id, self.context.report_settings.therapist
+        side: Side = "left" if patient.side == "left" else "right"
+
+        def read() -> ManualRecord:
+            figures = sorted(library.history(patient_id), key=lambda one: one.when)
+            return ManualRecord(
+                patient_id, side, tuple(library.manual_measurements(patient_id)), tuple(figures), initials
+            )
+
+        def on_loaded(record: ManualRecord) -> None:
+            if self.context.current.patient is None or self.context.current.patient.patient_id != patient_id:
+                return
+            self._stash_unsaved(patient_id)
+            self.screen.show_record(record, is_refresh=is_refresh)
+            if not is_refresh:
+                self.screen.restore_unsaved(self._unsaved_values.pop(patient_id, ()))
+                self.context.navigator.switch_screen("by_hand")
+                self.screen.initial_focus().setFocus(Qt.FocusReason.OtherFocusReason)
+
+        self.run(read, on_loaded)
+
+    def _stash_unsaved(self, patient_id: str) -> None:
+        """What is written of another patient and not kept waits until that patient's form is opened again."""
+        before = self.screen.record.patient_id
+        with suppress(ValueError):  # what cannot be kept was marked red all the time
+            if before != patient_id and (values := self.screen.list_unsaved()):
+                self._unsaved_values[before] = values
+
+    def _confirm_save(self, values: Sequence[ManualValue], doubts: Sequence[str]) -> None:
+        if not values:
+            return
+        if not doubts:
+            self._save(values)
+            return
+        self.context.messages.show_question(
+            MessageText(
+                self.tr("Unusual: check, or keep it"),
+                "; ".join(doubts),
+                self.tr("Look at the numbers once more before they are kept."),
+            ),
+            (
+                Answer(self.tr("Keep as written"), lambda: self._save(values), "K", is_risky=True),
+                Answer(self.tr("Back to the form"), lambda: None),
+            ),
+            icon="file-text",
+        )
+
+    def _save(self, values: Sequence[ManualValue]) -> None:
+        patient = self.context.current.patient
+        if patient is None:
+            return
+        patient_id, by = patient.patient_id, self.context.report_settings.therapist
+        signed = [replace(one, rater=by) for one in values]
+        self.run(
+            lambda: self.context.library.add_manual_measurements(patient_id, signed),
+            lambda _: self._load(is_refresh=True),
+        )

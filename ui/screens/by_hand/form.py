@@ -1,0 +1,321 @@
+"""The rows of the form: one for each measure, in groups, with what was measured last and on the other hand."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from datetime import date
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
+
+from carpus.core.measures.manual_measurements import (
+    MAX_LOCATION_LENGTH,
+    MEASURES,
+    ManualMeasure,
+    ManualValue,
+    MeasureKey,
+    Mode,
+    find_manual_measure,
+    is_unusual,
+    latest_entries,
+    previous_value,
+    superseded_entries,
+    value_on_day,
+)
+from carpus.core.model.types import Side
+from carpus.core.results.measure import Measure
+from carpus.ui.kit import numbers
+from carpus.ui.kit.card import Separator
+from carpus.ui.kit.field import NumberField, add_inside
+from carpus.ui.kit.layouts import grid_layout
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
+from carpus.ui.kit.theme import Theme
+from carpus.ui.words import terms
+from carpus.ui.words.manual_values import (
+    direction_words,
+    group_names,
+    measure_name,
+    mode_name,
+    unit_name,
+    value_words,
+)
+
+FIELD_PX = {"angle": 84, "force": 84, "size": 104, "score": 104}
+CARPUS_COLUMN, OTHER_HAND_COLUMN, LAST_COLUMN = 4, 5, 6
+"""Columns behind the name and up to three fields."""
+
+
+class MeasureRow(QObject):
+    """The fields of one measure and what stands beside them. ``edited`` whenever a field changes."""
+
+    edited = Signal()
+
+    def __init__(self, theme: Theme, measure: ManualMeasure) -> None:
+        super().__init__()
+        self.measure = measure
+        name = measure_name(measure)
+        self.name = Text(theme, name, 14, REGULAR, wrap=True)
+        fields: list[tuple[Mode, int]] = [
+            (way, number) for way in measure.modes for number in range(measure.trial_count)
+        ]
+        self.fields: list[tuple[Mode, ValueField]] = []
+        for way, number in fields:
+            which = mode_name(way) or (f"{number + 1}" if measure.trial_count > 1 else "")
+            field = ValueField(theme, measure, f"{name} {which}".strip(), FIELD_PX[measure.kind])
+            field.textChanged.connect(lambda _: self._on_edited())
+            self.fields.append((way, field))
+        self.location_field = QLineEdit(maxLength=MAX_LOCATION_LENGTH, placeholderText=self.tr("where"))
+        self.location_field.setAccessibleName(self.tr("{name}: where it was taken").format(name=name))
+        self.location_field.textChanged.connect(lambda _: self._on_edited())
+        self.widgets: list[QWidget] = []
+        self.side_text = Text(theme, "", 14, SEMIBOLD)
+        self.other_hand_text = Text(theme, "", 14, REGULAR, "text2")
+        self.last_text = Text(theme, "", 14, REGULAR, "text2")
+        self._carpus_measure: Measure | None = None
+
+    def add_to_grid(self, theme: Theme, grid: QGridLayout, grid_row: int) -> None:
+        aside: dict[str, QWidget] = {
+            "size": self.location_field,
+            "score": Text(theme, direction_words(self.measure), 12, MEDIUM, "text2"),
+        }
+        shown = [(0, self.name), *((1 + number, field) for number, (_, field) in enumerate(self.fields))]
+        shown += [(CARPUS_COLUMN, self.side_text), (OTHER_HAND_COLUMN, self.other_hand_text)]
+        for column, widget in shown:
+            grid.addWidget(widget, grid_row, column)
+        grid.addWidget(self.last_text, grid_row, LAST_COLUMN, Qt.AlignmentFlag.AlignRight)
+        self.widgets = [self.last_text, *(widget for _, widget in shown)]
+        if self.measure.kind in aside:
+            self.widgets.append(aside[self.measure.kind])
+            grid.addWidget(self.widgets[-1], grid_row, 2, 1, 2)
+
+    def keys(self, side: Side) -> list[MeasureKey]:
+        return [(self.measure.id, way, side if self.measure.is_per_hand else "") for way in self.measure.modes]
+
+    def show_values(self, values: Sequence[ManualValue], side: Side, day: date, carpus_measure: Measure | None) -> None:
+        self._carpus_measure = carpus_measure
+        fields = [field for _, field in self.fields]
+        for field in (*fields, self.location_field):
+            field.blockSignals(True)
+        stored = [value_on_day(values, key, day) for key in self.keys(side)]
+        none = [math.nan] * self.measure.trial_count
+        shown = [
+            number for one in stored for number in [*(one.trials if one else ()), *none][: self.measure.trial_count]
+        ]
+        for field, number in zip(fields, shown, strict=True):
+            field.set_value(number)
+        last = [previous_value(values, key, day) for key in self.keys(side)]
+        where = stored[0] or last[0]
+        self.location_field.setText(where.location if where else "")
+        for field in (*fields, self.location_field):
+            field.blockSignals(False)
+        words = " / ".join(value_words(self.measure, one.value) if one else "–" for one in last)
+        known = [one for one in last if one]
+        self.last_text.setText(f"{numbers.format_day_month(max(one.day for one in known))}: {words}" if known else "")
+        self._show_history(values, side, day)
+        self.other_hand_text.setText("")
+        if self.measure.is_per_hand and self.measure.kind != "angle":
+            other: Side = "left" if side == "right" else "right"
+            found = value_on_day(values, self.keys(other)[0], day) or previous_value(values, self.keys(other)[0], day)
+            if found:
+                pattern = self.tr("{side} {value}")
+                value = value_words(self.measure, found.value)
+                self.other_hand_text.setText(pattern.format(side=terms.side_name(other), value=value))
+        self._update_side_text()
+
+    def _show_history(self, values: Sequence[ManualValue], side: Side, day: date) -> None:
+        """What was entered before for the same day, and by whom."""
+        lines = []
+        for key in self.keys(side):
+            for one in superseded_entries(values, key, day):
+                when = numbers.format_date_time(one.entered_at.astimezone()) if one.entered_at else ""
+                said = (
+                    value_words(self.measure, one.value) if one.trials else self.tr("taken back"),
+                    mode_name(one.mode),
+                )
+                lines.append(" · ".join(filter(None, (" ".join(filter(None, said)), one.rater, when))))
+        if lines:
+            changed = self.tr("changed")
+            self.last_text.setText(f"{changed} · {self.last_text.text()}" if self.last_text.text() else changed)
+        self.last_text.setToolTip(self.tr("Entered before for this day:") + "\n" + "\n".join(lines) if lines else "")
+        self.last_text.setAccessibleDescription(self.last_text.toolTip())
+
+    def read_values(self, side: Side, day: date) -> list[ManualValue]:
+        """What is written, one for each way, without tries where nothing is. Raises ValueError for what cannot be."""
+        found = []
+        for key in self.keys(side):
+            tries = tuple(f.value() for way, f in self.fields if way == key[1] and not f.is_empty)
+            where = self.location_field.text().strip() if self.measure.kind == "size" and tries else ""
+            found.append(ManualValue(key[0], key[1], key[2], day, tries, where))  # type: ignore[arg-type]
+        return found
+
+    def _on_edited(self) -> None:
+        self._update_side_text()
+        self.edited.emit()
+
+    def _update_side_text(self) -> None:
+        """The mean of the tries; Carpus's own value, but only once the hand's is there: nobody shall be led."""
+        values = [field.value() for _, field in self.fields if not (field.is_empty or field.error)]
+        if self.measure.trial_count > 1:
+            mean = sum(values) / len(values) if values else math.nan
+            words = value_words(self.measure, mean) if values else ""
+            self.side_text.setText(self.tr("mean {value}").format(value=words) if values else "")
+        elif self.measure.kind == "angle":
+            row, active = self._carpus_measure, self.fields[0][1]
+            words = numbers.UNKNOWN
+            if row is not None and row.count and not (active.is_empty or active.error):
+                words = numbers.format_with_sd(row.mean, row.sd)
+                words = words if row.wrist_angle < 0 else terms.end_words(row.mean, row.quantity, row.sd)
+            self.side_text.setText(words)
+
+
+class ManualForm(QWidget):
+    """All rows, group by group. ``edited`` whenever something changes, ``measure_edited`` carries the measure written
+    in."""
+
+    edited = Signal()
+    measure_edited = Signal(str)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._grid = grid_layout(12, 6, stretches=(1,), margins=(0, 0, 0, 0), parent=self)
+        self.rows: dict[str, MeasureRow] = {}
+        """Those that are shown, from top to bottom."""
+        self._rows_by_measure: dict[str, MeasureRow] = {}
+        self._grid_rows: dict[str, int] = {}
+        """Of each measure, shown or not, the line of the grid."""
+        self._headings: dict[str, tuple[list[QWidget], int]] = {}
+        """Of each kind what stands above its rows, and the line below them."""
+        for kind, heading in group_names().items():
+            line = self._grid.rowCount()
+            measures = [one.id for one in MEASURES if one.kind == kind]
+            self._grid_rows |= {name: line + 2 + number for number, name in enumerate(measures)}
+            self._headings[kind] = self._make_heading(kind, heading, line), line + 2 + len(measures)
+            self._grid.setRowMinimumHeight(self._headings[kind][1], 12)
+
+    def _make_heading(self, kind: str, heading: str, line: int) -> list[QWidget]:
+        heads = [(0, heading, SEMIBOLD, "text")]
+        if kind == "angle":
+            heads += [(1, self.tr("Active"), MEDIUM, "text2"), (2, self.tr("Passive"), MEDIUM, "text2")]
+            heads += [(CARPUS_COLUMN, self.tr("Carpus"), MEDIUM, "text2")]
+        heads += [(LAST_COLUMN, self.tr("last time"), MEDIUM, "text2")] if not self._headings else []
+        shown: list[QWidget] = [Separator(self._theme)]
+        self._grid.addWidget(shown[0], line + 1, 0, 1, LAST_COLUMN + 1)
+        for column, words, weight, token in heads:
+            place = Qt.AlignmentFlag.AlignRight if column == LAST_COLUMN else Qt.AlignmentFlag.AlignLeft
+            shown.append(Text(self._theme, words, 14 if weight == SEMIBOLD else 12, weight, token))
+            self._grid.addWidget(shown[-1], line, column, place)
+        return shown
+
+    def set_measures(self, wanted: set[str]) -> None:
+        """Show these; what is written in rows that stay is kept."""
+        self.rows = {
+            name: self._rows_by_measure.get(name) or self._make_row(name) for name in self._grid_rows if name in wanted
+        }
+        for name, row in self._rows_by_measure.items():
+            for widget in row.widgets:
+                widget.setVisible(name in wanted)
+        kinds = {row.measure.kind for row in self.rows.values()}
+        for kind, (heads, end) in self._headings.items():
+            self._grid.setRowMinimumHeight(end, 12 if kind in kinds else 0)
+            for head in heads:
+                head.setVisible(kind in kinds)
+        for one, following in itertools.pairwise(self._input_fields()):
+            QWidget.setTabOrder(one, following)
+
+    def _make_row(self, name: str) -> MeasureRow:
+        row = self._rows_by_measure[name] = MeasureRow(self._theme, find_manual_measure(name))
+        row.add_to_grid(self._theme, self._grid, self._grid_rows[name])
+        row.edited.connect(self.edited)
+        for _, field in row.fields:
+            field.next_requested.connect(lambda field=field: self._focus_next(field))
+            field.textEdited.connect(lambda _: self.measure_edited.emit(name))
+        return row
+
+    def _input_fields(self) -> list[QWidget]:
+        """What is typed in, line by line."""
+        return [
+            entry
+            for row in self.rows.values()
+            for entry in (
+                *(field for _, field in row.fields),
+                *([row.location_field] if row.measure.kind == "size" else []),
+            )
+        ]
+
+    def _focus_next(self, field: ValueField) -> None:
+        """Enter goes to the next field; after the last one it stays."""
+        fields = self._input_fields()
+        following = fields[min(fields.index(field) + 1, len(fields) - 1)]
+        following.setFocus(Qt.FocusReason.TabFocusReason)
+
+    def show_values(
+        self, values: Sequence[ManualValue], side: Side, day: date, carpus_measures: Mapping[str, Measure]
+    ) -> None:
+        for name, row in self.rows.items():
+            row.show_values(values, side, day, carpus_measures.get(name))
+
+    def initial_focus(self) -> QWidget:
+        return next(iter(self.rows.values())).fields[0][1]
+
+    def list_errors(self) -> list[tuple[ValueField, str]]:
+        return [(f, f.error) for row in self.rows.values() for _, f in row.fields if f.error]
+
+    def list_warnings(self) -> list[str]:
+        """What should be looked at again: ``Flexion, passive: 180°? …``."""
+        return [f"{f.accessibleName()}: {f.warning}" for row in self.rows.values() for _, f in row.fields if f.warning]
+
+    def find_changes(self, values: Sequence[ManualValue], side: Side, day: date) -> list[ManualValue]:
+        """What is written otherwise than it is stored, to be entered; nothing of what is the same."""
+        found, kept = [], latest_entries(values)
+        for row in self.rows.values():
+            for one in row.read_values(side, day):
+                stored = kept.get((one.key, day))
+                same = (stored.trials, stored.location) == (one.trials, one.location) if stored else not one.trials
+                if not same:
+                    found.append(one)
+        return found
+
+
+class ValueField(NumberField):
+    """A value of a measure, empty for not measured. Enter goes to the next field."""
+
+    next_requested = Signal()
+
+    def __init__(self, theme: Theme, measure: ManualMeasure, name: str, width_px: int) -> None:
+        super().__init__(theme, width_px, max_length=8)
+        self._measure = measure
+        add_inside(self, None, caption(theme, unit_name(measure)), edge_px=9)
+        self.setAccessibleName(name)
+        self._apply_theme()
+
+    @property
+    def error(self) -> str:
+        of = self._measure
+        if self.is_empty or of.min_value <= self.value() <= of.max_value:
+            return ""
+        pattern = self.tr("A number from {least} to {most}, or empty")
+        return pattern.format(least=numbers.format_significant(of.min_value, 6), most=value_words(of, of.max_value))
+
+    @property
+    def warning(self) -> str:
+        """``180°? Usual is up to 100°``."""
+        of, value = self._measure, self.value()
+        if self.error or not math.isfinite(value) or not is_unusual(of, value):
+            return ""
+        low, high = (value_words(of, end) for end in of.usual_range)
+        return self.tr("{value}? Usual is {low} to {high}").format(value=value_words(of, value), low=low, high=high)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        plain = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier == Qt.KeyboardModifier.NoModifier
+        if plain and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.next_requested.emit()
+        else:
+            super().keyPressEvent(event)
+
+    def _apply_theme(self) -> None:
+        self.setTextMargins(0, 0, self._theme.px(46 if self._measure.unit == "points" else 26), 0)
+        super()._apply_theme()

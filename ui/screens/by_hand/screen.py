@@ -1,0 +1,290 @@
+"""The form for what was measured by hand on a day, with its course beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import date, datetime
+
+from PySide6.QtCore import QDate, Qt, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QBoxLayout, QDateEdit, QWidget
+
+from carpus.core.measures.manual_measurements import (
+    MEASURES,
+    ManualMeasure,
+    ManualValue,
+    MeasureKey,
+    current_values,
+    find_manual_measure,
+)
+from carpus.core.model.types import Side
+from carpus.core.results.measure import Measure
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.charts.manual_values import ManualValueChart
+from carpus.ui.kit import numbers
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import Card
+from carpus.ui.kit.field import ChoiceRow, Combo, ignore_wheel
+from carpus.ui.kit.layouts import (
+    STRETCH,
+    FittedWidget,
+    ScrollArea,
+    ScrolledColumn,
+    clear_layout,
+    column_layout,
+    fill,
+    row_layout,
+)
+from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.screens.by_hand.change_rows import add_change_rows
+from carpus.ui.screens.by_hand.form import ManualForm
+from carpus.ui.words import terms
+from carpus.ui.words.manual_values import find_changes, measure_name
+
+
+@dataclass(frozen=True, slots=True)
+class ManualRecord:
+    """All of a patient that the screen shows: ``values`` as entered, ``figures`` of the sessions in order of time."""
+
+    patient_id: str
+    side: Side
+    values: tuple[ManualValue, ...]
+    figures: tuple[SessionResults, ...]
+    initials: str
+
+
+class ManualMeasurementsScreen(FittedWidget):
+    """``save_requested`` carries what is to be entered and words of what is unusual in it."""
+
+    save_requested = Signal(object, object)
+
+    def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
+        super().__init__()
+        self._theme, self._today = theme, today
+        day = today()
+        self.record = ManualRecord("", "right", (), (), "")
+        self._added_measures: set[str] = set()
+        self._unsaved: dict[tuple[MeasureKey, date], ManualValue] = {}
+        """Of other days and the other hand, not kept yet: it stays written until it is saved or let go."""
+        self._shown: tuple[Side, date] = ("right", day)
+        self.title = heading(theme, wrap=True)
+        self.basis_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.day_field = QDateEdit(QDate(day.year, day.month, day.day))
+        ignore_wheel(self.day_field)
+        self.day_field.setCalendarPopup(True)
+        self.day_field.setDisplayFormat(numbers.qt_date_format())
+        self.day_field.setMaximumDate(self.day_field.date())
+        self.day_field.setAccessibleName(self.tr("Day of measuring"))
+        self.hand_choice = ChoiceRow(theme, [(side, terms.hand_name(side)) for side in ("right", "left")])
+        self.form = ManualForm(theme)
+        self.measure_choice = Combo()
+        self.measure_choice.setAccessibleName(self.tr("Other measures"))
+        self.status_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.close_button = Button(theme, self.tr("Close"), "quiet", hint="Esc")
+        self.save_button = Button(
+            theme, self.tr("Save values"), "primary", icon="check", hint="Ctrl+Enter", height_px=44
+        )
+        self.chart = ManualValueChart(theme)
+        self._changes = Card(theme, 20)
+        self._build_layout()
+        self.day_field.dateChanged.connect(lambda _: self._switch_day_or_hand())
+        self.hand_choice.chosen.connect(lambda _: self._switch_day_or_hand())
+        self.form.edited.connect(self._on_edited)
+        self.form.measure_edited.connect(self._show_course)
+        self.measure_choice.activated.connect(self._add_measure)
+        self.save_button.clicked.connect(self._request_save)
+        for keys in ("Ctrl+Return", "Ctrl+Enter"):
+            QShortcut(QKeySequence(keys), self, self.save_button.click)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+
+    def _build_layout(self) -> None:
+        head = row_layout((self.title, 1), self.day_field, self.hand_choice, gap=12)
+        entries = Card(self._theme, 20)
+        entries.body.addWidget(self.form)
+        course = Card(self._theme, 20)
+        course.body.addWidget(self.chart)
+        right = column_layout(course, self._changes, STRETCH, gap=GAP_PX)
+        host = ScrolledColumn()
+        self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
+        self._columns.setContentsMargins(0, 0, 0, 0)
+        self._columns.setSpacing(GAP_PX)
+        fill(self._columns, (entries, 5, Qt.AlignmentFlag.AlignTop), (right, 4))
+        foot = row_layout(self.measure_choice, (self.status_text, 1), self.close_button, self.save_button, gap=12)
+        column_layout(
+            head,
+            2,
+            self.basis_text,
+            14,
+            (ScrollArea(host), 1),
+            12,
+            foot,
+            gap=0,
+            margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
+            parent=self,
+        )
+        self._theme.changed.connect(self._fit)
+
+    def _fit(self) -> None:
+        """With large text what stood at the right goes below."""
+        tight = is_tight(self, self._theme) or self.width() < 1180 * self._theme.text_scale
+        directions = QBoxLayout.Direction
+        self._columns.setDirection(directions.TopToBottom if tight else directions.LeftToRight)
+
+    # --- what is shown ------------------------------------------------------------------------------------
+    @property
+    def side(self) -> Side:
+        return "left" if self.hand_choice.value() == "left" else "right"
+
+    @property
+    def selected_day(self) -> date:
+        return date(self.day_field.date().year(), self.day_field.date().month(), self.day_field.date().day())
+
+    @property
+    def has_unsaved(self) -> bool:
+        try:
+            return bool(self.list_unsaved())
+        except ValueError:
+            return True
+
+    def list_unsaved(self) -> list[ManualValue]:
+        """All that is written and not kept, of every day and hand. Raises ValueError for what cannot be kept."""
+        side, day = self._shown
+        here = self.form.find_changes(self.record.values, side, day)
+        shown = {(key, day) for row in self.form.rows.values() for key in row.keys(side)}
+        return [*(one for at, one in self._unsaved.items() if at not in shown), *here]
+
+    def restore_unsaved(self, values: Sequence[ManualValue]) -> None:
+        """What was written of this patient before and not kept, as if it had just been written."""
+        self._unsaved = {(one.key, one.day): one for one in values}
+        self._fill()
+
+    def _switch_day_or_hand(self) -> None:
+        """To another day or hand; what is written stays written. What cannot be kept is put right first."""
+        if self.form.list_errors():
+            self._select(*self._shown)
+            return
+        self._unsaved = {(one.key, one.day): one for one in self.list_unsaved()}
+        self._fill()
+
+    def _select(self, side: Side, day: date) -> None:
+        for widget in (self.day_field, self.hand_choice):
+            widget.blockSignals(True)
+        self.day_field.setDate(QDate(day.year, day.month, day.day))
+        self.hand_choice.choose(side)
+        for widget in (self.day_field, self.hand_choice):
+            widget.blockSignals(False)
+
+    def show_record(self, record: ManualRecord, *, is_refresh: bool = False) -> None:
+        """Everything of one patient; ``is_refresh`` after saving, where day and hand stay."""
+        self.record = record
+        self._unsaved = {}
+        if not is_refresh:
+            self._added_measures = set()
+            today = self._today()  # the program may have stood open over night
+            self.day_field.setMaximumDate(QDate(today.year, today.month, today.day))
+            self._select(record.side, today)
+        self._fill()
+        if is_refresh:
+            self.status_text.setText(self.tr("Kept."))
+
+    def initial_focus(self) -> QWidget:
+        return self.form.initial_focus() if self.form.rows else self
+
+    def _fill(self) -> None:
+        self._shown = (self.side, self.selected_day)
+        usual = {one.id for one in MEASURES if one.is_default}
+        self.form.set_measures(usual | {one.measure for one in self.record.values} | self._added_measures)
+        self.form.show_values(self._all_values(), self.side, self.selected_day, self._carpus_measures())
+        self._fill_more()
+        self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.format_short_date(self.selected_day)))
+        self._show_basis()
+        shown = self.chart.measure.id if self.chart.measure else ""
+        self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))
+        self._fill_changes()
+        self._on_edited()
+
+    def _all_values(self) -> tuple[ManualValue, ...]:
+        return (*self.record.values, *self._unsaved.values())
+
+    def _fill_more(self) -> None:
+        others = [(one.id, measure_name(one)) for one in MEASURES if one.id not in self.form.rows]
+        self.measure_choice.set_choices([("", self.tr("Other measures…")), *others])
+
+    def _show_basis(self) -> None:
+        """Who enters it, what it means, and where the forearm is counted from."""
+        by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
+        words = self.tr("Empty means not measured. Nothing here changes a figure of Carpus.")
+        simulated = any(one.is_simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
+        why = self.tr("What Carpus has of this day is simulated, and no value.") if simulated else ""
+        zero = terms.thumb_up_words() if {"PRONATION", "SUPINATION"} & set(self.form.rows) else ""
+        self.basis_text.setText(" ".join(filter(None, (by, words, zero, why))))
+
+    def _add_measure(self, _number: int) -> None:
+        name = str(self.measure_choice.currentData())
+        if not name:
+            return
+        self._added_measures.add(name)
+        self.form.set_measures({*self.form.rows, name})
+        self.form.rows[name].show_values(
+            self._all_values(), self.side, self.selected_day, self._carpus_measures().get(name)
+        )
+        self._fill_more()
+        self._show_basis()
+        self._show_course(name)
+        self.form.rows[name].fields[0][1].setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _carpus_measures(self) -> dict[str, Measure]:
+        """What Carpus measured of the same on that day: the last session that did."""
+        found: dict[str, Measure] = {}
+        for measure in MEASURES:
+            for _, row in self._find_session_values(measure):
+                if _.date() == self.selected_day:
+                    found[measure.id] = row
+        return found
+
+    def _find_session_values(self, measure: ManualMeasure) -> list[tuple[datetime, Measure]]:
+        if measure.session_measure is None:
+            return []
+        out = []
+        for figures in self.record.figures:
+            if figures.side != self.side or figures.is_simulated or figures.is_excluded:
+                continue
+            row = figures.find(*measure.session_measure)
+            if row is not None and row.count:
+                out.append((figures.when, row))
+        return out
+
+    def _show_course(self, name: str) -> None:
+        measure = find_manual_measure(name)
+        side = self.side if measure.is_per_hand else ""
+        values = [one for one in current_values(self.record.values) if (one.measure, one.side) == (name, side)]
+        self.chart.show_values(measure, values, [(when, row.mean) for when, row in self._find_session_values(measure)])
+
+    def _fill_changes(self) -> None:
+        body, theme = self._changes.body, self._theme
+        clear_layout(body)
+        body.addWidget(Text(theme, self.tr("By hand and by Carpus are never joined"), 16, SEMIBOLD, wrap=True))
+        words = self.tr("Neither averaged nor subtracted. A change is judged within one way of measuring.")
+        body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        mine = [one for one in current_values(self.record.values) if one.side in (self.side, "")]
+        add_change_rows(body, theme, find_changes(mine))
+
+    # --- entering -----------------------------------------------------------------------------------------
+    def _on_edited(self) -> None:
+        problems = self.form.list_errors()
+        elsewhere = [one for (_, day), one in self._unsaved.items() if (one.side, day) != self._shown and one.side]
+        doubts = self.form.list_warnings()
+        self.status_text.setText(
+            f"{problems[0][0].accessibleName()}: {problems[0][1]}" if problems
+            else doubts[0] if doubts
+            else self.tr("Written and not kept yet: also the other hand or another day.") if elsewhere
+            else self.tr("Kept with initials and time; every later change stays readable.")
+        )  # fmt: skip
+        self.save_button.setEnabled(not problems and self.has_unsaved)
+
+    def _request_save(self) -> None:
+        if not self.form.list_errors():
+            self.save_requested.emit(self.list_unsaved(), self.form.list_warnings())

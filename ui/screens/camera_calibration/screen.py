@@ -1,0 +1,221 @@
+"""Calibrating the camera with a printed board: before it is shown, while it is shown, and the result."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDoubleSpinBox, QStackedWidget, QWidget
+
+from carpus.core.calibration.camera.board import Pattern
+from carpus.core.calibration.camera.printed_sheet import RULER_MM, Paper
+from carpus.ui.kit.button import ENTER_KEY, Button
+from carpus.ui.kit.card import Card, Separator
+from carpus.ui.kit.field import ChoiceRow, ignore_wheel
+from carpus.ui.kit.keys import bind_key
+from carpus.ui.kit.layouts import (
+    STRETCH,
+    ScrollArea,
+    ScrolledColumn,
+    clear_layout,
+    column_layout,
+    fill,
+    grid_layout,
+    row_layout,
+)
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, Text, heading
+from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.screens.camera_calibration.capture_view import BoardCaptureView
+from carpus.ui.shell.camera_name_dialog import CameraNameDialog
+from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, headline, result_rows, storage_words
+
+
+class CameraCalibrationScreen(QWidget):
+    """Three parts, one at a time; what their buttons do is the flow's affair."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self.setup_view = BoardSetupView(theme)
+        self.capture_view = BoardCaptureView(theme)
+        self.result_view = BoardResultView(theme)
+        self._view_stack = QStackedWidget()
+        for part in (self.setup_view, self.capture_view, self.result_view):
+            self._view_stack.addWidget(part)
+        column_layout(self._view_stack, margins=(0, 0, 0, 0), parent=self)
+        self.name_dialog = CameraNameDialog(self, theme)
+        bind_key(self.setup_view, "report", self.setup_view.print_button.click)
+
+    @property
+    def is_setup_shown(self) -> bool:
+        return self._view_stack.currentWidget() is self.setup_view
+
+    def show_setup(self) -> None:
+        self._show_view(self.setup_view)
+
+    def show_capture(self) -> None:
+        self.capture_view.reset()
+        self._show_view(self.capture_view)
+
+    def show_result(self, result: BoardResult) -> None:
+        self.result_view.show_result(result)
+        self._show_view(self.result_view)
+
+    def _show_view(self, part: QWidget) -> None:
+        self._view_stack.setCurrentWidget(part)
+        self.initial_focus().setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def initial_focus(self) -> QWidget:
+        part = self._view_stack.currentWidget()
+        if part is self.capture_view:
+            return self.capture_view.frame_view
+        return self.result_view.initial_focus() if part is self.result_view else self.setup_view.initial_focus()
+
+
+RULER_RANGE_MM = (80.0, 120.0)
+MAX_WIDTH_PX = 900
+
+
+class BoardSetupView(QWidget):
+    """What is chosen before the board is shown."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.pattern = ChoiceRow(
+            theme,
+            [
+                ("chessboard", self.tr("Chessboard")),
+                ("charuco", self.tr("ChArUco: may be partly hidden, takes longer")),
+            ],
+            "chessboard",
+        )  # fmt: skip
+        self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
+        self.print_button = Button(theme, self.tr("&Print the board…"), icon="file-text")
+        self.ruler_field = QDoubleSpinBox()
+        ignore_wheel(self.ruler_field)
+        self.ruler_field.setRange(*RULER_RANGE_MM)
+        self.ruler_field.setDecimals(1)
+        self.ruler_field.setSingleStep(0.5)
+        self.ruler_field.setValue(RULER_MM)
+        self.ruler_field.setSuffix("\N{NO-BREAK SPACE}mm")
+        self.ruler_field.setAccessibleName(self.tr("The ruler on the print measures"))
+        self.ruler_field.lineEdit().setTextMargins(10, 0, 10, 0)
+        self.camera_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.start_button = Button(theme, self.tr("Begin"), "primary", icon="camera", hint=ENTER_KEY)
+        self._build_layout()
+        theme.changed.connect(self._fit)
+        self._fit()
+        self.set_camera_connected(False)
+
+    def _build_layout(self) -> None:
+        theme = self._theme
+        body = column_layout(gap=GAP_PX, margins=(4, 4, 12, 4))
+        self._status_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        words = self.tr(
+            "Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once "
+            "for each camera, after a knock, and when the check card says so."
+        )
+        body.addWidget(heading(theme, self.tr("Calibrate the camera"), wrap=True))
+        fill(body, Text(theme, words, 16, REGULAR, "text2", wrap=True), self._status_text)
+        board = self._make_card(self.tr("1  Print the board"))
+        fill(board.body, self.pattern, row_layout(self.paper, self.print_button, STRETCH, gap=12))
+        words = self.tr(
+            "Print at 100 % (“actual size”) on plain paper and glue it flat onto something stiff, such as glass or a "
+            "thick board. Then measure the ruler under it."
+        )
+        board.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        row = row_layout(Text(theme, self.tr("The ruler on the print measures"), 14), self.ruler_field, STRETCH, gap=12)
+        board.body.addLayout(row)
+        body.addWidget(board)
+        show = self._make_card(self.tr("2  Show it to the camera"))
+        words = self.tr(
+            "Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves "
+            "when it is still, sharp and in a new place. No picture of the board is stored, and nothing is changed "
+            "before you say so."
+        )
+        fill(show.body, Text(theme, words, 14, REGULAR, "text2", wrap=True), self.camera_text)
+        show.body.addWidget(self.start_button, 0, Qt.AlignmentFlag.AlignLeft)
+        fill(body, show, STRETCH)
+        self._column = ScrolledColumn()
+        self._column.setLayout(body)
+        whole = row_layout(margins=(MARGIN_PX - 4, GAP_PX, MARGIN_PX - 8, GAP_PX), parent=self)
+        self._scroll = ScrollArea(self._column)
+        whole.addWidget(self._scroll, 1)
+
+    def _make_card(self, title: str) -> Card:
+        card = Card(self._theme, 24)
+        card.body.setSpacing(12)
+        card.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
+        return card
+
+    def _fit(self) -> None:
+        self.ruler_field.setFixedWidth(self._theme.px(130))
+        self._column.setMaximumWidth(self._theme.px(MAX_WIDTH_PX))
+
+    @property
+    def choice(self) -> BoardChoice:
+        return BoardChoice(
+            cast("Pattern", self.pattern.value()),
+            cast("Paper", self.paper.value()),
+            self.ruler_field.value(),
+        )
+
+    def show_status(self, words: str) -> None:
+        """What is known of the camera so far."""
+        self._status_text.show_text(words)
+
+    def set_camera_connected(self, is_connected: bool) -> None:
+        self.camera_text.setText(self.tr("It is plugged in.") if is_connected else self.tr("No camera is plugged in."))
+        self.start_button.setEnabled(is_connected)
+        self.start_button.set_label(self.tr("Begin") if is_connected else self.tr("Begin · plug the camera in"))
+
+    def initial_focus(self) -> QWidget:
+        return self.start_button if self.start_button.isEnabled() else self.print_button
+
+
+class BoardResultView(QWidget):
+    """What was found, to be used or made again."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.result: BoardResult | None = None
+        self.headline_text = heading(theme, wrap=True)
+        self.basis_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.again_button = Button(theme, self.tr("Take &again"), icon="rotate-ccw")
+        self.use_button = Button(theme, self.tr("Use this calibration"), "primary", icon="check", hint=ENTER_KEY)
+        self._table = Card(theme, 20)
+        foot = row_layout(self.use_button, self.again_button, STRETCH, gap=12)
+        self._column = ScrolledColumn()
+        parts = (self.headline_text, self.basis_text, 12, self._table, 12, foot, STRETCH)
+        column_layout(*parts, gap=2, margins=(4, 4, 12, 4), parent=self._column)
+        row_layout((ScrollArea(self._column), 1), margins=(MARGIN_PX - 4, GAP_PX, MARGIN_PX - 8, GAP_PX), parent=self)
+        theme.changed.connect(self._fit)
+        self._fit()
+
+    def _fit(self) -> None:
+        self._column.setMaximumWidth(self._theme.px(MAX_WIDTH_PX))
+
+    def show_result(self, result: BoardResult) -> None:
+        self.result = result
+        answer, basis = headline(result.calibration)
+        self.headline_text.setText(answer)
+        self.basis_text.setText(basis)
+        self.use_button.setVisible(result.is_usable)
+        body, theme = self._table.body, self._theme
+        clear_layout(body)
+        table = QWidget()
+        grid = grid_layout(12, 8, stretches=(0, 30, 30, 40), margins=(0, 0, 0, 0), parent=table)
+        for number, (state, name, value, words) in enumerate(result_rows(result.calibration)):
+            if number:
+                grid.addWidget(Separator(theme), 2 * number - 1, 0, 1, 4)
+            cells = (
+                Icon(theme, state), Text(theme, name, 16, MEDIUM, wrap=True), Text(theme, value, 16, SEMIBOLD),
+                Text(theme, words, 16, REGULAR, "text2", wrap=True),
+            )  # fmt: skip
+            for column, cell in enumerate(cells):
+                grid.addWidget(cell, 2 * number, column)
+        fill(body, table, 8, Text(theme, storage_words(result), 14, REGULAR, "text2", wrap=True))
+
+    def initial_focus(self) -> QWidget:
+        return self.use_button if self.use_button.isVisibleTo(self) else self.again_button

@@ -1,0 +1,274 @@
+"""The flow of putting markers right: the screen, tracking again beside everything else, and the choice at the end."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Sequence
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import Signal
+
+from carpus.core.pipeline.correction import correct_in_process, find_lost_corrections, load_task
+from carpus.core.records.corrections import Corrections, PendingResult, ResultDifference, compare_results
+from carpus.core.records.session_setup import PRACTICE_PATIENT
+from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.valid_data import joint_curves, wrist_curves
+from carpus.core.session.label_checks import Correction, read_corrections
+from carpus.core.session.reader import read_detections
+from carpus.core.session.values import Session, SessionHeader
+from carpus.ui.kit import numbers
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.screens.correct.results_dialog import ResultPair, ResultsDialog
+from carpus.ui.screens.correct.screen import CorrectionScreen
+from carpus.ui.shell.current_selection import practice_patient_name
+from carpus.ui.shell.flow import Flow, ScreenContext
+from carpus.ui.words import terms
+from carpus.ui.words.agreement import angle_name
+from carpus.ui.words.marker_words import finger_number, marker_title
+
+
+class CorrectionFlow(Flow):
+    """``progress_changed`` carries percent, -1 when nothing runs, and how many new results wait for a decision.
+
+    One session is tracked again at a time, in a process of its own; window, other patients and a new measurement go on.
+    What comes of it waits in the top bar until a person opens it: nothing comes up over what somebody does.
+    """
+
+    screen_name, guide_page = "correct", "correct"
+    runs_behind_overlay = True
+    screen: CorrectionScreen
+
+    progress_changed = Signal(int, int)
+    _percent_reached = Signal(int)
+
+    def __init__(self, context: ScreenContext) -> None:
+        self._corrections = Corrections(context.library)
+        self._corrections.delete_unfinished()
+        super().__init__(context, CorrectionScreen(context.theme, context.background, self._corrections))
+        self.dialog = ResultsDialog(context.window.screen_stack, context.theme)
+        self._tracking, self._background = Background(), Background()
+        self._stop_event = threading.Event()
+        self.running_session_id, self._session_label, self._percent = "", "", -1
+        self.pending: list[PendingResult] = []
+        self._shown_result: PendingResult | None = None
+        self._percent_reached.connect(self._on_progress)
+        self.screen.reanalysis_requested.connect(self.start)
+        self.screen.fault_raised.connect(context.messages.show_fault)
+        self.screen.back_requested.connect(context.navigator.navigate_back)
+        self.dialog.stop_button.clicked.connect(self.stop)
+        self.dialog.keep_button.clicked.connect(self._discard_result)
+        self.dialog.use_button.clicked.connect(self._accept_result)
+
+    @property
+    def is_busy(self) -> bool:
+        return self._tracking.is_busy
+
+    def refresh_pending(self) -> None:
+        """When the program starts, and after something was erased: what waits for a decision."""
+        self._background.run(self._corrections.list_pending, self._on_pending, self.context.messages.show_fault, self)
+
+    def _on_pending(self, found: Sequence[PendingResult]) -> None:
+        self.pending = list(found)
+        self._emit_progress()
+
+    def open(self, session_id: str, session: Session, row: int) -> None:
+        if self.running_session_id:
+            self.open_dialog()
+            return
+        self._session_label = describe_session(session.header)
+        self.screen.show_session(session_id, session, row)
+        self.context.navigator.switch_screen("correct")
+
+    def start(self, session_id: str, corrections: Sequence[Correction]) -> None:
+        """Track again in the background."""
+        if self.running_session_id:
+            self.open_dialog()
+            return
+        self.running_session_id, self._percent = session_id, 0
+        self._stop_event.clear()
+        trial: list[Path] = []
+
+        def work() -> bool:
+            trial.append(self._corrections.new_pending_path(session_id))
+            origin = self.context.library.entry(session_id).path
+            task = load_task(origin, trial[0], corrections, self.context.report_settings.therapist)
+            return correct_in_process(task, self._report_progress, self._stop_event)
+
+        def on_done(finished: bool) -> None:
+            one = PendingResult(session_id, trial[0])
+            if finished and one not in self.pending:  # a look has found it already
+                self.pending.append(one)
+            self._finish_tracking()
+            if finished and self.dialog.isVisible():  # somebody waits for it there
+                self._show_pending(one)
+            if finished:
+                self.refresh_pending()  # one from before may still come, and know nothing of it
+
+        def on_failed(fault: Exception) -> None:
+            self._finish_tracking()
+            self.context.messages.show_fault(fault)
+
+        self._emit_progress()
+        self._tracking.run(work, on_done, on_failed, self)
+        self.context.navigator.navigate_back()
+
+    def navigate_back(self) -> None:
+        self.return_to_session()
+
+    def stop(self) -> None:
+        """Keep the old result; what runs is given up."""
+        self._stop_event.set()
+        self.dialog.close_dialog()
+
+    def open_dialog(self, session_id: str = "") -> None:
+        """What runs, or what waits for a decision: of this session first."""
+        if self.running_session_id:
+            self.dialog.show_running(self._session_label, max(self._percent, 0))
+            self.dialog.begin()
+        elif self.pending:
+            own = [one for one in self.pending if one.session_id == session_id]
+            self._show_pending((own or self.pending)[-1 if own else 0])
+            self.dialog.begin()
+
+    def close(self) -> None:
+        """The program ends; what waits for a decision waits on."""
+        self._stop_event.set()
+        self._tracking.join()
+        self._background.join()
+
+    def _report_progress(self, done: int, total: int) -> None:
+        """Called in the background."""
+        self._percent_reached.emit(100 * done // max(total, 1))
+
+    def _on_progress(self, percent: int) -> None:
+        if not self.running_session_id:
+            return
+        self._percent = percent
+        if self.dialog.isVisible():
+            self.dialog.show_running(self._session_label, percent)
+        self._emit_progress()
+
+    def _finish_tracking(self) -> None:
+        self.running_session_id, self._percent = "", -1
+        if self._stop_event.is_set() or not self.pending:
+            self.dialog.close_dialog()
+        self._emit_progress()
+
+    def _emit_progress(self) -> None:
+        self.progress_changed.emit(self._percent, len(self.pending))
+
+    # --- old or new ---------------------------------------------------------------------------------------
+    def _show_pending(self, one: PendingResult) -> None:
+        self._shown_result = one
+        self.dialog.show_reading(self._session_label)
+
+        def read() -> tuple[str, str, ResultPair]:
+            old, new = self._corrections.read_both(one.session_id, one.path)
+            said = [correction for correction, _ in read_corrections(new)]
+            words = difference_words(
+                compare_results(old, new), find_lost_corrections(new, read_detections(one.path), said)
+            )
+            both = ResultPair(
+                compute_session_results(new),
+                wrist_curves(old),
+                wrist_curves(new),
+                joint_curves(old),
+                joint_curves(new),
+                max((finger_number(marker) for one in said for marker in one.places), default=0),
+            )
+            return describe_session(old.header), words, both
+
+        def show_results(found: tuple[str, str, ResultPair]) -> None:
+            if self._shown_result == one and self.dialog.isVisible():
+                self.dialog.show_results(*found)
+
+        def on_failed(fault: Exception) -> None:
+            self.dialog.close_dialog()
+            self.context.messages.show_fault(fault)
+
+        self._background.run(read, show_results, on_failed, self)
+
+    def _close_decision(self) -> PendingResult | None:
+        """The new result that was decided about; it waits no more."""
+        one, self._shown_result = self._shown_result, None
+        self.dialog.close_dialog()
+        if one in self.pending:
+            self.pending.remove(one)
+            self._emit_progress()
+        return one
+
+    def _discard_result(self) -> None:
+        one = self._close_decision()
+        if one is None:
+            return
+        # A look from before may still come, and tell of it once more: the last look is the true one.
+        self._background.run(
+            lambda: self._corrections.discard(one.path),
+            lambda _: self.refresh_pending(),
+            self._on_decision_failed,
+            self,
+        )
+
+    def _accept_result(self) -> None:
+        one = self._close_decision()
+        if one is None:
+            return
+        self._background.run(
+            lambda: self._corrections.accept(one.session_id, one.path),
+            lambda new: self._on_accepted(one.session_id, str(new)),
+            self._on_decision_failed,
+            self,
+        )
+
+    def _on_decision_failed(self, fault: Exception) -> None:
+        self.context.messages.show_fault(fault)
+        self.refresh_pending()
+
+    def _on_accepted(self, before: str, new: str) -> None:
+        """A new result counts from now on; where the old one was on the screen the new one is shown."""
+        self.refresh_pending()
+        if self.context.current.session_id == before and self.context.navigator.underlying_screen in (
+            "review",
+            "correct",
+        ):
+            self.context.navigator.open_under_overlay("review", new)
+
+
+def describe_session(header: SessionHeader) -> str:
+    """Whose session, from when and of what."""
+    when = numbers.format_date_time(datetime.fromisoformat(header.recorded or header.created))
+    what = f"{terms.exercise_name(header.exercise)}, {to_mid_sentence(terms.hand_name(header.hand))}"
+    name = practice_patient_name() if header.subject_id == PRACTICE_PATIENT else header.subject_id
+    return " · ".join((name, when, what))
+
+
+def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str:
+    """What a person needs to choose: how much differs, most of all where, and which names did not hold."""
+    said = []
+    if lost_labels:
+        names = ", ".join(marker_title(name) for name in lost_labels)
+        said.append(tr("Not held: {names}. Correct a picture soon after too.").format(names=names))
+    if found.lost_markers:
+        names = ", ".join(marker_title(name) for name in found.lost_markers)
+        said.append(tr("Hardly seen any more: {names}. What they show has no value then.").format(names=names))
+    if found.changed_frames:
+        pattern = tr("{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.")
+        said.append(
+            pattern.format(
+                count=found.changed_frames,
+                common=found.compared_frames,
+                time=numbers.format_clock_tenths(found.max_difference_at_s),
+                angle=to_mid_sentence(angle_name(found.max_difference_angle)),
+                size=numbers.format_degrees(math.degrees(found.max_difference_rad)),
+            )
+        )
+    else:
+        said.append(tr("No picture differs by more than 2°."))
+    if found.recovered_frames:
+        said.append(tr("{count} pictures have an angle that had none.").format(count=found.recovered_frames))
+    if found.is_live:
+        said.append(tr("As measured live: one of the two was not looked back at."))
+    return " ".join(said)

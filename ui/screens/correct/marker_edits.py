@@ -1,0 +1,138 @@
+"""Where the markers of stored pictures are, as tracked and as a person puts them; every step can be taken back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from carpus.core.model.types import FloatArray
+from carpus.core.session.label_checks import Correction, LabelDoubt, find_label_doubt, predict_marker_px
+from carpus.core.session.values import Session
+
+SNAP_RADIUS_PX = 8.0
+"""A place this near to a blue spot is the spot's middle."""
+MarkerPosition = tuple[float, float] | None
+
+
+class MarkerEdits:
+    """The corrections of one session, picture by picture."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.markers = session.header.protocol.markers
+        self._edits: dict[int, dict[str, MarkerPosition]] = {}
+        self._undo_stack: list[tuple[int, dict[str, MarkerPosition]]] = []
+        self._doubts: dict[int, tuple[dict[str, MarkerPosition], LabelDoubt | None]] = {}
+
+    # --- what is there ------------------------------------------------------------------------------------
+    def original_px(self, row: int) -> FloatArray:
+        """The blobs (M, 2) that were taken for the markers; NaN for none."""
+        return np.asarray(self.session.markers.measured_px[row])
+
+    def current_px(self, row: int) -> FloatArray:
+        places = self.original_px(row).copy()
+        for name, place in self._edits.get(row, {}).items():
+            places[self.markers.index(name)] = np.nan if place is None else place
+        return places
+
+    def row_edits(self, row: int) -> Mapping[str, MarkerPosition]:
+        return self._edits.get(row, {})
+
+    def model_px(self, row: int) -> FloatArray:
+        """Where the model has the markers (M, 2)."""
+        known = self.session.markers.position_cam_m[row]
+        out = np.full((len(self.markers), 2), np.nan)
+        finite = np.isfinite(known).all(axis=1)
+        if finite.any():
+            camera = self.session.camera
+            out[finite] = camera.distort(camera.project(known[finite]))
+        return out
+
+    def residual_mm(self, row: int, name: str, *, is_original: bool = False) -> float:
+        """Distance of a marker from where the others expect it; NaN where one of the two is not known."""
+        number = self.markers.index(name)
+        places = self.current_px(row)
+        expected = predict_marker_px(self.session, row, places, number)
+        at = self.original_px(row)[number] if is_original else places[number]
+        depth_m = self.session.markers.position_cam_m[row, :, 2]
+        known = depth_m[np.isfinite(depth_m)]
+        if not len(known) or not np.isfinite(at).all() or not np.isfinite(expected).all():
+            return math.nan
+        return 1000.0 * float(np.linalg.norm(at - expected)) * float(np.median(known)) / self.session.camera.fx_px
+
+    def find_marker(self, row: int, pixel: FloatArray, reach_px: float) -> str:
+        """The marker at a place of the picture, also one that is hidden where the model has it; empty for none."""
+        places = self.current_px(row)
+        places = np.where(np.isfinite(places), places, self.model_px(row))
+        distance = np.linalg.norm(places - pixel, axis=1)
+        if not np.isfinite(distance).any() or np.nanmin(distance) > reach_px:
+            return ""
+        return self.markers[int(np.nanargmin(distance))]
+
+    def find_label_doubt(self) -> tuple[int, LabelDoubt] | None:
+        """The first picture whose names, as a person put them, are plainly wrong, and what is; None for none."""
+        for row, said in sorted(self._edits.items()):
+            known = self._doubts.get(row)
+            if known is None or known[0] != said:
+                known = self._doubts[row] = (
+                    dict(said),
+                    find_label_doubt(self.session, row, self.current_px(row), said),
+                )
+            if known[1] is not None:
+                return row, known[1]
+        return None
+
+    # --- what a person says -------------------------------------------------------------------------------
+    def place_marker(self, row: int, name: str, pixel: FloatArray, blob_px: FloatArray) -> None:
+        """A marker is here: on the middle of the spot (S, 2) under it if there is one. A name that is there already
+        changes places with it."""
+        at = np.asarray(pixel, dtype=float)
+        if len(blob_px):
+            distance = np.linalg.norm(blob_px - at, axis=1)
+            if distance.min() <= SNAP_RADIUS_PX:
+                at = blob_px[int(distance.argmin())]
+        places, number = self.current_px(row), self.markers.index(name)
+        taken = np.linalg.norm(places - at, axis=1)
+        taken[number] = np.inf
+        other = int(np.nanargmin(taken)) if np.isfinite(taken).any() else -1
+        self._push_undo(row)
+        own = self._edits.setdefault(row, {})
+        if other >= 0 and taken[other] <= SNAP_RADIUS_PX:
+            old = places[number]
+            own[self.markers[other]] = (float(old[0]), float(old[1])) if np.isfinite(old).all() else None
+        own[name] = (float(at[0]), float(at[1]))
+
+    def swap_markers(self, row: int, one: str, other: str) -> None:
+        places = self.current_px(row)
+        self._push_undo(row)
+        own = self._edits.setdefault(row, {})
+        for name, there in ((one, other), (other, one)):
+            at, before = places[self.markers.index(there)], self.original_px(row)[self.markers.index(name)]
+            own[name] = (float(at[0]), float(at[1])) if np.isfinite(at).all() else None
+            if np.array_equal(at, before, equal_nan=True):
+                del own[name]  # as it was tracked
+        if not own:
+            del self._edits[row]
+
+    def hide_marker(self, row: int, name: str) -> None:
+        self._push_undo(row)
+        self._edits.setdefault(row, {})[name] = None
+
+    def undo(self) -> int:
+        """Take the last step back; the picture it was made on, -1 for none."""
+        if not self._undo_stack:
+            return -1
+        row, before = self._undo_stack.pop()
+        if before:
+            self._edits[row] = before
+        else:
+            self._edits.pop(row, None)
+        return row
+
+    def _push_undo(self, row: int) -> None:
+        self._undo_stack.append((row, dict(self._edits.get(row, {}))))
+
+    def corrections(self) -> tuple[Correction, ...]:
+        return tuple(Correction(row, dict(places)) for row, places in sorted(self._edits.items()) if places)

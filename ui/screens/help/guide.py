@@ -1,0 +1,114 @@
+"""The guide: pages in resources/guide, and a page as HTML in the theme's colours."""
+
+from __future__ import annotations
+
+import html
+import re
+from functools import lru_cache
+from importlib.resources import files
+
+from carpus.ui.kit import language
+from carpus.ui.kit.fonts import TEXT_FAMILY
+from carpus.ui.kit.theme import Theme
+
+DEFAULT_LANGUAGE = "en"
+"""The guide is written in it; it stands in for a language that has none."""
+PAGES = (
+    "session", "discs", "camera", "cameracheck", "calibration", "exercises", "measuring", "patient", "figures",
+    "limits", "correct", "sessions", "checking", "trouble", "data",
+)  # fmt: skip
+"""In the order of the guide."""
+KEYS_PAGE = "keys"
+_MARK = re.compile(r"\*\*(.+?)\*\*")
+_LINK = re.compile(r"\[(.+?)\]\((\w+)\.md\)")
+_PICTURE = re.compile(r"!\[(.*)\]\((.+)\)")
+_NUMBERED = re.compile(r"\d+\. ")
+
+
+def load_page(page: str) -> str:
+    """A page in the language that is spoken, as it was written, in a small part of Markdown: headings, paragraphs,
+    lists, bold, links, pictures."""
+    return _read_page(language.current_language(), page)
+
+
+@lru_cache(maxsize=len(language.LANGUAGES) * len(PAGES))
+def _read_page(code: str, page: str) -> str:
+    guides = files("carpus.resources") / "guide"
+    written = code if (guides / code).is_dir() else DEFAULT_LANGUAGE
+    return (guides / written / f"{page}.md").read_text("utf-8")
+
+
+def picture_path(name: str) -> str:
+    """Where a picture of the guide lies."""
+    return str(files("carpus.resources").joinpath("guide", "pictures", name))
+
+
+def page_title(page: str) -> str:
+    """The first line of a page."""
+    return load_page(page).splitlines()[0].removeprefix("# ")
+
+
+def page_pictures(page: str) -> list[str]:
+    """Names of the pictures of a page."""
+    return [name for _, name in _PICTURE.findall(load_page(page))]
+
+
+def page_links(page: str) -> list[str]:
+    """The pages that a page leads to."""
+    return [name for _, name in _LINK.findall(load_page(page))]
+
+
+def page_html(page: str, theme: Theme, width_px: int) -> str:
+    """A page in the colours and sizes of a theme; pictures are at most ``width_px`` wide."""
+    return _apply_style(_markdown_to_html(load_page(page), width_px), theme)
+
+
+def keys_html(heading: str, rows: list[tuple[str, str]], theme: Theme) -> str:
+    """A table of keys and what they do."""
+    lines = "".join(
+        f'<tr><td class="key">{html.escape(key)}</td><td>{html.escape(words).replace(chr(10), "<br>")}</td></tr>'
+        for key, words in rows
+    )
+    return _apply_style(f"<h1>{html.escape(heading)}</h1><table cellpadding='6'>{lines}</table>", theme)
+
+
+def _markdown_to_html(text: str, width_px: int) -> str:
+    out: list[str] = []
+    listed = ""
+    for line in text.splitlines():
+        kind = "ol" if _NUMBERED.match(line) else "ul" if line.startswith("- ") else ""
+        if kind != listed:
+            out += [f"</{listed}>"] if listed else []
+            out += [f"<{kind}>"] if kind else []
+            listed = kind
+        if kind:
+            out.append(f"<li>{_format_inline(line.split(' ', 1)[1])}</li>")
+        elif line.startswith("## "):
+            out.append(f"<h2>{_format_inline(line[3:])}</h2>")
+        elif line.startswith("# "):
+            out.append(f"<h1>{_format_inline(line[2:])}</h1>")
+        elif found := _PICTURE.fullmatch(line):
+            out.append(f'<p><img src="{html.escape(found[2])}" width="{width_px}"></p>')
+            out.append(f'<p class="caption">{_format_inline(found[1])}</p>')
+        elif line.strip():
+            out.append(f"<p>{_format_inline(line)}</p>")
+    out += [f"</{listed}>"] if listed else []
+    return "".join(out)
+
+
+def _format_inline(text: str) -> str:
+    words = html.escape(text, quote=False)
+    return _LINK.sub(r'<a href="\2">\1</a>', _MARK.sub(r"<b>\1</b>", words))
+
+
+def _apply_style(body: str, theme: Theme) -> str:
+    tokens, px = theme.tokens, theme.px
+    style = (
+        f"body {{ font-family: '{TEXT_FAMILY}'; font-size: {px(16)}px; color: {tokens.text}; }}"
+        f"h1 {{ font-size: {px(28)}px; font-weight: 600; margin-bottom: {px(12)}px; }}"
+        f"h2 {{ font-size: {px(20)}px; font-weight: 600; margin-top: {px(20)}px; margin-bottom: {px(6)}px; }}"
+        f"p, li {{ margin-top: {px(4)}px; margin-bottom: {px(8)}px; }}"
+        f".caption, .key {{ color: {tokens.text2}; font-size: {px(14)}px; }}"
+        f"a {{ color: {tokens.accent}; font-weight: 600; text-decoration: none; }}"
+    )
+    return f"<html><head><style>{style}</style></head><body>{body}</body></html>"

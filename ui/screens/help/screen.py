@@ -1,0 +1,144 @@
+"""The guide in the program: its pages, the page of the screen one comes from, the keys in use, cards to print."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtGui import QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QButtonGroup, QFileDialog, QFrame, QTextBrowser, QWidget
+
+from carpus.core.model.errors import CarpusFault
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import Card
+from carpus.ui.kit.keys import KEYS, action_words
+from carpus.ui.kit.layouts import column_layout, row_layout, scroll_column
+from carpus.ui.kit.text import Text, heading
+from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.screens.help import cards, guide
+from carpus.ui.words import terms
+
+PICTURE_PX = 720
+
+
+def actions_by_key() -> dict[str, list[str]]:
+    """What each key does; one key may do different things on different screens."""
+    found: dict[str, list[str]] = {}
+    for name, key in KEYS.items():
+        found.setdefault(key, []).append(action_words(name))
+    return found
+
+
+class HelpScreen(QWidget):
+    """``fault_raised`` carries a fault of saving the cards."""
+
+    fault_raised = Signal(object)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.page = guide.PAGES[0]
+        self.start_folder = ""
+        """Where saving begins."""
+        self.back_button = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
+        self.cards_button = Button(theme, self.tr("Cards to print…"), icon="download")
+        self.cards_button.clicked.connect(self._choose_cards_file)
+        self.tour_button = Button(theme, self.tr("Show me around"), icon="arrow-right")
+        self.page_view = _PageView(theme)
+        self.page_view.page_requested.connect(self.show_page)
+        self.page_buttons: dict[str, Button] = {}
+        self._group = QButtonGroup(self)
+        column = column_layout(gap=2)
+        for name in (*guide.PAGES, guide.KEYS_PAGE):
+            words = self.tr("Keys") if name == guide.KEYS_PAGE else guide.page_title(name)
+            button = Button(theme, words, "well", height_px=36)
+            button.setCheckable(True)
+            button.clicked.connect(lambda _=False, name=name: self.show_page(name))
+            self._group.addButton(button)
+            self.page_buttons[name] = button
+            column.addWidget(button)
+        column.addStretch(1)
+        head = row_layout((heading(theme, self.tr("Guide")), 1), self.tour_button, self.cards_button, self.back_button)
+        card = Card(theme, 8)
+        card.body.addWidget(self.page_view, 1)
+        self._index = scroll_column(column)
+        columns = row_layout(self._index, (card, 1), gap=GAP_PX)
+        column_layout(
+            head,
+            (columns, 1),
+            Text(theme, terms.legal_notice(), 12, token="text2", wrap=True),
+            gap=12,
+            margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
+            parent=self,
+        )
+        theme.changed.connect(self._fit)
+        self._fit()
+
+    def initial_focus(self) -> QWidget:
+        return self.page_view
+
+    def _fit(self) -> None:
+        self._index.setFixedWidth(self._theme.px(272))
+        self.show_page(self.page)
+
+    def show_page(self, name: str) -> None:
+        self.page = name
+        self.page_buttons[name].setChecked(True)
+        if name == guide.KEYS_PAGE:
+            rows = [(key, "\n".join(words)) for key, words in actions_by_key().items()]
+            self.page_view.show_html(guide.keys_html(self.tr("Keys"), rows, self._theme))
+        else:
+            self.page_view.show_html(guide.page_html(name, self._theme, self._picture_px()))
+
+    def _picture_px(self) -> int:
+        return max(200, min(self._theme.px(PICTURE_PX), self.width() - self._theme.px(272) - 120))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        if event.oldSize().width() != self.width():
+            self.show_page(self.page)
+
+    def _choose_cards_file(self) -> None:
+        start = str(Path(self.start_folder) / cards.FILE_NAME)
+        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save the cards"), start, "PDF (*.pdf)")
+        if path:
+            self.save_cards(path)
+
+    def save_cards(self, path: str) -> None:
+        try:
+            cards.write_cards(Path(path))
+        except CarpusFault as fault:
+            self.fault_raised.emit(fault)
+
+
+class _PageView(QTextBrowser):
+    """Shows one page; ``page_requested`` carries the page of a link."""
+
+    page_requested = Signal(str)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.setOpenLinks(False)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.document().setDocumentMargin(16)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.anchorClicked.connect(lambda url: self.page_requested.emit(url.toString()))
+
+    def show_html(self, text: str) -> None:
+        """Show from the beginning, on the colour of a card."""
+        palette = self.palette()
+        palette.setColor(palette.ColorRole.Base, self._theme.color("surface"))
+        palette.setColor(palette.ColorRole.Text, self._theme.color("text"))
+        self.setPalette(palette)
+        self.setHtml(text)
+        self.verticalScrollBar().setValue(0)
+
+    def loadResource(self, kind: int, name: QUrl | str) -> object:
+        """Pictures come from the guide, and from nowhere else."""
+        return super().loadResource(kind, QUrl.fromLocalFile(guide.picture_path(Path(QUrl(name).toString()).name)))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            event.ignore()
+        else:
+            super().keyPressEvent(event)

@@ -1,0 +1,286 @@
+"""The recording on the live screen: begun by a key, counted down or over a still hand; paused, noted in, stopped."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import deque
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from carpus.core.model.types import FloatArray, MarkerLabel, TrackStatus
+from carpus.core.pipeline.live_values import StartMode
+from carpus.core.records.session_setup import SessionSetup
+from carpus.core.results.repetition_rows import ACTIVE, PASSIVE
+from carpus.ui.charts.history import History
+from carpus.ui.kit.background import Background
+from carpus.ui.picture.movement_guide import RecordingState
+from carpus.ui.screens.live.repetition_counter import RepetitionCounter
+from carpus.ui.words.finger_angles import FINGER_ANGLES, FINGERS, FingerAngle
+
+if TYPE_CHECKING:
+    from carpus.core.pipeline.measurement import MeasurementController
+
+MIN_RECORDING_S = 3.0
+"""So soon after a recording began nobody is taken to mean its end without being asked."""
+
+
+class RecordingController(QObject):
+    """One after the other on a source. ``changed`` when its state, or what is counted down to it, is another;
+    ``begun`` or ``start_failed`` with a fault; ``stopping``, then ``stopped`` with
+    the session, or ``stop_failed`` with a fault."""
+
+    changed = Signal()
+    started = Signal()
+    start_failed = Signal(object)
+    stopped = Signal(str)
+    stop_failed = Signal(object)
+    stopping = Signal()
+    early_stop_requested = Signal()
+    """A person ends a recording that has only just begun: is it meant?"""
+
+    def __init__(self, background: Background, history: History) -> None:
+        super().__init__()
+        self._background, self._history = background, history
+        self.measuring: MeasurementController | None = None
+        self.set_up: SessionSetup | None = None
+        self.counter: RepetitionCounter | None = None
+        self.start_mode: StartMode = "key"
+        self.start_trigger = StartTrigger()
+        self.countdown_s = 0
+        """Seconds that are still counted down."""
+        self.camera_lost = self.is_passive = self._is_resting = False
+        self.is_busy = False
+        """Whether it is being started or stopped, which waits for the disk."""
+        self._started_at_s = -MIN_RECORDING_S
+
+    def set_source(self, measuring: MeasurementController, set_up: SessionSetup) -> None:
+        self.measuring, self.set_up, self.counter = measuring, set_up, None
+        self.camera_lost = self.is_busy = self._is_resting = False
+        self._arm_start_trigger()
+
+    @property
+    def state(self) -> RecordingState:
+        feed = self.measuring.feed if self.measuring else None
+        if feed is None or not feed.is_recording or (self.is_busy and self.counter is None):
+            return "off"  # also while it is being started: nothing can be noted in it yet
+        return "paused" if feed.is_paused or self.camera_lost else "recording"
+
+    @property
+    def is_storing(self) -> bool:
+        """Whether it is being stored: nobody needs to stop it once more."""
+        return self.is_busy and self.counter is not None
+
+    @property
+    def is_playback(self) -> bool:
+        """Whether the source is a stored recording, which plays from its first picture."""
+        return self.measuring is not None and self.measuring.is_playback
+
+    @property
+    def duration_s(self) -> float:
+        return self.counter.duration_s if self.counter else 0.0
+
+    @property
+    def repetitions(self) -> int:
+        return self.counter.repetitions if self.counter else 0
+
+    @property
+    def time_s(self) -> float:
+        """Its own time, 0 before the first picture."""
+        now = self._history.end_s
+        return now if math.isfinite(now) else 0.0
+
+    # --- how it begins ------------------------------------------------------------------------------------
+    def toggle(self) -> None:
+        """Start, or stop and go to the review: the same on every source. A hasty end asks; what is counted down is
+        taken back."""
+        if self.measuring is None or self.is_busy:
+            return
+        if self.measuring.feed.is_recording:
+            if time.monotonic() - self._started_at_s < MIN_RECORDING_S:
+                self.early_stop_requested.emit()
+            else:
+                self.stop()
+        elif self.start_trigger.is_counting:
+            self.start_trigger.stop()
+            self._update_countdown()
+        elif self.start_mode == "countdown" and not self.is_playback and len(self._history):
+            self.start_trigger.start_countdown(self.time_s)
+            self._update_countdown()
+        else:
+            self._record()
+
+    def _record(self) -> None:
+        assert self.measuring is not None
+        assert self.set_up is not None
+        set_up = self.set_up
+        self.start_trigger.stop()
+        self.is_busy = True
+
+        def on_started(_: object) -> None:
+            self.is_busy = self.is_passive = False
+            self._started_at_s = time.monotonic()
+            self.counter = RepetitionCounter(set_up.exercise, set_up.protocol)
+            self._history.set_home()
+            self.started.emit()
+            self.changed.emit()
+
+        def on_failed(fault: Exception) -> None:
+            self.is_busy = False
+            self.changed.emit()
+            self.start_failed.emit(fault)
+
+        self._background.run(self.measuring.start_recording, on_started, on_failed, self)
+
+    def set_resting(self, *, resting: bool) -> None:
+        """Between two exercises of a set nothing begins by itself."""
+        if resting != self._is_resting:
+            self._is_resting = resting
+            self._arm_start_trigger()
+
+    def set_camera_lost(self, *, lost: bool) -> None:
+        self.camera_lost = lost
+        self._arm_start_trigger()
+        self.changed.emit()
+
+    def _arm_start_trigger(self) -> None:
+        """A hand that lies still begins from now on, where that is wanted."""
+        self.start_trigger.stop()
+        if self.start_mode == "still" and not (self.is_playback or self._is_resting or self.camera_lost):
+            self.start_trigger.start_waiting()
+
+    def check_start_trigger(self) -> None:
+        """One look at the hand while a recording may begin without a hand at the keyboard."""
+        history, set_up = self._history, self.set_up
+        if self.measuring is None or self.measuring.feed.is_recording or self.is_busy or not len(history):
+            return
+        fingers = FINGERS[1:] if set_up is not None and set_up.protocol.has_fingers else ()
+        bent = [history.angle_value(FINGER_ANGLES.index(FingerAngle(finger, "middle")))[0] for finger in fingers]
+        angles = np.array([*history.angles_deg, *bent], dtype=float)
+        if self.start_trigger.update(angles if history.status == TrackStatus.TRACKED else None, self.time_s):
+            self._record()
+        self._update_countdown()
+
+    def _update_countdown(self) -> None:
+        """The seconds on the button, as soon as they change."""
+        left_s = self.start_trigger.remaining_s(self.time_s)
+        if left_s != self.countdown_s:
+            self.countdown_s = left_s
+            self.changed.emit()
+
+    # --- while it runs, and its end -----------------------------------------------------------------------
+    def toggle_pause(self) -> None:
+        if (
+            self.measuring is not None
+            and self.measuring.feed.is_recording
+            and not (self.camera_lost or self.is_storing)
+        ):
+            feed = self.measuring.feed
+            (feed.resume_recording if feed.is_paused else feed.pause_recording)()
+            self.changed.emit()
+
+    def add_event(self, kind: str, text: str) -> bool:
+        """Write something down at this moment; whether it could be."""
+        return self.measuring is not None and self.measuring.feed.add_event(kind, text)
+
+    def answer_spot(self, answer: MarkerLabel) -> None:
+        if self.measuring is not None:
+            self.measuring.add_label(answer)
+
+    def set_passive(self, *, passive: bool) -> None:
+        if self.add_event(PASSIVE if passive else ACTIVE, ""):
+            self.is_passive = passive
+            if self.counter is not None:
+                self.counter.set_passive(self.time_s, passive=passive)
+            self.changed.emit()
+
+    def stop(self) -> None:
+        """Close the file in the background; the answer leads to the review."""
+        if self.measuring is None or self.is_busy or not self.measuring.feed.is_recording:
+            return
+        self.is_busy = True
+        self.changed.emit()
+        self.stopping.emit()
+
+        def on_failed(fault: Exception) -> None:
+            self.is_busy = False
+            self.changed.emit()
+            self.stop_failed.emit(fault)
+
+        def on_stopped(session_id: object) -> None:
+            self.is_busy, self.counter = False, None
+            self.changed.emit()
+            self.stopped.emit(str(session_id))
+
+        self._background.run(self.measuring.stop_recording, on_stopped, on_failed, self)
+
+
+COUNTDOWN_S = 3.0
+STILL_S, STILL_DEG = 1.5, 4.0
+"""A hand lies still whose angles have stayed within this for so long: less than the smallest movement, more than the
+tracker's noise."""
+MAX_MOVEMENT_DEG = 2.0 * STILL_DEG
+"""A hand that goes so far while it is counted down does not lie still any more."""
+
+
+class StartTrigger:
+    """``is_waiting`` for a hand that lies still, or counts down; all by the time of the pictures, in seconds."""
+
+    def __init__(self) -> None:
+        self.is_waiting = False
+        self._start_time_s = math.nan
+        self._is_watching = False
+        self._recent_angles: deque[tuple[float, FloatArray]] = deque()
+
+    def stop(self) -> None:
+        self.is_waiting, self._start_time_s = False, math.nan
+        self._recent_angles.clear()
+
+    def start_waiting(self) -> None:
+        self.stop()
+        self.is_waiting = True
+
+    def start_countdown(self, now_s: float) -> None:
+        self.stop()
+        self._start_time_s, self._is_watching = now_s + COUNTDOWN_S, False
+
+    @property
+    def is_counting(self) -> bool:
+        return math.isfinite(self._start_time_s)
+
+    def remaining_s(self, now_s: float) -> int:
+        """Whole seconds that are still counted, 0 where nothing is."""
+        return max(1, math.ceil(self._start_time_s - now_s)) if self.is_counting else 0
+
+    def update(self, angles_deg: FloatArray | None, now_s: float) -> bool:
+        """One look at the hand, its angles or None where it is not surely seen; whether the recording begins now.
+
+        Angles that are not known (NaN) are not looked at.
+        """
+        if self.is_counting and not self._is_watching:
+            begins = now_s >= self._start_time_s
+        elif self.is_waiting or self.is_counting:
+            moved_deg = self._recent_change_deg(angles_deg, now_s)
+            if self.is_counting and not moved_deg <= MAX_MOVEMENT_DEG:
+                self.start_waiting()
+            elif self.is_waiting and moved_deg <= STILL_DEG and now_s - self._recent_angles[0][0] >= 0.9 * STILL_S:
+                self.is_waiting, self._start_time_s, self._is_watching = False, now_s + COUNTDOWN_S, True
+            begins = self.is_counting and now_s >= self._start_time_s
+        else:
+            return False
+        if begins:
+            self.stop()
+        return begins
+
+    def _recent_change_deg(self, angles_deg: FloatArray | None, now_s: float) -> float:
+        """By how much the angles differed lately; infinite where the hand was not seen."""
+        if angles_deg is None or not np.isfinite(angles_deg).any():
+            self._recent_angles.clear()
+            return math.inf
+        self._recent_angles.append((now_s, angles_deg))
+        while now_s - self._recent_angles[0][0] > STILL_S:
+            self._recent_angles.popleft()
+        seen = np.array([angles for _, angles in self._recent_angles])
+        return float(np.nanmax(seen.max(axis=0) - seen.min(axis=0)))

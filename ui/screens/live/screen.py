@@ -1,0 +1,419 @@
+"""The live screen: arranges picture, path, number, curves and light, and pulls the newest values by a timer."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLayout, QWidget
+
+from carpus.core.model.hand.protocols import PROTOCOLS
+from carpus.core.pipeline.live_values import LiveCounters, TrackedView
+from carpus.core.records.session_setup import SessionSetup
+from carpus.ui.charts.chart import Chart
+from carpus.ui.charts.finger_curves import FingerCurves
+from carpus.ui.charts.history import History
+from carpus.ui.charts.live_curves import LiveCurves
+from carpus.ui.charts.paths import LivePathChart
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import Separator
+from carpus.ui.kit.keys import bind_screen_keys
+from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, fill, row_layout
+from carpus.ui.kit.progress_bar import ThinProgressBar
+from carpus.ui.kit.text import SEMIBOLD, Text
+from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.picture.movement_guide import ExerciseSnapshot
+from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR, FrameView
+from carpus.ui.screens.live.controls import RecordingControls
+from carpus.ui.screens.live.frame_overlay import FrameOverlay
+from carpus.ui.screens.live.hand_map import HandMap
+from carpus.ui.screens.live.live_readings import LiveReadings
+from carpus.ui.screens.live.marker_doubt import find_doubt, question_light
+from carpus.ui.screens.live.note_dialogs import NoteDialog, PainDialog
+from carpus.ui.screens.live.number_card import NumberCard, Reading
+from carpus.ui.screens.live.question import MarkerQuestion
+from carpus.ui.screens.live.recording import RecordingController
+from carpus.ui.screens.live.status_light import (
+    StatusLight,
+    SteadyLight,
+    TrackingLag,
+    catch_up_words,
+    hand_light,
+    lag_light,
+    wrist_light,
+)
+from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
+from carpus.ui.words.finger_angles import find_finger_angle
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.core.pipeline.measurement import MeasurementController
+
+CHECK_EVERY_MS = 8
+"""So often the screen looks for a new picture: the curves are as old as this, not as the time between two drawings."""
+MIN_DRAW_INTERVAL_MS = 25
+"""Never sooner after the last drawing; what arrives in between is in the curves, not drawn on its own."""
+MAX_DRAWING_SHARE = 0.5
+"""At most this part of a processor goes to drawing: on a slow computer fewer drawings, not fewer pictures tracked."""
+STORING_INTERVAL_MS = 500
+"""While what was recorded is stored, which is waited for, and needs the processor."""
+MAX_TICK_INTERVAL_MS = 40
+"""So often figures and state go on where no pictures come."""
+VALUES_EVERY = 3
+SLOW_EVERY = 30
+WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
+SNAPSHOT_EVERY_S = 0.09
+STALE_S = 0.4
+"""Without a new picture for so long, what was tracked last is not the hand of now."""
+
+
+class LiveScreen(FittedWidget):
+    """``recording_changed`` (state, seconds) and ``counters_changed`` feed the top bar; ``event_received`` carries
+    events of the source
+    and faults of commands."""
+
+    recording_changed = Signal(str, float)
+    counters_changed = Signal(LiveCounters)
+    event_received = Signal(object)
+    patient_view_requested = Signal()
+    """A person opens or closes the patient's own view."""
+    snapshot_taken = Signal(ExerciseSnapshot)
+    """How the trained angle stands, as often as the figures change."""
+
+    def __init__(self, theme: Theme, background: Background) -> None:
+        super().__init__()
+        self._theme = theme
+        self.history = History(PROTOCOLS[0])
+        self.recording = RecordingController(background, self.history)
+        self.readings = LiveReadings(self.history, self.recording)
+        self._steady_light, self._lag = SteadyLight(), TrackingLag()
+        self._tracked_view: TrackedView | None = None
+        self._draw_count = 0
+        self._drawn_at_s, self._drawn_cpu_s = -math.inf, 0.0
+        self._drawing_ms: float | None = 0.0
+        self._new_frame_at_s = self._snapshot_at_s = -math.inf
+        self._is_whole_hand = self._is_large = False
+        self._shows_research = True
+        self.stage = QWidget()
+        """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
+        self.picture = FrameView(theme)
+        self.question = MarkerQuestion(self.picture, theme, self, lambda: self.recording.time_s)
+        self.frame_overlay = FrameOverlay(theme, self.picture, self.question, self.recording)
+        self.path_view = LivePathChart(theme, self.history)
+        self.number_card = NumberCard(theme)
+        self.curves = LiveCurves(theme, self.history)
+        self.finger_curves = FingerCurves(theme, self.history)
+        self.hand_map = HandMap(theme)
+        self.controls = RecordingControls(theme, self.recording)
+        self.speeds_button = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
+        self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
+        self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self.course_label.hide()
+        self.catch_up_bar = ThinProgressBar(theme, self.tr("Catching up"))
+        self.catch_up_bar.hide()
+        self.bubble = BubbleView(theme, wide=True, keys=False)
+        self.note_dialog = NoteDialog(self.stage, theme)
+        self.pain_dialog = PainDialog(self.stage, theme)
+        self._build_layout()
+        self._connect()
+        self.picture.installEventFilter(self)
+        theme.changed.connect(self._fit)
+        self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer, interval=CHECK_EVERY_MS)
+        self._timer.timeout.connect(self.draw_if_due)
+
+    def _build_layout(self) -> None:
+        left = column_layout((self.picture, 390), (self.path_view, 242), (self.hand_map, 300), gap=12)
+        right = column_layout(self.number_card, (self.curves, 1), (self.finger_curves, 1), gap=12)
+        self._columns = columns = QHBoxLayout(self.stage)
+        columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
+        columns.setSpacing(GAP_PX)
+        fill(columns, (left, 520), (right, 696))
+        # Over the corner of the curves that nothing is written in, and over the picture.
+        for button, host, top_px, right_px in (
+            (self.speeds_button, self.curves, 4, 6),
+            (self.patient_view_button, self.picture, 8, 8),
+        ):
+            button.setProperty("floats", True)
+            row_layout(STRETCH, (button, 0, Qt.AlignmentFlag.AlignTop), margins=(0, top_px, right_px, 0), parent=host)
+        whole = column_layout(
+            (self.stage, 1), _with_margins(self.course_label, 8), gap=0, margins=(0, 0, 0, 0), parent=self
+        )
+        fill(whole, _with_margins(self.bubble, 4), self.catch_up_bar, Separator(self._theme), self.controls)
+
+    def _connect(self) -> None:
+        recording, controls = self.recording, self.controls
+        controls.note_button.clicked.connect(lambda: self.note_dialog.open_note(passive=recording.is_passive))
+        controls.pain_button.clicked.connect(self.pain_dialog.open_pain)
+        controls.pause_button.clicked.connect(recording.toggle_pause)
+        controls.main_button.clicked.connect(recording.toggle)
+        self.note_dialog.note_entered.connect(lambda words: recording.add_event("note", words))
+        self.note_dialog.passive_changed.connect(lambda passive: recording.set_passive(passive=passive))
+        self.pain_dialog.pain_entered.connect(self._add_pain)
+        self.speeds_button.clicked.connect(self.toggle_speeds)
+        self.patient_view_button.clicked.connect(self.patient_view_requested)
+        for button in (self.speeds_button, self.patient_view_button):
+            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        recording.started.connect(lambda: self._lag.reset())
+        recording.start_failed.connect(self.event_received)
+        recording.stopping.connect(controls.show_storing)
+        for ended in (recording.stopped, recording.stop_failed):
+            ended.connect(self.catch_up_bar.hide)
+        picture, number = self.picture, self.number_card
+        actions = {
+            "record": recording.toggle, "pedal": recording.toggle, "note": controls.note_button.click,
+            "pain": controls.pain_button.click, "pause": recording.toggle_pause, "overlay": self.frame_overlay.toggle,
+            "whole_picture": lambda: picture.set_whole(not picture.is_whole), "speeds": self.toggle_speeds,
+            "next_angle": lambda: self.show_angle(number.reading.with_next_angle()),
+            "next_finger": lambda: self.show_angle(number.reading.with_next_finger()),
+            "side_view": self.frame_overlay.toggle_side, "patient_view": self.patient_view_requested.emit,
+            "large_view": self.toggle_large,
+        }  # fmt: skip
+        self.finger_curves.angle_chosen.connect(lambda figure: self.show_angle(Reading(figure=figure)))
+        self._shortcuts = bind_screen_keys(self, actions)
+        self.question.host_shortcuts = list(self._shortcuts.values())
+        self.question.changed.connect(self._place_question)
+        self.question.answered.connect(recording.answer_spot)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """The question keeps its place on the picture."""
+        if watched is self.picture and event.type() == QEvent.Type.Resize:
+            QTimer.singleShot(0, self._place_question)  # when the picture has its new place
+        return super().eventFilter(watched, event)
+
+    def _place_question(self) -> None:
+        """A question over the head of the picture takes the place of the button there, whose key goes on working."""
+        self.question.reposition()
+        self.patient_view_button.setVisible(
+            self.question.isHidden() or self.question.y() > self.patient_view_button.geometry().bottom()
+        )
+
+    def show_research(self, *, on: bool) -> None:
+        """The path with its axes and the speeds, or neither; that the forearm lies still is watched all the same."""
+        self._shows_research = self.frame_overlay.shows_research = on
+        if not on and self.curves.is_showing_speeds:
+            self.toggle_speeds()
+        self._shortcuts["speeds"].setEnabled(on)
+        self._fit()
+
+    def _fit(self) -> None:
+        """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
+        tight = is_tight(self, self._theme)
+        small, hand = not self._is_large, self._is_whole_hand
+        self.picture.setVisible(small)
+        self.path_view.setVisible(small and not tight and not hand and self._shows_research)
+        self.speeds_button.setVisible(self._shows_research)
+        self.hand_map.setVisible(small and not tight and hand)
+        self.curves.setVisible(small and not hand)
+        self.finger_curves.setVisible(small and hand)
+        for place, share in enumerate(HAND_COLUMNS if hand else WRIST_COLUMNS):
+            self._columns.setStretch(place, share if small or place else 0)
+        self.bubble.set_room(self.height() >= MIN_SCREEN_PX * self._theme.text_scale and not (tight and hand))
+        self.curves.show_single(tight)
+        self._place_question()
+        self.controls.fit(tight=tight, large=self._is_large)
+
+    # --- life ---------------------------------------------------------------------------------------------
+    def open_source(self, measuring: MeasurementController, set_up: SessionSetup) -> None:
+        exercise, calibration = set_up.exercise, measuring.calibration
+        self.history.clear(set_up.protocol, exercise, None if calibration is None else calibration.start_angles_rad)
+        self.number_card.exercise = exercise
+        self._is_whole_hand = set_up.protocol.has_fingers
+        self._steady_light, self._lag, self._tracked_view = SteadyLight(), TrackingLag(), None
+        self.frame_overlay.tracked_view = None
+        self.question.withdraw()
+        self.recording.set_source(measuring, set_up)
+        self.curves.set_exercise(exercise, set_up.target_positive_deg, set_up.target_negative_deg)
+        self.path_view.set_exercise(set_up.side, exercise.is_forearm_fixed)
+        angle = 1 if exercise.angle is None else exercise.angle
+        self.show_angle(Reading(angle=angle, figure=find_finger_angle(exercise.joint) if self._is_whole_hand else None))
+        self.controls.reset()
+        self.hand_map.set_side(set_up.side)
+        self._fit()
+        waits, plays = self.tr("Waiting for a picture"), self.tr("The recording plays from its first picture")
+        self.picture.clear(plays if self.recording.is_playback else waits)
+        room = HAND_AREA_FACTOR if self._is_whole_hand else PALM_AREA_FACTOR
+        self.picture.set_hand_area(None if calibration is None else calibration.clicks.pixel, room)
+        self._timer.start()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def close_source(self) -> None:
+        self._timer.stop()
+        self.recording.measuring = None
+        self.recording_changed.emit("off", 0.0)
+
+    def toggle_large(self) -> None:
+        """One figure and the light, to be read from across the room, or everything."""
+        self._is_large = not self._is_large
+        self.number_card.set_large(self._is_large)
+        self._fit()
+
+    def toggle_speeds(self) -> None:
+        self.curves.show_speeds(not self.curves.is_showing_speeds)
+        self.finger_curves.show_speeds(self.curves.is_showing_speeds)
+        self.speeds_button.set_label(self.tr("Angles") if self.curves.is_showing_speeds else self.tr("Speeds"))
+
+    def show_angle(self, reading: Reading) -> None:
+        reading = self.readings.with_targets(reading)
+        self.frame_overlay.figure = reading.figure
+        if reading.figure is not None:
+            self.finger_curves.set_angle(reading.figure, reading.target_positive_deg)
+        self.number_card.show_reading(reading)
+        if reading.figure is not None and self.recording.measuring is not None and len(self.history):
+            self.number_card.show_reading(self.readings.current_reading(reading))
+
+    def set_camera_lost(self, lost: bool) -> None:
+        """The camera went or came back; while it is gone nothing old is shown as if it were now."""
+        self.recording.set_camera_lost(lost=lost)
+        self.finger_curves.set_waiting(lost)
+        if lost:
+            self.question.withdraw()
+            self.picture.clear(self.tr("No picture"))
+            self._tracked_view = self.frame_overlay.tracked_view = None
+
+    def set_patient_view(self, is_open: bool) -> None:
+        self.patient_view_button.set_label(self.patient_view_button.text(), icon="check" if is_open else "monitor")
+        words = self.tr("Close the patient’s view") if is_open else self.tr("Open the patient’s view")
+        self.patient_view_button.setAccessibleName(words)
+
+    def show_course(self, words: str) -> None:
+        """Which part of a set it is, and how long the rest still is; empty outside a set."""
+        self.course_label.show_text(words)
+
+    def _add_pain(self, score: int) -> None:
+        if self.recording.add_event("pain", str(score)):
+            self.controls.show_pain(score)
+
+    # --- drawing ------------------------------------------------------------------------------------------
+    def draw_if_due(self) -> None:
+        """Draw as soon as there is a new picture, and go on without one now and then."""
+        if self.recording.measuring is None:
+            return
+        since_ms = 1e3 * (time.monotonic() - self._drawn_at_s)
+        if self._drawing_ms is None:  # the first look since: all that was asked for has been painted
+            self._drawing_ms = 1e3 * (time.thread_time() - self._drawn_cpu_s)
+        least_ms = STORING_INTERVAL_MS if self.recording.is_storing else MIN_DRAW_INTERVAL_MS
+        if since_ms < max(least_ms, self._drawing_ms / MAX_DRAWING_SHARE):
+            return
+        is_new = self._is_new(self.recording.measuring.feed.current_view())
+        if since_ms >= MAX_TICK_INTERVAL_MS or (is_new and not self.recording.camera_lost):
+            self.draw()
+
+    def _is_new(self, view: TrackedView | None) -> bool:
+        return view is not None and (
+            self._tracked_view is None or view.tracked.index != self._tracked_view.tracked.index
+        )
+
+    def draw(self) -> None:
+        recording, measuring = self.recording, self.recording.measuring
+        if measuring is None:
+            return
+        passed_s = min(time.monotonic() - self._drawn_at_s, 0.001 * STORING_INTERVAL_MS)
+        self._drawn_at_s, self._drawn_cpu_s, self._drawing_ms = time.monotonic(), time.thread_time(), None
+        feed, lost = measuring.feed, recording.camera_lost
+        fresh = feed.frames_since(self.history.last_index)
+        self.history.append(fresh)
+        if fresh:
+            self._new_frame_at_s = self._drawn_at_s
+        begin = feed.first_recorded_index
+        if recording.counter is not None and begin is not None and not feed.is_paused:
+            recording.counter.append([tracked for tracked in fresh if tracked.index >= begin])
+        view, newest = feed.current_view(), feed.current_frame()
+        is_new, behind = self._is_new(view), self._lag.update(newest, view)
+        self.frame_overlay.is_late = behind
+        if behind and newest is not None and not lost:
+            self.picture.show_frame(newest.color_rgb)
+        if view is not None and is_new and fresh and not lost:
+            self._tracked_view = self.frame_overlay.tracked_view = view
+            if not behind:
+                self.picture.show_frame(view.frame.color_rgb)
+            self.current_chart().draw()
+        if fresh and not lost:
+            recording.check_start_trigger()
+        if lost:
+            self.history.add_waiting_time(passed_s)
+            self.current_chart().draw()
+        if self._draw_count % VALUES_EVERY == 0 or recording.is_storing:
+            self._show_values()
+        if self._drawn_at_s - self._snapshot_at_s >= SNAPSHOT_EVERY_S:
+            self._snapshot_at_s = self._drawn_at_s
+            self.snapshot_taken.emit(self.exercise_snapshot())
+        if self._draw_count % SLOW_EVERY == 0:
+            self._show_counters()
+        self._draw_count += 1
+        for event in feed.drain_events():
+            self.event_received.emit(event)
+
+    def current_chart(self) -> Chart:
+        return self.finger_curves if self._is_whole_hand else self.curves
+
+    def exercise_snapshot(self) -> ExerciseSnapshot:
+        """The trained angle of this moment, whichever figure is the large one."""
+        stale = time.monotonic() - self._new_frame_at_s > STALE_S
+        return self.readings.exercise_snapshot(is_current=not (self._lag.lag_s or stale))
+
+    def _show_values(self) -> None:
+        measuring = self.recording.measuring
+        if measuring is None:
+            return
+        if self._is_whole_hand:
+            self.finger_curves.update_values()
+            self.hand_map.show_visibility(
+                self.history.marker_visibility(), dip_inferred=self.history.has_inferred_angles
+            )
+        else:
+            self.curves.update_values()
+            self.path_view.draw()
+        self.controls.light_view.show_light(self._current_light(measuring))
+        if self.recording.is_storing:  # how long it takes until all that waits is tracked
+            counters = measuring.feed.counters()
+            left = self._lag.catch_up_progress(counters)
+            self.catch_up_bar.setVisible(left is not None)
+            self.controls.show_storing(catch_up_words(counters) if left else "")
+            if left is not None:
+                self.catch_up_bar.show_progress(*left)
+        self.number_card.show_reading(self.readings.current_reading(self.number_card.reading))
+        self.recording_changed.emit(self.recording.state, self.recording.duration_s)
+
+    def _current_light(self, measuring: MeasurementController) -> StatusLight:
+        """What the light says: of the camera, else of the computer, of a question, of how it begins."""
+        recording, calibration, view = self.recording, measuring.calibration, self._tracked_view
+        if recording.camera_lost:
+            return StatusLight("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
+        markers = calibration.clicks.protocol.markers if calibration else ()
+        frame = None if view is None else view.tracked
+        if self._is_whole_hand:
+            lamp = hand_light(frame, self.hand_map.visibility)
+        else:
+            pure = recording.set_up is not None and recording.set_up.exercise.is_forearm_fixed
+            now = wrist_light(frame, markers, pure and self.history.has_forearm_moved())
+            lamp = self._steady_light.update(now, recording.time_s)
+        if self._lag.lag_s:  # what is asked would be about a picture of a while ago
+            self.question.withdraw()
+            return lag_light(self._lag, recording=recording.state != "off")
+        doubt = self.question.update_doubt(find_doubt(frame, markers, measuring.camera))
+        if doubt is not None and lamp.rank in ("good", "warn"):
+            return question_light(doubt)
+        if lamp.rank == "good" and recording.countdown_s:
+            return StatusLight("good", self.tr("Starts in {seconds}").format(seconds=recording.countdown_s), "")
+        if lamp.rank == "good" and recording.start_trigger.is_waiting and recording.state == "off":
+            return StatusLight("good", lamp.state, self.tr("Starts by itself when the hand lies still"))
+        return lamp
+
+    def _show_counters(self) -> None:
+        measuring, count = self.recording.measuring, self.recording.counter
+        if measuring is None:
+            return
+        counters = measuring.feed.counters()
+        self._lag.count_missing(counters)
+        self.counters_changed.emit(counters)
+        if count is not None:
+            before = count.repetitions
+            if count.update_count() > before:
+                measuring.feed.notify_listener("repetition", count.last_end_s)
+        self.controls.refresh()
+
+
+def _with_margins(widget: QWidget, below_px: int) -> QLayout:
+    return row_layout(widget, margins=(MARGIN_PX, 0, MARGIN_PX, below_px))

@@ -1,0 +1,223 @@
+"""The tracking light: what the camera sees or the computer lacks, in one colour, one shape, one word, one remedy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.model.hand.protocols import PALM_MARKERS
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import Frame, TrackedFrame, TrackStatus
+from carpus.core.pipeline.live_values import LiveCounters, TrackedView
+from carpus.ui.charts.history import MarkerVisibility
+from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.words.marker_words import finger_name, marker_title, occlusion_remedy
+
+Rank = Literal["good", "warn", "bad", "idle"]
+AMBER_AFTER_S = 0.3
+GREEN_AFTER_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class StatusLight:
+    """What the light shows."""
+
+    rank: Rank
+    state: str
+    remedy: str
+
+
+MIN_TRACKABLE = 3
+"""Discs that tell where the hand is."""
+
+
+def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: bool) -> StatusLight:
+    """The light for one frame as it stands, without any delay."""
+    if frame is None:
+        return StatusLight("idle", tr("Waiting for the first picture"), "")
+    if frame.status == TrackStatus.LOST:
+        return StatusLight("bad", tr("Hand not visible"), tr("Hold the hand flat under the camera"))
+    hidden = [
+        name for name, pixel in zip(markers, frame.marker_measured_px, strict=True) if not math.isfinite(pixel[0])
+    ]
+    if len(markers) - len(hidden) < MIN_TRACKABLE or frame.status == TrackStatus.PREDICTED:
+        return StatusLight("warn", tr("Too few markers seen"), tr("Turn the back of the hand to the camera"))
+    if len(hidden) == 1:
+        return StatusLight(
+            "warn", tr("{marker} hidden").format(marker=marker_title(hidden[0])), occlusion_remedy(hidden[0])
+        )
+    if hidden:
+        words = tr("{count} markers hidden").format(count=len(hidden))
+        return StatusLight("warn", words, tr("Turn the back of the hand to the camera"))
+    if frame.status == TrackStatus.DOUBTFUL:
+        return StatusLight("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
+    if forearm_moved:
+        return StatusLight("warn", tr("Arm moved"), tr("Lay the forearm back where it was"))
+    if not np.isfinite(frame.kinematics.angles_rad).any():
+        return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
+    return StatusLight("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(markers)))
+
+
+class SteadyLight:
+    """Keeps the light from flickering: amber only after 0.3 s, green only after 0.5 s, red at once.
+
+    Words of the same rank change at once only when what they say has lasted as long.
+    """
+
+    def __init__(self) -> None:
+        self._shown: StatusLight | None = None
+        self._wanted: StatusLight | None = None
+        self._since_s = math.nan
+
+    def update(self, status_light: StatusLight, now_s: float) -> StatusLight:
+        """What to show at ``now_s`` when the frame says ``status_light``."""
+        if self._shown is None or status_light.rank in ("bad", "idle") or self._shown.rank == "idle":
+            self._shown = self._wanted = status_light
+            return status_light
+        if status_light == self._shown:
+            self._wanted = status_light
+            return status_light
+        if self._wanted is None or status_light.rank != self._wanted.rank or self._wanted == self._shown:
+            self._since_s = now_s
+        self._wanted = status_light
+        delay_s = GREEN_AFTER_S if status_light.rank == "good" else AMBER_AFTER_S
+        if now_s - self._since_s >= delay_s - 1e-9:
+            self._shown = status_light
+        return self._shown
+
+
+MIN_PALM_MARKERS = 3
+_DISTAL_JOINTS = ("PIP", "DIP", "TIP", "IP")
+
+
+def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibility]) -> StatusLight:
+    """The tracking light of the whole hand, from the same state as its map; that state does not flicker."""
+    if frame is None:
+        return StatusLight("idle", tr("Waiting for the first picture"), "")
+    if frame.status == TrackStatus.LOST:
+        return StatusLight("bad", tr("Hand not visible"), tr("Hold the hand flat under the camera"))
+    hidden = [name for name, state in visibility.items() if state == "hidden"]
+    partly = [name for name, state in visibility.items() if state == "partly"]
+    palm = sum(name in PALM_MARKERS for name in hidden)
+    if len(PALM_MARKERS) - palm < MIN_PALM_MARKERS or frame.status == TrackStatus.PREDICTED:
+        return StatusLight("warn", tr("Too few markers seen"), tr("Turn the back of the hand to the camera"))
+    if frame.status == TrackStatus.DOUBTFUL:
+        return StatusLight("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
+    if not hidden and partly:
+        return StatusLight("warn", _partly_words(partly), remedy_words(partly))
+    if not hidden and not np.isfinite(frame.kinematics.joint_angles_rad).any():
+        return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
+    if not hidden:
+        return StatusLight("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(visibility)))
+    return StatusLight("warn", occlusion_words(hidden), remedy_words(hidden))
+
+
+def occlusion_words(hidden: Sequence[str]) -> str:
+    """``RingBuffer tip hidden``, ``Thumb hidden``, ``Finger ends hidden``, ``7 markers hidden``."""
+    if len(hidden) == 1:
+        return tr("{marker} hidden").format(marker=marker_title(hidden[0]))
+    fingers = {name[-1] for name in hidden if name not in PALM_MARKERS}
+    if len(fingers) == 1 and all(name not in PALM_MARKERS for name in hidden):
+        (finger,) = fingers
+        if finger == "1":
+            return tr("Thumb hidden")
+        return tr("{finger} finger hidden").format(finger=finger_name(finger))
+    if all(name.rstrip("12345") in _DISTAL_JOINTS for name in hidden):
+        return tr("Finger ends hidden")
+    return tr("{count} markers hidden").format(count=len(hidden))
+
+
+def remedy_words(hidden: Sequence[str]) -> str:
+    """What to do; the palm first, since without it nothing is tracked."""
+    palm = [name for name in hidden if name in PALM_MARKERS]
+    if len(palm) == 1:
+        return occlusion_remedy(palm[0])
+    if palm:
+        return tr("Turn the back of the hand to the camera")
+    if all(name[-1] == "1" for name in hidden):
+        return tr("Turn the thumb side up")
+    if len(hidden) == 1 and hidden[0].startswith("TIP"):
+        return tr("Raise the hand")
+    return tr("Turn the back of the fingers to the camera")
+
+
+def hand_map_words(visibility: Mapping[str, MarkerVisibility], *, dip_inferred: bool = False) -> str:
+    """The sentence beside the hand map: what is hidden, and what to do, or that end joints are only inferred."""
+    hidden = [name for name, state in visibility.items() if state == "hidden"]
+    partly = [name for name, state in visibility.items() if state == "partly"]
+    if not hidden and not partly:
+        if dip_inferred:
+            return tr("All markers seen. End joints are not measured: they follow the middle joints.")
+        return tr("All markers seen, every joint is measured.")
+    poor = hidden or partly
+    words = occlusion_words(poor) if hidden else _partly_words(poor)
+    sentence = tr("{what}: {remedy}.").format(what=words, remedy=to_mid_sentence(remedy_words(poor)))
+    return f"{sentence} {tr('Hidden joints do not count.')}" if hidden else sentence
+
+
+def _partly_words(poor: Sequence[str]) -> str:
+    if len(poor) == 1:
+        return tr("{marker} seen now and then").format(marker=marker_title(poor[0]))
+    return tr("{count} markers seen now and then").format(count=len(poor))
+
+
+LAG_S, CAUGHT_UP_S = 1.0, 0.4
+"""From so late on the newest picture is shown by itself and the light says so, until it is less than the second."""
+MIN_WAITING_FRAMES = 15
+"""Half a second of pictures at a stop: not worth a word."""
+
+
+class TrackingLag:
+    """How far what was tracked is behind what the camera sees; of one recording after the other."""
+
+    def __init__(self) -> None:
+        self.lag_s = 0.0
+        """0 while the figures are of now."""
+        self.missing_frames = 0
+        """Pictures of this recording that never came, or for which there was no room any more."""
+        self._missing_before: int | None = None
+        self._max_waiting = 0
+
+    def reset(self) -> None:
+        self.missing_frames, self._missing_before, self._max_waiting = 0, None, 0
+
+    def update(self, newest: Frame | None, view: TrackedView | None) -> bool:
+        """Whether the figures are late, by the newest picture and the newest that was tracked."""
+        late_s = 0.0 if newest is None or view is None else newest.timestamp_s - view.tracked.timestamp_s
+        self.lag_s = late_s if late_s > (CAUGHT_UP_S if self.lag_s else LAG_S) else 0.0
+        return self.lag_s > 0.0
+
+    def count_missing(self, counters: LiveCounters) -> None:
+        lost = counters.dropped + counters.missing
+        if self._missing_before is None:
+            self._missing_before = lost
+        self.missing_frames = lost - self._missing_before
+
+    def catch_up_progress(self, counters: LiveCounters) -> tuple[int, int] | None:
+        """After a stop: pictures done and in all; None when there is next to nothing left to do."""
+        waiting = counters.frames_waiting
+        self._max_waiting = max(self._max_waiting, waiting)
+        if self._max_waiting < MIN_WAITING_FRAMES or not waiting:
+            return None
+        return self._max_waiting - waiting, self._max_waiting
+
+
+def lag_light(lag: TrackingLag, *, recording: bool) -> StatusLight:
+    """What the tracking light says instead of what the camera saw a while ago."""
+    if lag.missing_frames and recording:
+        words = tr("{count} pictures are missing: close other programs")
+        return StatusLight("warn", tr("The computer is too busy"), words.format(count=lag.missing_frames))
+    kept = tr("The computer is busy; every picture is kept")
+    words = tr("The figures are {seconds} s late").format(seconds=format_rounded(lag.lag_s))
+    return StatusLight("idle", words, kept if recording else tr("The computer is busy"))
+
+
+def catch_up_words(counters: LiveCounters) -> str:
+    """How long catching up takes, on the button that stopped."""
+    if not math.isfinite(counters.tracking_lag_s):
+        return tr("Catching up…")
+    return tr("Catching up: {seconds} s left").format(seconds=max(1, math.ceil(counters.tracking_lag_s)))

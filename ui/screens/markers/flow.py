@@ -1,0 +1,96 @@
+"""The flow of naming the markers: on the source that was opened, until tracking begins."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from carpus.core.calibration.result import Verdict
+from carpus.core.model.fault_text import MessageText
+from carpus.core.model.rounding import format_rounded
+from carpus.core.records.values import read_or_default
+from carpus.ui.kit import numbers
+from carpus.ui.screens.markers.screen import MarkersScreen
+from carpus.ui.shell.flow import Flow, ScreenContext
+from carpus.ui.shell.messages import Answer
+
+
+class MarkersFlow(Flow):
+    """Third step."""
+
+    screen_name, guide_page, runs_behind_overlay = "markers", "calibration", True
+    screen: MarkersScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        super().__init__(context, MarkersScreen(context.theme, context.background))
+        context.opener.closing.connect(self.screen.close_calibrator)
+        self.screen.labelling.started.connect(lambda: context.navigator.open_screen("live"))
+        self.screen.labelling.fault_raised.connect(context.messages.show_fault)
+        self.screen.labelling.judged.connect(self.check_registration)
+
+    def open(self) -> None:
+        """On the source that is open. How far its camera is to be trusted is told, and keeps nobody from measuring."""
+        now, library = self.context.current, self.context.library
+        source, set_up = now.source, now.set_up
+        assert source is not None
+        assert set_up is not None
+        alike = read_or_default(lambda: library.matching_sessions(set_up.patient_id, set_up), ())
+        picture = read_or_default(lambda: library.read_marker_photo(set_up.patient_id, set_up), None)
+        day = numbers.format_day_month(alike[0].recorded) if alike else ""
+        self.screen.open_calibrator(source.calibrator, picture, day)
+        self.context.navigator.switch_screen("markers")
+        if now.source_kind == "camera":
+            self.context.camera.set_serial(source.measuring.feed.info.serial)
+
+    def navigate_back(self) -> None:
+        """Back to the camera; names that a person has given are not thrown away by one key."""
+        if not self.screen.has_labels:
+            self.context.navigator.open_screen("camera")
+            return
+        self.context.messages.show_question(
+            MessageText(
+                self.tr("Leave the markers?"),
+                self.tr("The names given on this picture would be lost."),
+                self.tr("Stay here, or go back to the camera."),
+            ),
+            (
+                Answer(
+                    self.tr("Back to the camera"),
+                    lambda: self.context.navigator.open_screen("camera"),
+                    "B",
+                    is_risky=True,
+                ),
+                Answer(self.tr("Stay here"), lambda: None),
+            ),
+        )
+
+    def on_leave(self) -> None:
+        self.screen.close_calibrator()
+
+    close = on_leave
+
+    def check_registration(self, verdict: Verdict) -> None:
+        """Nothing said whether depth lies on colour, so it was taken to; the calibration has measured otherwise."""
+        off = next((finding for finding in verdict.findings if finding.kind == "depth_off"), None)
+        source, choice = self.context.current.source, self.context.current.source_choice
+        if off is None or source is None or not source.is_registration_unknown:
+            return
+        name = Path(choice.path.replace("\\", "/")).name
+
+        def open_again() -> None:
+            self.context.navigator.open_screen("camera")
+            self.context.opener.open(replace(choice, is_depth_registered=False))
+
+        self.context.messages.show_question(
+            MessageText(
+                self.tr("The depth of {name} lies {px} pixels beside its colours.").format(
+                    name=name, px=format_rounded(off.value)
+                ),
+                self.tr("The recording itself is not changed. It does not say that its depth was laid on its colours."),
+                self.tr("Open it again with the depth moved onto the colours, then click the markers anew."),
+            ),
+            (
+                Answer(self.tr("Leave it as it is"), lambda: None),
+                Answer(self.tr("Open it again"), open_again),
+            ),
+        )

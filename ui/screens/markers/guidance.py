@@ -1,0 +1,380 @@
+"""The column beside the picture of the markers: what is to be done now, what the checks say, and how it goes on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QSpinBox, QVBoxLayout, QWidget
+
+from carpus.core.calibration.result import ALL_STRAIGHT
+from carpus.core.model.fault_text import marker_name
+from carpus.core.model.hand.exercises import DIRECTIONS, PRONOSUPINATION, get_exercise
+from carpus.core.model.hand.forearm_rotation import pronosupination_from_palm_down, to_clinical_wrist_angles
+from carpus.core.model.rounding import round_half_away
+from carpus.core.model.types import FloatArray
+from carpus.ui.kit.button import ENTER_KEY, Button
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.field import ChoiceRow, number_field
+from carpus.ui.kit.icons import State
+from carpus.ui.kit.layouts import STRETCH, column_layout, fill, grid_layout, row_layout
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, heading
+from carpus.ui.kit.theme import MARGIN_PX, Theme
+from carpus.ui.kit.translate import tr, translate_phrase
+from carpus.ui.picture.hand_drawing import HandDrawing, MarkerState
+from carpus.ui.screens.markers.label_state import LabelState
+from carpus.ui.screens.markers.labelling import Remedy, find_faulty_markers, remedy_face
+from carpus.ui.screens.markers.verdict import (
+    DOUBT_FINDINGS,
+    LABEL_FINDINGS,
+    VerdictPanel,
+    headline,
+    pending_rows,
+    verdict_rows,
+)
+from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
+from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator
+from carpus.ui.words import terms
+from carpus.ui.words.fault_words import finding_words
+from carpus.ui.words.marker_words import click_instruction, finger_name, marker_placement, marker_title
+
+COLUMN_PX = 376
+ALL_FITS_PX = 700
+CROWDED_BELOW_PX = 460
+GUIDED_MORE_PX = 60
+
+
+class GuidancePanel(QWidget):
+    """Keeps its width whatever the words, so that the picture never moves under the cursor."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.step_label = StateText(theme, 14, MEDIUM)
+        self.title_label = heading(theme, wrap=True)
+        self.instruction_label = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.hand_drawing = HandDrawing(theme)
+        self.straight_fingers = StraightFingers(theme)
+        self.straight_fingers.hide()
+        self.verdict_panel = VerdictPanel(theme)
+        self.bubble = BubbleView(theme)
+        self.primary_button = Button(theme, "", "primary")
+        self.second_button = Button(theme, "", "plain", height_px=52)
+        self._column = column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(8)
+        fill(column, 8, self.step_label, self.title_label, self.instruction_label, (self.hand_drawing, 1))
+        column.addStretch(0)  # where the drawing has given way its room stays in one piece
+        fill(column, self.straight_fingers, self.verdict_panel, 8, self.bubble)
+        column.addLayout(row_layout((self.primary_button, 1), self.second_button, gap=12))
+
+    def fit(self, height_px: int, *, clicks: bool, judged: bool) -> None:
+        """What is read now has the room: ``clicks`` while markers are clicked, ``judged`` once there is a verdict."""
+        self.setFixedWidth(self._theme.px(COLUMN_PX))
+        scale = self._theme.text_scale
+        # The question of the straight fingers and the checks are read; the drawing has done its work by then.
+        asks = not self.straight_fingers.isHidden()
+        self.bubble.set_room(height_px >= MIN_SCREEN_PX * scale)
+        # The bubble takes its height, and the air of a gap more than what gives way for it.
+        guided_px = 0 if self.bubble.isHidden() else self.bubble.sizeHint().height() + self._theme.px(GUIDED_MORE_PX)
+        room_px = height_px - guided_px
+        self.hand_drawing.setVisible(not (asks and room_px < ALL_FITS_PX * scale))
+        # With less room still, first the drawing that says where to click, then the question, else the checks.
+        crowded = height_px > 0 and room_px < CROWDED_BELOW_PX * scale
+        self.verdict_panel.setVisible(not (crowded and (clicks or asks)))
+        self.verdict_panel.set_dense(False)
+        if crowded:
+            self.hand_drawing.setVisible(clicks)
+            self.verdict_panel.set_dense(self._min_height_px() + guided_px > height_px)
+            if judged and self._min_height_px() > height_px:  # not even then: the checks go before the guide
+                self.bubble.set_room(False)
+        elif clicks and height_px > 0:
+            # A long name of a marker may take a line more than there is: the checks, not known yet, wait.
+            self.verdict_panel.setVisible(self._min_height_px() + guided_px <= height_px)
+        elif judged and not asks and self.bubble.isHidden() and height_px > 0:
+            # The checks are what is read now: where both have no room, the drawing waits.
+            self.hand_drawing.setVisible(self._min_height_px() <= height_px)
+
+    def _min_height_px(self) -> int:
+        self._column.invalidate()
+        return self._column.minimumHeightForWidth(self._theme.px(COLUMN_PX)) + 2 * (MARGIN_PX - 4)
+
+    def show_preview(self, calibrator: Calibrator) -> None:
+        self.step_label.show_state("none", self.tr("Picture"))
+        self.title_label.setText(self.tr("Lay the hand flat and still"))
+        self.instruction_label.setText(
+            self.tr("Palm down, fingers as straight as they go, forearm in line. Then take the picture.")
+        )
+        order = calibrator.protocol.markers
+        self.hand_drawing.show_markers(calibrator.side, dict.fromkeys(order, "later"))
+        self.verdict_panel.show_rows(self.tr("Checks"), "none", pending_rows(0, len(order), calibrator.limits))
+        self.primary_button.setEnabled(True)
+        self.primary_button.set_label(self.tr("Take the picture"), icon="", hint=ENTER_KEY)
+        self.second_button.hide()
+
+    def show_labelling(
+        self, labels: LabelState, calibrator: Calibrator, *, sees_none: bool, is_proposing: bool
+    ) -> None:
+        """While markers are clicked, and while they are checked; ``sees_none``: nothing looks like a disc;
+        ``is_proposing``: the program looks for names."""
+        done, asked, to_go = len(labels.confirmed_px), len(labels.order), len(labels.missing)
+        number = labels.order.index(labels.current) + 1
+        self.step_label.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
+        self.title_label.setText(click_instruction(labels.current))
+        self.instruction_label.setText(marker_placement(labels.current))
+        if labels.is_complete:  # nothing is left to click while they are checked
+            self.step_label.show_state("good", self.tr("All markers found"))
+            self.title_label.setText(self.tr("Checking the markers…"))
+            self.instruction_label.setText(self.tr("Hold the hand in this position until the measuring begins."))
+        self.hand_drawing.show_markers(labels.side, _hand_states(labels, ()))
+        words = self.tr("Checking…") if labels.is_complete else self.tr("Good so far") if done else self.tr("Checks")
+        state = "good" if done and not labels.is_complete else "none"
+        self.verdict_panel.show_rows(words, state, pending_rows(done, asked, calibrator.limits))  # type: ignore[arg-type]
+        left = self.tr("1 marker to go") if to_go == 1 else self.tr("{count} markers to go").format(count=to_go)
+        words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers…")
+        self.primary_button.setEnabled(False)
+        self.primary_button.set_label(words, icon="", hint="")
+        self.second_button.hide()
+        if sees_none:  # said at once, before anybody looks for what is not there
+            self.step_label.show_state("warn", self.tr("No blue disc in the picture"), token="warn")
+            self.title_label.setText(self.tr("No blue disc is to be seen"))
+            self.instruction_label.setText(
+                self.tr(
+                    "Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc."
+                )
+            )
+        if is_proposing:
+            self.step_label.show_state("none", self.tr("Looking for the markers…"))
+        elif labels.proposals:
+            self._show_proposals(labels, calibrator)
+
+    def _show_proposals(self, labels: LabelState, calibrator: Calibrator) -> None:
+        words = proposal_words(labels)
+        self.step_label.show_state(words.state, words.step, token="warn" if words.state == "warn" else "text2")
+        self.title_label.setText(words.title)
+        self.instruction_label.setText(words.instruction)
+        self.primary_button.setEnabled(True)
+        self.primary_button.set_label(words.primary, icon="", hint=ENTER_KEY)
+        self.second_button.set_label(self.tr("Click by hand"), hint="C")
+        self.second_button.show()
+        asked, proposed = len(labels.order), len(labels.proposals) + len(labels.confirmed_px)
+        checks = self.tr("Names to confirm")
+        self.verdict_panel.show_rows(checks, "none", pending_rows(proposed, asked, calibrator.limits, proposed=True))
+
+    def show_verdict(
+        self, labels: LabelState, calibrator: Calibrator, outcome: CalibrationAssessment, remedy: Remedy
+    ) -> None:
+        """What the checks say, and the likeliest way out of what is not good."""
+        verdict = outcome.verdict
+        words, state = headline(verdict)
+        self.hand_drawing.show_markers(labels.side, _hand_states(labels, find_faulty_markers(verdict)))
+        said = words if verdict.is_good else self.tr("Checks")
+        self.verdict_panel.show_rows(said, state, verdict_rows(verdict, calibrator.limits))
+        self.primary_button.setEnabled(True)
+        if verdict.is_good:
+            self.step_label.show_state("good", self.tr("All markers found"))
+            self.title_label.setText(self.tr("Ready to measure"))
+            self.instruction_label.setText(self.tr("Hold the hand in this position until the measuring begins."))
+            self.primary_button.set_label(self.tr("Start measuring"), icon="play", hint=ENTER_KEY)
+            self.second_button.hide()
+        else:
+            first = max(
+                verdict.findings,
+                key=lambda finding: (finding.blocks, finding.kind in LABEL_FINDINGS, finding.kind in DOUBT_FINDINGS),
+            )
+            self.step_label.show_state(state, words, token="bad" if state == "bad" else "warn")
+            told = finding_words(first)
+            self.title_label.setText(told.summary.rstrip("."))
+            self.instruction_label.setText(" ".join(part for part in (told.data_safety, told.remedy) if part))
+            words, key = remedy_face(remedy)
+            self.primary_button.set_label(words, icon="", hint=key)
+            swap = remedy == "swap"
+            self.second_button.set_label(
+                self.tr("Correct names") if swap else self.tr("Start although &doubtful"), hint=""
+            )
+            self.second_button.setVisible(swap or verdict.can_start)
+        self.primary_button.setFocus(Qt.FocusReason.OtherFocusReason)
+
+
+def _hand_states(labels: LabelState, wrong: Sequence[str]) -> dict[str, MarkerState]:
+    states: dict[str, MarkerState] = {}
+    for name in labels.order:
+        states[name] = "wrong" if name in wrong else "done" if name in labels.confirmed_px else "later"
+    for name, one in labels.proposals.items():
+        states[name] = "proposed" if one.is_sure else "doubtful"
+    if (labels.missing and not labels.proposals) or labels.current in labels.open_markers:
+        states[labels.current] = "next"
+    return states
+
+
+MAX_NAMED = 4
+"""So many doubtful or missing markers are named one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProposalWords:
+    """State and line above the title, title, what to do, face of the primary button."""
+
+    state: State
+    step: str
+    title: str
+    instruction: str
+    primary: str
+
+
+def proposal_words(labels: LabelState) -> ProposalWords:
+    """Which names need a look, and what Enter does."""
+    asked, open_names, doubtful = len(labels.order), labels.open_markers, labels.doubtful
+    named = len(labels.proposals)
+    primary = tr("Names are right") if not open_names else tr("Take {count} names").format(count=named)
+    if not open_names and not doubtful:
+        whole = tr("All {count} markers found").format(count=asked)
+        todo = tr("Drag a name to another disc to change it.")
+        if labels.protocol.has_fingers:
+            todo = tr("Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.")
+        return ProposalWords("good", whole, tr("Are these names right?"), todo, primary)
+    if doubtful:
+        step = (
+            tr("1 name is doubtful")
+            if len(doubtful) == 1
+            else tr("{count} names are doubtful").format(count=len(doubtful))
+        )
+        todo = tr("Look at: {markers}. Enter says yes; drag a name to another disc to change it.")
+        title = tr("Is this the {marker}?").format(marker=marker_name(doubtful[0], translate_phrase))
+        return ProposalWords("warn", step, title, todo.format(markers=_join_markers(doubtful)), tr("Yes, it is"))
+    step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
+    todo = tr("Not found: {markers}. Take the other names with Enter, then click these.")
+    return ProposalWords(
+        "warn", step, click_instruction(labels.current), todo.format(markers=_join_markers(open_names)), primary
+    )
+
+
+def _join_markers(names: tuple[str, ...]) -> str:
+    words = [marker_title(names[0]), *(marker_name(name, translate_phrase) for name in names[1:])]
+    if len(words) > MAX_NAMED:
+        return tr("{markers} and {count} more").format(
+            markers=", ".join(words[:MAX_NAMED]), count=len(words) - MAX_NAMED
+        )
+    return ", ".join(words)
+
+
+class StraightFingers(QWidget):
+    """``changed`` carries the answer, thumb to little: True where the finger lies straight. All do until clicked."""
+
+    changed = Signal(object)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._question = Text(theme, self.tr("Do the fingers lie straight?"), 14, SEMIBOLD)
+        self._hint = Text(theme, "", 12, REGULAR, "text2", wrap=True)
+        self.buttons: list[Button] = []
+        grid = grid_layout(4, 4)
+        for number in range(1, 6):
+            button = Button(theme, finger_name(str(number)), "well", height_px=32)
+            button.setCheckable(True)
+            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the keys 1 to 5 do it; Enter goes on
+            button.clicked.connect(self._on_clicked)
+            grid.addWidget(button, (number - 1) // 3, (number - 1) % 3)
+            self.buttons.append(button)
+        column_layout(self._question, grid, self._hint, gap=4, margins=(0, 0, 0, 0), parent=self)
+        self.show_answer(ALL_STRAIGHT)
+
+    @property
+    def answer(self) -> tuple[bool, ...]:
+        """Thumb to little, True where the finger lies straight."""
+        return tuple(not button.isChecked() for button in self.buttons)
+
+    def show_answer(self, straight: tuple[bool, ...]) -> None:
+        for number, (button, lies_straight) in enumerate(zip(self.buttons, straight, strict=True), start=1):
+            button.setChecked(not lies_straight)
+            self._set_face(button, number)
+        self._show_hint()
+
+    def toggle(self, number: int) -> None:
+        """The finger, 1 thumb to 5 little, cannot lie straight, or can after all."""
+        self.buttons[number - 1].click()
+
+    def _on_clicked(self) -> None:
+        for number, button in enumerate(self.buttons, start=1):
+            self._set_face(button, number)
+        self._show_hint()
+        self.changed.emit(self.answer)
+
+    def _set_face(self, button: Button, number: int) -> None:
+        finger = finger_name(str(number))
+        face = self.tr("{finger} bent").format(finger=finger) if button.isChecked() else finger
+        button.set_label(face)
+
+    def _show_hint(self) -> None:
+        bent = self.answer.count(False)
+        self._hint.setText(
+            self.tr("Click a finger that cannot lie straight (keys 1 to 5).")
+            if not bent
+            else self.tr("A bent finger is measured from its own rest, and less surely.")
+        )
+
+
+MAX_DEG, MAX_TURN_DEG = 80, 110
+FIELD_ORDER = (1, 0, 2)
+"""Flexion first, as it is the one that contractures limit most."""
+
+
+def _from_thumb_up(angles_rad: FloatArray) -> FloatArray:
+    return to_clinical_wrist_angles(angles_rad, get_exercise("FOREARM_PS"), np.zeros(3))
+
+
+class StartAngleDialog(Dialog):
+    """Three angles with the word for their direction; emits ``angles_entered`` with (3,) radians."""
+
+    angles_entered = Signal(object)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 620)
+        body = self.card.body
+        words = self.tr(
+            "Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb "
+            "up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and "
+            "says so in the report. Bent fingers are fine as they are: zero "
+            "of a finger joint is the straight finger, whatever the picture."
+        )
+        self.add_heading(self.tr("The wrist cannot lie straight"), words, gap=16)
+        self.fields: dict[int, tuple[ChoiceRow, QSpinBox]] = {}
+        for column in FIELD_ORDER:
+            direction = ChoiceRow(
+                theme, [(name, terms.movement_name(name)) for name in DIRECTIONS[column]], DIRECTIONS[column][0]
+            )
+            value = number_field(theme, MAX_TURN_DEG if column == PRONOSUPINATION else MAX_DEG, "°")
+            value.setAlignment(Qt.AlignmentFlag.AlignRight)
+            value.setAccessibleName(terms.movement_name(DIRECTIONS[column][0]))
+            body.addLayout(row_layout((direction, 1), value))
+            self.fields[column] = (direction, value)
+        straight = Button(theme, self.tr("It lies straight"), "plain", height_px=52)
+        straight.clicked.connect(lambda: self._enter(np.zeros(3)))
+        keep = Button(theme, self.tr("Use these angles"), "primary")
+        keep.clicked.connect(lambda: self._enter(self.angles_rad()))
+        self.set_default(keep)
+        body.addLayout(row_layout(STRETCH, straight, keep))
+
+    def open_angles(self, angles_rad: FloatArray) -> None:
+        for column, (direction, value) in self.fields.items():
+            shown_deg = math.degrees(_from_thumb_up(angles_rad)[column])
+            direction.choose(DIRECTIONS[column][0 if shown_deg >= 0 else 1])
+            value.setValue(round_half_away(abs(shown_deg)))
+        self.open(self.fields[FIELD_ORDER[0]][1])
+        self.fields[FIELD_ORDER[0]][1].selectAll()
+
+    def angles_rad(self) -> FloatArray:
+        """Deviation, flexion, pronosupination (3,) as in the files, of what was entered from thumb up."""
+        out = np.zeros(3)
+        for column, (direction, value) in self.fields.items():
+            sign = 1.0 if direction.value() == DIRECTIONS[column][0] else -1.0
+            out[column] = sign * math.radians(value.value())
+        out[PRONOSUPINATION] = pronosupination_from_palm_down(out[PRONOSUPINATION])
+        return out
+
+    def _enter(self, angles_rad: FloatArray) -> None:
+        self.close_dialog()
+        self.angles_entered.emit(angles_rad)

@@ -1,0 +1,389 @@
+"""The fixed picture with clicks on it: mouse or keyboard cursor, loupe, rings and names."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt, Signal
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen, QWheelEvent
+
+from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import FloatArray
+from carpus.ui.kit.fonts import SEMIBOLD, font
+from carpus.ui.kit.theme import (
+    CARD_RADIUS_PX,
+    DARK,
+    ON_PICTURE_LABEL,
+    ON_PICTURE_LINE,
+    ON_PICTURE_PROPOSED,
+    ON_PICTURE_WRONG,
+    Theme,
+)  # fmt: skip
+from carpus.ui.picture.label_placement import place_label
+from carpus.ui.picture.overlay import draw_with_halo
+from carpus.ui.picture.photo import label_size, paint_label, paint_wrong_label
+from carpus.ui.picture.view import FrameView
+from carpus.ui.screens.markers.label_state import LabelState
+from carpus.ui.shell.view_models import FoundMarker
+from carpus.ui.words.marker_words import finger_name, marker_title
+
+LOUPE_PX, LOUPE_ZOOM = 204, 8.0
+GRAB_PX = 12.0
+LABEL_ROOM_PX = 150.0
+"""Beside a disc, for its name: the loupe covers neither."""
+MIN_RING_PX = 12.0
+ARROWS = {
+    Qt.Key.Key_Left: (-1.0, 0.0), Qt.Key.Key_Right: (1.0, 0.0),
+    Qt.Key.Key_Up: (0.0, -1.0), Qt.Key.Key_Down: (0.0, 1.0),
+}  # fmt: skip
+BIG_STEP_PX = 10.0
+ON_PICTURE_DOUBTFUL = DARK.warn
+MIN_ZOOM, MAX_ZOOM, ZOOM_STEP = 1.0, 6.0, 1.25
+
+
+MAX_FULL_LABELS = 6
+"""So many discs each carry their name."""
+
+
+@dataclass(frozen=True, slots=True)
+class LabelPlate:
+    """Where a name stands, and the line from it to its ring where it stands further off."""
+
+    name: str
+    words: str
+    plate: QRectF
+    line: QLineF | None
+
+
+def finger_chains(markers: Sequence[str]) -> list[list[str]]:
+    """Marker names finger by finger from the wrist, of those the protocol has."""
+    fingers = [["WRIST", "CMC1", "MCP1", "IP1", "TIP1"]]
+    fingers += [["WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))] for k in (2, 3, 4, 5)]
+    return [[name for name in finger if name in markers] for finger in fingers]
+
+
+class MarkerFrameView(FrameView):
+    """Emits ``cursor_moved`` with the cursor's pixel, ``clicked`` with the pixel, ``label_grabbed`` with a marker's
+    name."""
+
+    cursor_moved = Signal(object)
+    clicked = Signal(object)
+    label_grabbed = Signal(str)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, (832, 624))
+        self.labels: LabelState | None = None
+        self.cursor_px: FloatArray | None = None
+        self.found_marker: FoundMarker | None = None
+        self.wrong_labels: frozenset[str] = frozenset()
+        self.questioned_blobs: list[tuple[tuple[float, ...], str]] = []
+        self.blobs_px: FloatArray = np.empty((0, 2))
+        self.no_marker_words = ""
+        self._is_dragging = False
+        self._zoom = MIN_ZOOM
+        self._is_keyboard_cursor = False
+        self.overlay = lambda painter, _: self._paint_marks(painter)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+        self.setAccessibleName(self.tr("Picture to click the markers on"))
+
+    def show_wrong(self, names: Collection[str]) -> None:
+        self.wrong_labels = frozenset(names)
+        self.update()
+
+    def show_questioned_blobs(self, spots: Sequence[tuple[Sequence[float], str]]) -> None:
+        """Mark spots (u, v) without a name, each with the marker that it may be, or nothing."""
+        self.questioned_blobs = [(tuple(pixel), name) for pixel, name in spots]
+        self.update()
+
+    def show_blobs(self, pixel: FloatArray) -> None:
+        """Everything (D, 2) that may be clicked: no name covers it."""
+        self.blobs_px = pixel
+        self.update()
+
+    def clear_cursor(self) -> None:
+        """Another picture: where the cursor was on the last one means nothing here."""
+        self.cursor_px = self.found_marker = None
+        self.no_marker_words = ""
+
+    def set_cursor(self, pixel: FloatArray) -> None:
+        """Put the cursor on a pixel, kept inside the picture."""
+        if self.image is not None:
+            limit = np.array([self.image.width() - 1.0, self.image.height() - 1.0])
+            self.cursor_px = np.clip(np.asarray(pixel, dtype=np.float64), 0.0, limit)
+            self.cursor_moved.emit(self.cursor_px)
+            self.update()
+
+    def zoom(self, by: int, around: QPointF | None = None) -> None:
+        """Larger (+1) or smaller (-1), about a place of the widget or the cursor."""
+        if self.image is None:
+            return
+        self._zoom = float(np.clip(self._zoom * ZOOM_STEP**by, MIN_ZOOM, MAX_ZOOM))
+        if self._zoom <= MIN_ZOOM + 1e-6:
+            self.set_area(None)
+            return
+        center = self.to_pixel(around) if around is not None else self.cursor_px
+        if center is None:
+            center = np.array([self.image.width() / 2, self.image.height() / 2])
+        width, height = self.image.width() / self._zoom, self.image.height() / self._zoom
+        share = np.array([0.5, 0.5])
+        if around is not None:
+            share = np.array([around.x() / max(self.width(), 1), around.y() / max(self.height(), 1)])
+        self.set_area(QRectF(center[0] - share[0] * width, center[1] - share[1] * height, width, height))
+
+    # --- input --------------------------------------------------------------------------------------------
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        self._is_keyboard_cursor = False
+        self.set_cursor(self.to_pixel(event.position()))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() != Qt.MouseButton.LeftButton or self.labels is None or self.image is None:
+            return
+        self.setFocus(Qt.FocusReason.MouseFocusReason)
+        pixel = self.to_pixel(event.position())
+        name = self.labels.find_near(pixel, GRAB_PX / self.scale)
+        self.set_cursor(pixel)
+        if name:
+            self._is_dragging = True
+            self.label_grabbed.emit(name)
+        else:
+            self.clicked.emit(self.cursor_px)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        if self._is_dragging:
+            self._is_dragging = False
+            self.clicked.emit(self.to_pixel(event.position()))
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        self.zoom(1 if event.angleDelta().y() > 0 else -1, event.position())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        step = ARROWS.get(Qt.Key(event.key()))
+        if step is None or self.image is None:
+            super().keyPressEvent(event)
+            return
+        size = BIG_STEP_PX if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1.0
+        start = self.cursor_px
+        if start is None:
+            start = np.array([self.image.width() / 2, self.image.height() / 2])
+        self._is_keyboard_cursor = True
+        self.set_cursor(start + size * np.array(step))
+
+    # --- painting -----------------------------------------------------------------------------------------
+    def _ring_px(self, width_px: float) -> float:
+        return max(MIN_RING_PX, 0.75 * width_px * self.scale)
+
+    def _paint_marks(self, painter: QPainter) -> None:
+        clicking = self.labels
+        if clicking is None:
+            return
+        rings: list[tuple[str, QPointF, float]] = []
+        for name, pixel in clicking.confirmed_px.items():
+            at = self.to_screen(*map(float, pixel))
+            radius = self._ring_px(clicking.widths_px[name])
+            wrong = name in self.wrong_labels
+            color = ON_PICTURE_WRONG if wrong else ON_PICTURE_LINE
+            chosen = name == clicking.current and not clicking.missing
+            width = 3.0 if wrong or chosen else 2.0
+            draw_with_halo(painter, color, width, partial(painter.drawEllipse, at, radius, radius))
+            draw_with_halo(painter, color, 1.5, partial(self._paint_cross, painter, at, 5.0))
+            rings.append((name, at, radius))
+        self._paint_proposals(painter, clicking, rings)
+        self._paint_questioned_blobs(painter)
+        if self.cursor_px is None:
+            self._paint_labels(painter, rings, "")
+            return
+        proposed = ""
+        if self.found_marker is not None and clicking.missing and not self._is_labelled(clicking):
+            at = self.to_screen(*map(float, self.found_marker.pixel))
+            radius = self._ring_px(self.found_marker.width_px) + 4
+            draw_with_halo(
+                painter, ON_PICTURE_PROPOSED, 2.5, lambda: painter.drawEllipse(at, radius, radius), dash=True
+            )
+            proposed = clicking.current
+            rings.append((proposed, at, radius))
+        self._paint_labels(painter, rings, proposed)
+        if self._is_keyboard_cursor:
+            at_cursor = self.to_screen(*map(float, self.cursor_px))
+            draw_with_halo(painter, ON_PICTURE_PROPOSED, 1.5, lambda: self._paint_cross(painter, at_cursor, 11.0))
+        self._paint_loupe(painter)
+
+    def _is_labelled(self, labels: LabelState) -> bool:
+        """Whether the disc under the cursor already has a name, of a person or proposed."""
+        return self.found_marker is not None and bool(labels.find_near(self.found_marker.pixel, 3.0))
+
+    def _paint_proposals(self, painter: QPainter, labels: LabelState, rings: list[tuple[str, QPointF, float]]) -> None:
+        """Proposed names as dashed rings, each finger's discs joined: a wrong name shows as a crossing line."""
+        at = {name: self.to_screen(*map(float, pixel)) for name, pixel in labels.label_px.items()}
+        painter.setPen(QPen(QColor(255, 255, 255, 170), 1.5))
+        for ray in finger_chains(labels.protocol.markers) if labels.protocol.has_fingers else ():
+            known = [at[name] for name in ray if name in at]
+            for a, b in pairwise(known):
+                painter.drawLine(a, b)
+        for name, one in labels.proposals.items():
+            radius = self._ring_px(one.width_px)
+            color = ON_PICTURE_PROPOSED if one.is_sure else ON_PICTURE_DOUBTFUL
+            width = 2.0 if one.is_sure else 3.0
+            draw_with_halo(painter, color, width, lambda n=name, r=radius: painter.drawEllipse(at[n], r, r), dash=True)  # type: ignore[misc]
+            rings.append((name, at[name], radius))
+
+    def _paint_questioned_blobs(self, painter: QPainter) -> None:
+        """Spots in question: a dashed ring in amber and a question mark, never colour alone."""
+        for pixel, name in self.questioned_blobs:
+            at, radius = self.to_screen(*map(float, pixel)), MIN_RING_PX + 3.0
+            draw_with_halo(
+                painter,
+                ON_PICTURE_DOUBTFUL,
+                3.0,
+                lambda at=at, r=radius: painter.drawEllipse(at, r, r),  # type: ignore[misc]
+                dash=True,
+            )
+            words, plate = self._question_words(name), self._question_plate(pixel, name)
+            painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
+            paint_label(painter, self._theme, words, plate.left(), plate.top())
+
+    def _question_words(self, name: str) -> str:
+        return self.tr("{marker}?").format(marker=marker_title(name)) if name else self.tr("What is this?")
+
+    def _question_plate(self, pixel: Sequence[float], name: str) -> QRectF:
+        at, away = self.to_screen(*map(float, pixel)), MIN_RING_PX + 8.0
+        metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
+        width = metrics.horizontalAdvance(self._question_words(name)) + 12
+        left = at.x() + away if at.x() + away + width < self.width() else at.x() - away - width
+        return QRectF(left, at.y() - 10, width, metrics.height() + 5)
+
+    def _label_words(self, name: str, labels: LabelState) -> str:
+        """The name on the picture; of many discs only the tips speak for their fingers, and what needs a look."""
+        one = labels.proposals.get(name)
+        under_cursor = self.found_marker is not None and labels.find_near(self.found_marker.pixel, 3.0) == name
+        full = (
+            len(labels.order) <= MAX_FULL_LABELS
+            or under_cursor
+            or name in self.wrong_labels
+            or (one is not None and not one.is_sure)
+        )
+        if full or name in ("WRIST", "CMC1") or (name == labels.current and name not in labels.proposals):
+            words = marker_title(name)
+            asked = one is not None and (len(labels.order) <= MAX_FULL_LABELS or not one.is_sure)
+            return self.tr("{marker}?").format(marker=words) if asked else words
+        return finger_name(name[-1]) if name.startswith("TIP") else ""
+
+    def _paint_cross(self, painter: QPainter, at: QPointF, arm: float) -> None:
+        painter.drawLine(QPointF(at.x() - arm, at.y()), QPointF(at.x() + arm, at.y()))
+        painter.drawLine(QPointF(at.x(), at.y() - arm), QPointF(at.x(), at.y() + arm))
+
+    def label_plates(self, rings: Sequence[tuple[str, QPointF, float]], proposed: str) -> list[LabelPlate]:
+        """Each name beside its ring, clear of every disc, named or not, of the loupe, other names and their lines."""
+        metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
+        named = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
+        bare = [self.to_screen(*map(float, pixel)) for pixel in self.blobs_px]
+        bare = [at for at in bare if not any(box.contains(at) for box in named)]
+        ring = QPointF(MIN_RING_PX, MIN_RING_PX)
+        free = [QRectF(at - ring, at + ring) for at in bare]
+        taken = [*named, *free, QRectF(0, self.height() - 160, 176, 160)]
+        taken += [self.loupe_box()] if self.cursor_px is not None else []
+        taken += [self._question_plate(pixel, name) for pixel, name in self.questioned_blobs]
+        assert self.labels is not None
+        out: list[LabelPlate] = []
+        for name, at, radius in rings:
+            words = marker_title(name) if name == proposed else self._label_words(name, self.labels)
+            if not words:
+                continue
+            if name == proposed:
+                words = self.tr("{marker}?").format(marker=words)
+            wrong = name in self.wrong_labels
+            others = [other for one, other, _ in rings if one != name] + bare
+            lines = [one.line for one in out if one.line is not None]
+            inside = QRectF(self.rect()).adjusted(4, 4, -4, -4)
+            for said in (words, self._shorten(name, words)):
+                size = QSizeF(metrics.horizontalAdvance(said) + (30 if wrong else 12), metrics.height() + 5)
+                found = place_label(size, at, radius, taken, others, inside, lines)
+                if found is not None:  # a name over another, or at another's disc, says something wrong
+                    taken.append(found[0])
+                    out.append(LabelPlate(name, said, *found))
+                    break
+        return out
+
+    def _shorten(self, name: str, words: str) -> str:
+        """The finger alone for a knuckle, where no more has room: of few discs each finger has one."""
+        assert self.labels is not None
+        if len(self.labels.order) > MAX_FULL_LABELS or not name.startswith("MCP"):
+            return words
+        return words.replace(marker_title(name), finger_name(name[-1]))
+
+    def _paint_labels(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
+        painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
+        for one in self.label_plates(rings, proposed):
+            if one.line is not None:
+                draw_with_halo(painter, ON_PICTURE_LINE, 1.5, partial(painter.drawLine, one.line))
+            if one.name in self.wrong_labels:
+                paint_wrong_label(painter, self._theme, one.words, one.plate)
+            else:
+                paint_label(painter, self._theme, one.words, one.plate.left(), one.plate.top())
+
+    def loupe_box(self) -> QRectF:
+        """Where the loupe is: in the upper corner that covers fewer discs, never over the place one looks at."""
+        size = min(LOUPE_PX * self._theme.text_scale, 0.3 * self.width())
+        right, left = QRectF(self.width() - size - 14, 14, size, size), QRectF(14, 14, size, size)
+        if self.labels is not None and self._count_labels(left) < self._count_labels(right):
+            right, left = left, right
+        looked_at = self.cursor_px is not None and right.adjusted(-LABEL_ROOM_PX, -40, LABEL_ROOM_PX, 40).contains(
+            self.to_screen(*map(float, self.cursor_px))
+        )
+        return left if looked_at else right
+
+    def _count_labels(self, box: QRectF) -> int:
+        assert self.labels is not None
+        return sum(box.contains(self.to_screen(*map(float, pixel))) for pixel in self.labels.label_px.values())
+
+    def _paint_loupe(self, painter: QPainter) -> None:
+        assert self.cursor_px is not None
+        assert self.image is not None
+        box = self.loupe_box()
+        center = self.found_marker.pixel if self.found_marker is not None else self.cursor_px
+        span = box.width() / LOUPE_ZOOM
+        source = QRectF(center[0] + 0.5 - span / 2, center[1] + 0.5 - span / 2, span, span)
+        painter.save()
+        painter.setPen(QPen(QColor(ON_PICTURE_LABEL), 3))
+        painter.setBrush(QColor(ON_PICTURE_LABEL))
+        painter.drawRoundedRect(box, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        inner = box.adjusted(2, 2, -2, -2)
+        painter.setClipRect(inner.toAlignedRect(), Qt.ClipOperation.IntersectClip)
+        painter.drawImage(inner, self.image, source)
+        middle = inner.center()
+        if self.found_marker is not None:
+            radius = 0.5 * self.found_marker.width_px * LOUPE_ZOOM
+            draw_with_halo(
+                painter, ON_PICTURE_PROPOSED, 2.0, lambda: painter.drawEllipse(middle, radius, radius), dash=True
+            )
+        draw_with_halo(painter, ON_PICTURE_LINE, 1.5, lambda: self._paint_cross(painter, middle, 12.0))
+        painter.setClipping(False)
+        paint_label(painter, self._theme, f"×{format_rounded(LOUPE_ZOOM)}", inner.left() + 8, inner.top() + 8)
+        words = self.no_marker_words
+        if self.found_marker is not None and not words:
+            pattern = self.tr("Marker found · {width} px wide") if box.width() >= 200 else self.tr("Found · {width} px")
+            words = pattern.format(width=format_rounded(self.found_marker.width_px))
+        if words:
+            self._paint_loupe_words(painter, words, inner)
+        painter.restore()
+
+    def _paint_loupe_words(self, painter: QPainter, words: str, inner: QRectF) -> None:
+        """At the foot of the loupe, within it, in as many lines as that takes."""
+        room = inner.width() - 8.0
+        lines: list[str] = []
+        for word in words.split(" "):
+            longer = f"{lines[-1]} {word}" if lines else word
+            if lines and label_size(self._theme, longer).width() <= room:
+                lines[-1] = longer
+            else:
+                lines.append(word)
+        height = label_size(self._theme, words).height()
+        top = inner.bottom() - 4 - height * len(lines)
+        for line in lines:
+            paint_label(painter, self._theme, line, inner.left() + 4, top)
+            top += height

@@ -1,0 +1,235 @@
+"""The list of patients: rows of 56 px, newest first, the practice patient always last."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from datetime import date
+from types import MappingProxyType
+
+from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QResizeEvent
+from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
+
+from carpus.core.records.session_setup import PRACTICE_PATIENT
+from carpus.core.records.values import Patient
+from carpus.ui.kit import numbers
+from carpus.ui.kit.fonts import MEDIUM, font
+from carpus.ui.kit.text import ElidedText
+from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
+from carpus.ui.kit.translate import tr
+from carpus.ui.words import terms
+
+ROW_PX = 56
+COLUMNS = (0.024, 0.206, 0.3, 0.526, 0.645)
+LARGE_COLUMNS = (0.024, 0.235, 0.368, 0.65, 0.65)
+"""Left edge of name, hand, diagnosis, time since and last session as a share of the width; the count ends at the right.
+With large text the card alone says how long it is since."""
+LARGE_TEXT_SCALE = 1.25
+RIGHT_PAD_PX = 28
+
+
+class PatientListModel(QAbstractListModel):
+    """The rows as Qt's views and screen readers see them."""
+
+    def __init__(self, today: Callable[[], date]) -> None:
+        super().__init__()
+        self._rows: tuple[Patient, ...] = ()
+        self.matched_names: Mapping[str, str] = {}
+        """Real names of those that a search found by it alone, by identity."""
+        self.today = today
+
+    def show_rows(self, rows: Sequence[Patient], matched_names: Mapping[str, str] = MappingProxyType({})) -> None:
+        self.beginResetModel()
+        self.matched_names = matched_names
+        self._rows = tuple(rows)
+        self.endResetModel()
+
+    def row(self, number: int) -> Patient:
+        return self._rows[number]
+
+    def find_row(self, patient_id: str) -> int:
+        """Row of a patient, -1 when not shown."""
+        return next((number for number, row in enumerate(self._rows) if row.patient_id == patient_id), -1)
+
+    def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: B008
+        return 0 if parent.isValid() else len(self._rows)
+
+    def data(self, index: QModelIndex | QPersistentModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> object:
+        if not index.isValid():
+            return None
+        row = self._rows[index.row()]
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
+            return ", ".join(part for part in self.row_cells(row) if part)
+        return row if role == Qt.ItemDataRole.UserRole else None
+
+    def row_cells(self, row: Patient) -> tuple[str, str, str, str, str, str, str]:
+        """As :func:`row_cells`, today."""
+        return row_cells(row, self.today(), self.matched_names.get(row.patient_id, ""))
+
+
+def row_cells(row: Patient, today: date, matched_name: str = "") -> tuple[str, str, str, str, str, str, str]:
+    """Pseudonym, hand, diagnosis (after the name that it was found by), how long since, date of the last session, how
+    long ago, number of sessions."""
+    side = terms.side_name(row.side)
+    if row.patient_id == PRACTICE_PATIENT:
+        return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
+    about = " · ".join(part for part in (matched_name, row.diagnosis) if part)
+    since = numbers.format_weeks_since(row.onset_day, today) if row.onset_day is not None else ""
+    if row.last_session is None:
+        return row.pseudonym, side, about, since, tr("No session counted yet"), "", ""
+    when = row.last_session
+    return (
+        row.pseudonym, side, about, since, numbers.format_short_date(when), numbers.format_days_ago(when, today),
+        str(row.session_count),
+    )  # fmt: skip
+
+
+def column_edges(text_scale: float) -> tuple[float, ...]:
+    """The left edges for a size of text."""
+    return LARGE_COLUMNS if text_scale > LARGE_TEXT_SCALE else COLUMNS
+
+
+class PatientRowPainter(QStyledItemDelegate):
+    """Paints one row from the tokens, and its part of the rounded surface."""
+
+    def __init__(self, theme: Theme, model: PatientListModel) -> None:
+        super().__init__()
+        self._theme, self._model = theme, model
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
+        return QSize(200, self._theme.px(ROW_PX))
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        theme = self._theme
+        box = QRectF(option.rect)
+        state = option.state
+        row = self._model.row(index.row())
+        painter.save()
+        corners = QPainterPath()
+        frame = QRectF(option.widget.viewport().rect()).adjusted(0.5, 0.5, -0.5, -0.5)  # type: ignore[attr-defined]
+        corners.addRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setClipRect(box)
+        painter.fillPath(corners, theme.color("surface"))
+        painter.setClipPath(corners, Qt.ClipOperation.IntersectClip)
+        if state & QStyle.StateFlag.State_Selected:
+            painter.fillRect(box, theme.color("soft"))
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(theme.color("accent"))
+            painter.drawRoundedRect(QRectF(0, box.top() + 12, 4, box.height() - 24), 2, 2)
+        else:
+            if state & QStyle.StateFlag.State_MouseOver:
+                painter.fillRect(box, theme.color("canvas"))
+            if index.row() + 1 < self._model.rowCount():
+                painter.setPen(QPen(theme.color("line"), 1))
+                painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
+        self._paint_cells(painter, box, row)
+        painter.setClipRect(box)
+        painter.strokePath(corners, QPen(theme.color("line"), 1))
+        painter.restore()
+
+    def _paint_cells(self, painter: QPainter, box: QRectF, row: Patient) -> None:
+        scale = self._theme.text_scale
+        *texts, when, ago, count = self._model.row_cells(row)
+        end = box.right() - RIGHT_PAD_PX
+        edges = [*(box.left() + share * box.width() for share in column_edges(scale)), end]
+        for number, text in enumerate(texts):
+            face = font(14 * scale) if number else font(16 * scale, MEDIUM)
+            last = next((later for later, one in enumerate([*texts, when]) if later > number and one), len(edges) - 1)
+            room = QRectF(edges[number], box.top(), edges[last] - edges[number] - 8, box.height())
+            if edges[number + 1] > edges[number]:
+                self._paint_text(painter, face, text, room, "text")
+        face = font(14 * scale)
+        plain = not ago
+        room = QRectF(edges[4], box.top(), end - edges[4] - (0 if plain else 36), box.height())
+        self._paint_text(painter, face, when, room, "text2" if plain else "text")
+        date_width = max(self._theme.px(92), QFontMetricsF(face).horizontalAdvance(when) + 10)
+        beside = room.adjusted(date_width, 0, 0, 0)
+        if QFontMetricsF(face).horizontalAdvance(ago) <= beside.width():
+            self._paint_text(painter, face, ago, beside, "text2")
+        painter.setPen(self._theme.color("text"))
+        painter.setFont(face)
+        painter.drawText(
+            QRectF(end - 80, box.top(), 80, box.height()),
+            int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), count,
+        )  # fmt: skip
+
+    def _paint_text(self, painter: QPainter, face: QFont, text: str, box: QRectF, token: str) -> None:
+        painter.setFont(face)
+        painter.setPen(self._theme.color(token))
+        shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, box.width())
+        painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter), shown)
+
+
+class ListHeader(QWidget):
+    """Column names over the columns of the rows, also when a scroll bar takes a part of the list's width."""
+
+    def __init__(self, theme: Theme, rows: QListView) -> None:
+        super().__init__()
+        self._theme, self._rows = theme, rows
+        names = (
+            self.tr("Patient"), self.tr("Hand"), self.tr("Diagnosis or operation"), self.tr("Since"),
+            self.tr("Last session"), self.tr("Sessions"),
+        )  # fmt: skip
+        self._names = [ElidedText(theme, name, 12, MEDIUM, "text2") for name in names]
+        for name in self._names:
+            name.setParent(self)
+        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self._update_columns())
+        theme.on_change(self, lambda: self.setFixedHeight(theme.px(28)))
+        theme.changed.connect(self._update_columns)
+
+    def _update_columns(self) -> None:
+        bar = self._rows.verticalScrollBar()
+        width = self.width() - (bar.sizeHint().width() if bar.maximum() else 0)
+        end = width - RIGHT_PAD_PX
+        count = self._names[-1].fontMetrics().horizontalAdvance(self._names[-1].text()) + 2
+        edges = [round(share * width) for share in column_edges(self._theme.text_scale)]
+        lefts = [*edges, end - count]
+        for name, left, right in zip(self._names, lefts, [*(edge - 8 for edge in lefts[1:]), end], strict=True):
+            name.setGeometry(left, 0, max(right - left, 0), self.height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._update_columns()
+
+
+class PatientList(QListView):
+    """The rows on a rounded surface; the height follows the rows until the room ends, then it scrolls."""
+
+    def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
+        super().__init__()
+        self._theme = theme
+        self.patient_model = PatientListModel(today)
+        self.setModel(self.patient_model)
+        self._delegate = PatientRowPainter(theme, self.patient_model)
+        self.setItemDelegate(self._delegate)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setMouseTracking(True)
+        self.setVerticalScrollMode(QListView.ScrollMode.ScrollPerItem)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setProperty("shows_own_focus", True)
+        self.setAccessibleName(self.tr("Patients"))
+        self.setUniformItemSizes(True)
+        self.viewport().setAutoFillBackground(False)
+        self.setStyleSheet("QListView { background: transparent; border: 0; }")
+        theme.changed.connect(self._apply_theme)
+        self.patient_model.modelReset.connect(self._apply_theme)
+
+    def _apply_theme(self) -> None:
+        self.setMaximumHeight(max(1, self.patient_model.rowCount()) * self._theme.px(ROW_PX))
+        self.scheduleDelayedItemsLayout()
+        self.updateGeometry()
+        self.viewport().update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        row = self._theme.px(ROW_PX)
+        rest = self.height() % row if self.height() < self.patient_model.rowCount() * row else 0
+        self.setViewportMargins(0, 0, 0, rest)
+        super().resizeEvent(event)
+
+    def sizeHint(self) -> QSize:
+        return QSize(600, max(1, self.patient_model.rowCount()) * self._theme.px(ROW_PX))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(300, 2 * self._theme.px(ROW_PX))

@@ -1,0 +1,431 @@
+"""When the window locks, what is seen meanwhile, what opens it, and how the PIN is changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut, QWindow
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QWidget
+
+from carpus.core.model.errors import CarpusFault, PinUncheckable
+from carpus.core.model.installation import Finding
+from carpus.core.model.rounding import round_half_away
+from carpus.core.platform.disks import check_disk_encryption, detect_encryption
+from carpus.core.records.pin import Pin
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import Separator, Surface
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.field import LabelledField
+from carpus.ui.kit.keys import KEYS
+from carpus.ui.kit.layouts import fill, row_layout
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import translate_phrase
+from carpus.ui.screens.records.cards import LockCard
+from carpus.ui.shell.flow import ScreenContext
+from carpus.ui.words.fault_words import fault_words
+
+RETRY_INTERVAL_MS = 60_000
+"""How long a lock waits again that came while a recording ran."""
+
+
+class LockController(QObject):
+    """Locks by key, after idle minutes and at the start; never while a recording runs. ``privacy_changed`` carries
+    whether what
+    lies in other windows is to be hidden."""
+
+    privacy_changed = Signal(bool)
+
+    def __init__(
+        self,
+        context: ScreenContext,
+        *,
+        minutes: int,
+        save_minutes: Callable[[int], None],
+    ) -> None:
+        super().__init__(context.window)
+        shell, theme, library = context.window, context.theme, context.library
+        self._context, self._shell, self._library = context, shell, library
+        self._minutes, self._save_minutes = minutes, save_minutes
+        self.pin = Pin(library.folder)
+        self.lock_screen = LockScreen(shell, theme)
+        self.lock_screen.pin_entered.connect(self._check_pin)
+        self.pin_dialog = PinDialog(shell.screen_stack, theme)
+        self.pin_dialog.pin_chosen.connect(self._change_pin)
+        self.card = LockCard(theme, minutes)
+        self.card.pin_button.clicked.connect(lambda: self.pin_dialog.request_pin(is_set=self.pin.is_set))
+        self.card.minutes.chosen.connect(self._set_minutes)
+        self.card.show_pin(is_set=self.pin.is_set)
+        self._background = Background()  # the system may take a second or two to answer
+        folder = library.folder
+        self._background.run(
+            lambda: check_disk_encryption(detect_encryption(folder)),
+            self._show_disk_encryption,
+            context.messages.show_fault,
+            self,
+        )
+        self._hidden_widgets = (shell.top_bar, shell.banner, shell.screen_stack)
+        shortcut = QShortcut(QKeySequence(KEYS["lock"]), shell)
+        shortcut.activated.connect(self.lock_or_set_pin)
+        self.idle_timer = IdleTimer(shell)
+        self.idle_timer.timed_out.connect(self._lock_when_idle)
+
+    @property
+    def is_locked(self) -> bool:
+        return self.lock_screen.isVisibleTo(self._shell)
+
+    def shut_down(self) -> None:
+        self.idle_timer.restart(0)
+        self._background.join(RETRY_INTERVAL_MS)
+
+    def _show_disk_encryption(self, finding: Finding) -> None:
+        self.card.show_disk(
+            "good" if finding.state == "good" else "warn",
+            translate_phrase(finding.observation),
+            translate_phrase(finding.remedy),
+        )
+
+    def lock_at_start(self) -> None:
+        """Where there is a PIN nothing is shown without it; called when the window is there."""
+        self.refresh()
+        if self.pin.is_set:
+            self._lock(0)
+
+    def lock_or_set_pin(self) -> None:
+        """The key that locks; without a PIN it leads to where one is set."""
+        if self._context.navigator.is_recording():
+            return  # a recording goes on, and its keys must reach it
+        if self.pin.is_set:
+            self._lock(0)
+        else:
+            self._context.navigator.open_screen("settings", "safety")
+
+    def _lock_when_idle(self) -> None:
+        if not self.pin.is_set or self.is_locked or self._minutes == 0:
+            return
+        if self._context.navigator.is_recording():
+            self.idle_timer.restart(RETRY_INTERVAL_MS)
+            return
+        self._lock(self._minutes)
+
+    def _lock(self, minutes: int) -> None:
+        if self.is_locked:
+            return
+        for widget in QApplication.topLevelWidgets():
+            if widget.property("stays_when_locked"):
+                continue  # the patient's view, which shows nothing but a word then
+            if widget is not self._shell and widget.isVisible():
+                widget.close()  # menus and dialogs name patients too
+        self.privacy_changed.emit(True)
+        stored = self._context.current.session_id != ""
+        self.lock_screen.lock(self.lock_screen.lock_reason(datetime.now(), minutes), is_session_saved=stored)
+        for widget in self._hidden_widgets:
+            widget.setProperty("shown_before_lock", not widget.isHidden())
+            widget.hide()
+        self._library.audit_log.log_program("locked", idle=int(minutes > 0))
+
+    def _check_pin(self, entered: str) -> None:
+        try:
+            tried = self.pin.check(entered)
+        except CarpusFault as fault:
+            words = fault_words(fault)
+            self.lock_screen.show_message(f"{words.summary} {words.remedy}")
+            if not isinstance(fault, PinUncheckable):
+                self.lock_screen.pause(RETRY_INTERVAL_MS // 1000)  # what cannot be counted is not tried without end
+            return
+        if not tried.is_correct:
+            self._library.audit_log.log_program("pin_refused", left=tried.tries_left)
+            self.lock_screen.show_wrong_pin(tried.tries_left, round_half_away(tried.pause_s))
+            return
+        self._library.audit_log.log_program("unlocked")
+        self.privacy_changed.emit(False)
+        for widget in self._hidden_widgets:
+            widget.setVisible(bool(widget.property("shown_before_lock")))
+        self.lock_screen.close_dialog()
+        self._restart_idle_timer()
+
+    def _change_pin(self, old: str, new: str) -> None:
+        try:
+            if self.pin.is_set:
+                tried = self.pin.check(old)
+                if not tried.is_correct:
+                    self._library.audit_log.log_program("pin_refused", left=tried.tries_left)
+                    words = self.tr("The current PIN is not right.")
+                    wait = self.tr("Too many tries. The next one in {seconds} s.").format(
+                        seconds=round_half_away(tried.pause_s)
+                    )
+                    self.pin_dialog.error_text.show_text(wait if tried.pause_s else words)
+                    return
+            if new:
+                self.pin.set(new)
+            else:
+                self.pin.remove()
+        except CarpusFault as fault:
+            self.pin_dialog.close_dialog()
+            self._context.messages.show_fault(fault)
+            return
+        self._library.audit_log.log_program("pin_changed", set=int(bool(new)))
+        self.pin_dialog.close_dialog()
+        self.card.show_pin(is_set=self.pin.is_set)
+        self._restart_idle_timer()
+
+    def refresh(self) -> None:
+        self.card.show_pin(is_set=self.pin.is_set)
+        self._restart_idle_timer()
+
+    def _set_minutes(self, minutes: int) -> None:
+        self._minutes = minutes
+        self._save_minutes(minutes)
+        self._restart_idle_timer()
+
+    def _restart_idle_timer(self) -> None:
+        self.idle_timer.restart(self._minutes * 60_000 if self.pin.is_set else 0)
+
+
+ACTIVITY_EVENTS = (
+    QEvent.Type.KeyPress, QEvent.Type.MouseMove, QEvent.Type.MouseButtonPress, QEvent.Type.Wheel,
+    QEvent.Type.TouchBegin,
+)  # fmt: skip
+
+
+class IdleTimer(QObject):
+    """``timed_out`` once after so many milliseconds without a sign of life in the window."""
+
+    timed_out = Signal()
+
+    def __init__(self, window: QWidget) -> None:
+        super().__init__(window)
+        self._window = window
+        self._watched: QObject | None = None
+        self._timer = QTimer(self, singleShot=True)
+        self._timer.timeout.connect(self.timed_out)
+
+    @property
+    def remaining_ms(self) -> int:
+        """Until it passes; -1 when nobody waits."""
+        return self._timer.remainingTime()
+
+    def restart(self, milliseconds: int) -> None:
+        """From now on; 0 for never."""
+        self._timer.stop()
+        handle: QWindow | None = self._window.windowHandle()  # none before the window was made
+        # What the system sends the window, and nothing else: the many events within it pass nobody's hand.
+        if milliseconds and handle is not None and handle is not self._watched:
+            handle.installEventFilter(self)
+            self._watched = handle
+        if milliseconds:
+            self._timer.start(milliseconds)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() in ACTIVITY_EVENTS and self._timer.isActive():
+            self._timer.start()
+        return False
+
+
+MIN_PIN_LENGTH = 4
+
+
+class PinDialog(Dialog):
+    """``pin_chosen`` carries the old PIN (empty for none) and the new one, empty to take it away."""
+
+    pin_chosen = Signal(str, str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 560)
+        words = self.tr(
+            "Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are "
+            "readable for whoever has this computer’s account or disk."
+        )
+        self.add_heading(words=words)
+        self.current_pin, self.new_pin, self.repeated_pin = QLineEdit(), QLineEdit(), QLineEdit()
+        for line in (self.current_pin, self.new_pin, self.repeated_pin):
+            line.setEchoMode(QLineEdit.EchoMode.Password)
+            line.setMaxLength(MAX_PIN_LENGTH)
+        self._current_row = LabelledField(theme, self.tr("&Current PIN"), self.current_pin)
+        self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.save_button = Button(theme, self.tr("Set PIN"), "primary")
+        self.remove_button = Button(theme, self.tr("&Remove PIN"), "plain", height_px=52)
+        self.save_button.clicked.connect(self._accept)
+        self.remove_button.clicked.connect(lambda: self.pin_chosen.emit(self.current_pin.text(), ""))
+        new, again = (self.tr("&New PIN"), self.new_pin), (self.tr("Repeat new &PIN"), self.repeated_pin)
+        fill(
+            self.card.body, self._current_row, LabelledField(theme, *new), LabelledField(theme, *again), self.error_text
+        )
+        self.add_buttons(self.save_button, self.remove_button, gap=None)
+
+    def request_pin(self, *, is_set: bool) -> None:
+        """Ask; the old one first where there is one."""
+        self.title.setText(self.tr("Change the PIN") if is_set else self.tr("Set a PIN"))
+        self._current_row.setVisible(is_set)
+        self.remove_button.setVisible(is_set)
+        for line in (self.current_pin, self.new_pin, self.repeated_pin):
+            line.clear()
+        self.error_text.hide()
+        self.open(self.current_pin if is_set else self.new_pin)
+
+    def _accept(self) -> None:
+        if len(self.new_pin.text()) < MIN_PIN_LENGTH:
+            self.error_text.show_text(self.tr("A PIN has four signs or more."))
+        elif self.new_pin.text() != self.repeated_pin.text():
+            self.error_text.show_text(self.tr("The two are not the same."))
+        else:
+            self.pin_chosen.emit(self.current_pin.text(), self.new_pin.text())
+
+
+MAX_PIN_LENGTH = 64
+
+
+class LockScreen(Dialog):
+    """Covers the whole window. ``pin_entered`` carries what was typed; the answer comes by :meth:`show_wrong_pin` or
+    by closing."""
+
+    pin_entered = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 480, is_dismissible=False)
+        self._pause_s = 0
+        self._keeps_message = False
+        self.badge = Surface(theme, "soft")
+        self.badge.setObjectName("badge")
+        QHBoxLayout(self.badge).addWidget(Icon(theme, "lock", 32, (50, 50), alignment=0.5))
+        self._bar = Surface(theme, bottom_edge="line")
+        self._bar.setParent(self)
+        row_layout(
+            Icon(theme, "carpus", 22, (26, 32)),
+            (Text(theme, "Carpus", 16, SEMIBOLD), 1),
+            gap=6,
+            margins=(20, 0, 0, 0),
+            parent=self._bar,
+        )
+        self.title = Text(theme, self.tr("Locked"), 28, SEMIBOLD)
+        self.reason_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.pin_field = QLineEdit(echoMode=QLineEdit.EchoMode.Password, maxLength=MAX_PIN_LENGTH)
+        self.pin_field.setAccessibleName(self.tr("PIN"))
+        self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.unlock_button = Button(theme, self.tr("Unlock"), "primary")
+        self.unlock_button.clicked.connect(self._submit)
+        self.set_default(self.unlock_button)
+        self.data_state = StateText(theme, 14, MEDIUM)
+        self.privacy_state = StateText(theme, 14, REGULAR)
+        self.forgotten_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        body = self.card.body
+        body.setContentsMargins(36, 20, 36, 16)
+        body.setSpacing(8)
+        middle = Qt.AlignmentFlag.AlignHCenter
+        fill(body, (self.badge, 0, middle), (self.title, 0, middle))
+        self.reason_text.setAlignment(middle)
+        fill(
+            body,
+            self.reason_text,
+            8,
+            Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
+            self.pin_field,
+            self.error_text,
+            self.unlock_button,
+            4,
+            Separator(theme),
+            self.data_state,
+            self.privacy_state,
+            self.forgotten_text,
+        )
+        self._clock = QTimer(self, interval=1000)
+        self._clock.timeout.connect(self._count_seconds)
+
+    def lock(self, reason: str, *, is_session_saved: bool) -> None:
+        """Cover the window; ``is_session_saved`` whether a session was open, which is."""
+        self.reason_text.setText(reason)
+        words = (
+            self.tr("Nothing is lost. The open session is stored.") if is_session_saved else self.tr("Nothing is lost.")
+        )
+        self.data_state.show_state("good", words, token="text")
+        self.privacy_state.show_state("none", self.tr("Names, pictures and figures are hidden."), icon="eye-off")
+        self._show_forgotten(help_shown=False)
+        self.error_text.hide()
+        self.pin_field.clear()
+        self._set_input_enabled(True)
+        self.open(self.pin_field)
+
+    def lock_reason(self, when: datetime, minutes: int) -> str:
+        if minutes:
+            words = self.tr("Locked by itself at {time}, after {minutes} minutes without a key.")
+            return words.format(time=f"{when:%H:%M}", minutes=minutes)
+        return self.tr("Locked at {time}.").format(time=f"{when:%H:%M}")
+
+    def show_wrong_pin(self, attempts_left: int, pause_s: int) -> None:
+        """The PIN was not the one: how many tries are left, or how long to wait."""
+        if pause_s:
+            self.pin_field.clear()
+            self._start_pause(pause_s)
+            self._show_pause()
+            return
+        words = self.tr("Not this PIN. 1 more try, then a pause of 1 minute.")
+        if attempts_left != 1:
+            words = self.tr("Not this PIN. {left} more tries, then a pause of 1 minute.").format(left=attempts_left)
+        self.show_message(words)
+
+    def show_message(self, words: str) -> None:
+        self.pin_field.clear()
+        self.error_text.show_text(words)
+        self.pin_field.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def pause(self, pause_s: int) -> None:
+        """Nothing is tried for so long; what was said stays."""
+        self._keeps_message = True
+        self._start_pause(pause_s)
+
+    def _start_pause(self, pause_s: int) -> None:
+        self._pause_s = pause_s
+        self._set_input_enabled(False)
+        self._clock.start()
+
+    def _set_input_enabled(self, is_enabled: bool) -> None:
+        self.pin_field.setEnabled(is_enabled)
+        self.unlock_button.setEnabled(is_enabled)
+
+    def _show_pause(self) -> None:
+        if self._keeps_message:
+            return
+        self.error_text.show_text(self.tr("Too many tries. The next one in {seconds} s.").format(seconds=self._pause_s))
+
+    def _count_seconds(self) -> None:
+        self._pause_s = max(0, self._pause_s - 1)
+        if self._pause_s:
+            self._show_pause()
+            return
+        self._clock.stop()
+        self._keeps_message = False
+        self.error_text.hide()
+        self._set_input_enabled(True)
+        self.pin_field.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _submit(self) -> None:
+        if self.pin_field.text():
+            self.pin_entered.emit(self.pin_field.text())
+
+    def close_dialog(self) -> None:
+        self._clock.stop()
+        self.pin_field.clear()
+        super().close_dialog()
+
+    def _show_forgotten(self, *, help_shown: bool) -> None:
+        words = self.tr("PIN forgotten? F1 says what can be done.")
+        if help_shown:
+            words = self.tr(
+                "Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus "
+                "again: nothing is lost. A PIN hides; it does not protect the files."
+            )
+        self.forgotten_text.setText(words)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_F1:
+            self._show_forgotten(help_shown=True)
+        super().keyPressEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        bar_px = self._theme.px(56) + 1
+        self._bar.setGeometry(0, 0, self.width(), bar_px)
+        self.setContentsMargins(0, bar_px, 0, 0)  # the card stands in what is left
+        super().resizeEvent(event)

@@ -1,0 +1,1 @@
+"""The report screen: preview, choice of pages, saving and printing."""

@@ -1,0 +1,343 @@
+"""The review: picture and curves in step, repetitions to correct, range of motion, on to the report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+
+from carpus.core.model.types import TrackStatus
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.charts.session import find_nearest_row
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.keys import bind_screen_keys
+from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, row_layout, scroll_page
+from carpus.ui.kit.text import Text
+from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.picture.playback_controls import PlaybackClock
+from carpus.ui.screens.review.card import ReviewCard
+from carpus.ui.screens.review.charts import Player, ReviewCharts
+from carpus.ui.screens.review.frame_view import ReviewFrameView
+from carpus.ui.screens.review.hand_image import HandImage, HandImageDialog, build_hand_image
+from carpus.ui.screens.review.reviewed_session import ReviewedSession
+from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
+
+if TYPE_CHECKING:
+    from carpus.core.records.library import Library
+
+EDGE_STEP_S = 0.1
+
+
+class ReviewScreen(FittedWidget):
+    """``report_requested`` and ``export_requested`` carry the session's identity, ``comparison_requested`` with it
+    that of the session to be held against
+    it; ``fault_raised`` a fault; ``repeat_requested`` asks for another set; ``session_shown`` when a session is on
+    the screen; ``correction_requested``
+    carries the session and the row whose markers are to be put right, ``version_chosen`` another result of the
+    recording,
+    ``restore_requested`` one that is to count again, ``hand_image_requested`` a frame to be saved as a
+    picture."""
+
+    report_requested = Signal(str)
+    comparison_requested = Signal(str, str)
+    export_requested = Signal(str)
+    repeat_requested = Signal()
+    correction_requested = Signal(str, object, int)
+    version_chosen = Signal(str)
+    restore_requested = Signal(str)
+    hand_image_requested = Signal(HandImage)
+    fault_raised = Signal(object)
+    session_shown = Signal()
+
+    def __init__(self, theme: Theme, background: Background, store: Library) -> None:
+        super().__init__()
+        self._theme, self._background, self._store = theme, background, store
+        self._session_id = ""
+        self._whole_hand = self._tight = False
+        self.reviewed: ReviewedSession | None = None
+        self.current = -1
+        """The chosen repetition, from 0; -1 for none."""
+        self.playing = PlaybackClock(self)
+        self.frame_view = ReviewFrameView(theme, background, store.read_frame)
+        self.charts = ReviewCharts(theme)
+        self.player = Player(theme, self.playing)
+        self.card = ReviewCard(theme)
+        self.bubble = BubbleView(theme, wide=True)
+        self.exclusion_dialog = ExclusionDialog(self, theme)
+        self.hand_image_dialog = HandImageDialog(self, theme)
+        self._column = column_layout(
+            (row_layout((self.frame_view, 480), (self.charts, 736), gap=GAP_PX), 1),
+            self.player,
+            self.bubble,
+            self.card,
+            gap=12,
+            margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
+        )
+        self._page = scroll_page(self._column)
+        column_layout(self._page, margins=(0, 0, 0, 0), parent=self)
+        self._connect()
+        self._bind()
+        theme.changed.connect(self._fit)
+        theme.changed.connect(self._fit_soon)
+
+    def _fit(self) -> None:
+        self.bubble.set_room(self.height() >= MIN_SCREEN_PX * self._theme.text_scale)
+        tight = is_tight(self, self._theme)
+        if tight != self._tight:  # once more, and not with every size: what is fitted again may come out otherwise
+            self._tight = tight
+            self._fit_soon()
+        if self.charts.fit(self.reviewed, above=self._column if tight else None):
+            self._refresh()
+        else:
+            self.card.fit(self._column, self.height(), tight=tight, whole_hand=self._whole_hand)
+
+    def _connect(self) -> None:
+        curves, card = self.charts.curves, self.card
+        self.playing.time_changed.connect(self._show_time)
+        self.frame_view.read_failed.connect(self.fault_raised)
+        self.frame_view.correction_requested.connect(self.correct_here)
+        self.frame_view.save_button.clicked.connect(self.open_hand_image_dialog)
+        curves.cursor_moved.connect(self.playing.set_time)
+        curves.edges_moved.connect(lambda *edges: self._apply_choices(lambda one: one.set_edges(*edges)))
+        curves.menu.fault_raised.connect(self.fault_raised)
+        self.charts.finger_chosen.connect(self._refresh)
+        self.player.transport.stepped.connect(self.step)
+        self.player.view_chosen.connect(lambda _: self._refresh())
+        self.player.repetition_requested.connect(self.toggle_excluded)
+        self.exclusion_dialog.reason_chosen.connect(self._exclude_repetition)
+        self.hand_image_dialog.accepted.connect(self._request_hand_image)
+        card.report_button.clicked.connect(lambda: self.report_requested.emit(self._session_id))
+        card.export_button.clicked.connect(lambda: self.export_requested.emit(self._session_id))
+        card.repeat_button.clicked.connect(self.repeat_requested)
+        card.include_button.clicked.connect(self.toggle_included)
+        card.comparison_requested.connect(lambda other: self.comparison_requested.emit(self._session_id, other))
+        card.tables.versions.chosen.connect(self.version_chosen)
+        card.tables.versions.restore_requested.connect(self.restore_requested)
+
+    def _bind(self) -> None:
+        curves, card = self.charts.curves, self.card
+        actions: dict[str, Callable[[], object]] = {
+            "play": self.playing.toggle, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
+            "repetition_back": lambda: self.select_repetition(self.current - 1),
+            "repetition_on": lambda: self.select_repetition(self.current + 1),
+            "leave_out": self.toggle_excluded, "next_view": self.player.next_view,
+            "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S), "edge_on": lambda: self.nudge_edge(EDGE_STEP_S),
+            "report": card.report_button.click, "export": card.export_button.click, "plot_in": curves.zoom_in,
+            "plot_out": curves.zoom_out, "plot_all": curves.show_all, "correct": self.correct_here,
+            "beside": card.compare_button.click, "angle": self.frame_view.angle_button.click,
+            "hand_picture": self.open_hand_image_dialog,
+        }  # fmt: skip
+        bind_screen_keys(self, actions)
+
+    # --- life ---------------------------------------------------------------------------------------------
+    def load_session(
+        self, patient_id: str, session_id: str, *, may_repeat: bool = False, whole_hand: bool | None = None
+    ) -> None:
+        """Read a session in the background, then show it. ``whole_hand`` where that is known: then everything has its
+        place at once."""
+        self._session_id, self.reviewed = session_id, None
+        for sheet in (self.exclusion_dialog, self.hand_image_dialog):
+            sheet.close_dialog()  # what they ask about was of the session before
+        self.playing.open(-1.0)
+        self.charts.curves.clear()
+        self.player.show_nothing()
+        self.card.show_reading(on=True)
+        self._page.verticalScrollBar().setValue(0)
+        if whole_hand is not None:
+            self._whole_hand = whole_hand
+            self.charts.finger.setVisible(whole_hand)
+            self.card.tables.show_layout(whole_hand=whole_hand)
+            self._fit()
+        self.card.repeat_button.setVisible(may_repeat)
+        self.frame_view.set_session(None, self.tr("Reading the session…"))
+        store = self._store
+
+        def report_failure(fault: Exception) -> None:
+            if session_id == self._session_id:
+                self.frame_view.set_session(
+                    None, self.tr("This session cannot be read. Go back, or choose another one.")
+                )
+            self.fault_raised.emit(fault)
+
+        self._background.run(
+            lambda: ReviewedSession.load(store, patient_id, session_id), self._show, report_failure, self
+        )
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    @property
+    def is_loaded(self) -> bool:
+        return self.reviewed is not None
+
+    @property
+    def results(self) -> SessionResults | None:
+        return None if self.reviewed is None else self.reviewed.results
+
+    def _show(self, reviewed: ReviewedSession) -> None:
+        if reviewed.id != self._session_id:
+            return  # another one was asked for meanwhile
+        self.reviewed, self._whole_hand = reviewed, reviewed.is_hand
+        self.playing.open(float(reviewed.curves.time_s[-1]) if len(reviewed.curves.time_s) else -1.0)
+        self.charts.finger.setVisible(reviewed.is_hand)
+        self.card.tables.show_layout(whole_hand=reviewed.is_hand)
+        self.frame_view.show_session(reviewed.session)
+        self.card.tables.versions.show_versions(reviewed.versions, self._session_id)
+        all_of_them = reviewed.results.repetitions
+        counted = (n for n, repetition in enumerate(all_of_them) if repetition.is_counted)
+        self.current = next(counted, 0 if all_of_them else -1)  # also where all are passive
+        self._refresh()
+        self.playing.set_time(all_of_them[self.current].start_s if all_of_them else 0.0)
+        self.session_shown.emit()
+
+    def _refresh(self) -> None:
+        reviewed = self.reviewed
+        if reviewed is None:
+            return
+        plot = self.charts.show_plot(reviewed, str(self.player.view.currentData()), self.current)
+        self.player.show_session(plot.end_s, reviewed.results.repetitions, self.current)
+        self.frame_view.show_repetition(reviewed, self.current, max(self.charts.finger_number, 0))
+        self.card.show_session(reviewed)
+        self._fit()
+
+    # --- time ---------------------------------------------------------------------------------------------
+    def _show_time(self, time_s: float) -> None:
+        """The repetition under the cursor becomes the current one."""
+        if self.reviewed is None:
+            return
+        under = self.reviewed.find_repetitions(time_s)
+        if under and self.current not in under:
+            self.current = under[0]
+            self._refresh()
+        self.charts.set_time(time_s)
+        self.frame_view.show_time(time_s, find_nearest_row(self.reviewed.curves.time_s, time_s))
+
+    def step(self, frames: int) -> None:
+        if self.reviewed is not None and len(times := self.reviewed.curves.time_s):
+            row = find_nearest_row(times, self.playing.time_s) + frames
+            self.playing.set_time(float(times[np.clip(row, 0, len(times) - 1)]))
+
+    def select_repetition(self, number: int) -> None:
+        if self.reviewed is not None and 0 <= number < len(self.reviewed.results.repetitions):
+            self.current = number
+            self._refresh()
+            self.playing.set_time(self.reviewed.results.repetitions[number].start_s)
+
+    def correct_here(self) -> None:
+        if self.reviewed is not None and self.frame_view.row >= 0:
+            self.playing.stop()
+            self.correction_requested.emit(self._session_id, self.reviewed.session, self.frame_view.row)
+
+    # --- picture of the hand ------------------------------------------------------------------------------
+    def open_hand_image_dialog(self) -> None:
+        """Ask whether this frame becomes a picture; only where frames were kept."""
+        reviewed = self.reviewed
+        if reviewed is None or self.frame_view.save_button.isHidden():
+            return
+        self.playing.stop()
+        status = reviewed.curves.status[self.frame_view.row]
+        self.hand_image_dialog.open_form(refused=status in (TrackStatus.LOST, TrackStatus.DOUBTFUL))
+
+    def _request_hand_image(self) -> None:
+        if self.reviewed is not None:
+            self.hand_image_requested.emit(build_hand_image(self.reviewed, self.frame_view.row, self.playing.time_s))
+
+    # --- corrections --------------------------------------------------------------------------------------
+    def toggle_excluded(self) -> None:
+        """Leave the current repetition out or let it count as passive (asks which), or take that back."""
+        if self.reviewed is None or self.current < 0:
+            return
+        if self.reviewed.results.repetitions[self.current].exclusion_reason:
+            self._apply_choices(lambda one: one.include_repetition(self.current))
+        else:
+            self.playing.stop()  # what is asked about stays the current one
+            self.exclusion_dialog.open_form(self.current + 1)
+
+    def _exclude_repetition(self, number: int, reason: str, and_after: bool) -> None:
+        self._apply_choices(lambda one: one.exclude_repetition(number - 1, reason, and_after=and_after))
+
+    def nudge_edge(self, by_s: float) -> None:
+        """Move the edge of the current repetition that is nearer to the cursor."""
+        if self.current >= 0:
+            self._apply_choices(lambda one: one.nudge_edge(self.current, self.playing.time_s, by_s))
+
+    def toggle_included(self) -> None:
+        if self.reviewed is not None:
+            self._apply_choices(
+                lambda one: replace(one.choices, is_session_excluded=not one.choices.is_session_excluded)
+            )
+            self.session_shown.emit()
+
+    def _apply_choices(self, choices_of: Callable[[ReviewedSession], RepetitionChoices]) -> None:
+        if self.reviewed is None:
+            return
+        choices = choices_of(self.reviewed)
+        self.reviewed = self.reviewed.apply_choices(choices)
+        self._refresh()
+        store, session_id = self._store, self._session_id
+        self._background.run(
+            lambda: store.save_choices(session_id, choices), lambda _: None, self.fault_raised.emit, self
+        )
+
+
+class ExclusionDialog(Dialog):
+    """Emits ``reason_chosen`` with the repetition's number, from 1, the reason, and whether it is that of all after
+    it too."""
+
+    reason_chosen = Signal(int, str, bool)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 560)
+        self._number = 0
+        self.add_heading(
+            words=self.tr("Passive: somebody else moved the hand. It counts apart, beside the active ones.")
+        )
+        body = self.card.body
+        self.passive_button = Button(theme, self.tr("Passive"), "plain", height_px=40)
+        self.passive_button.clicked.connect(lambda: self._accept(PASSIVE))
+        self.passive_onwards_button = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
+        self.passive_onwards_button.clicked.connect(lambda: self._accept(PASSIVE, and_after=True))
+        body.addLayout(row_layout(self.passive_button, self.passive_onwards_button, STRETCH))
+        words = self.tr(
+            "Left out: it stays in the recording and on the curves, and counts no longer. The report says so."
+        )
+        body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
+        quick = QHBoxLayout()
+        self.reason_buttons: list[Button] = []
+        for reason in (self.tr("pain"), self.tr("other movement"), self.tr("trial")):
+            button = Button(theme, reason, "plain", height_px=40)
+            button.clicked.connect(lambda _=False, reason=reason: self._accept(reason))
+            quick.addWidget(button)
+            self.reason_buttons.append(button)
+        quick.addStretch(1)
+        body.addLayout(quick)
+        self.reason_field = QLineEdit(placeholderText=self.tr("Another reason"))
+        self.reason_field.setAccessibleName(self.tr("Another reason"))
+        self.reason_field.textChanged.connect(self._update_default)
+        self._accept_button = Button(theme, self.tr("Leave it out"), "plain")
+        self._accept_button.clicked.connect(lambda: self._accept(self.reason_field.text().strip()))
+        self._cancel_button = Button(theme, self.tr("Keep it in"), "plain")
+        self._cancel_button.clicked.connect(self.close_dialog)
+        body.addLayout(row_layout((self.reason_field, 1), self._accept_button, self._cancel_button))
+
+    def open_form(self, number: int) -> None:
+        self._number = number
+        self.title.setText(self.tr("Is repetition {number} passive, or left out?").format(number=number))
+        self.reason_field.clear()
+        self._update_default("")
+        self.open()
+
+    def _update_default(self, text: str) -> None:
+        """Who writes a reason means it; without one nothing is left out by Enter."""
+        self._accept_button.setEnabled(bool(text.strip()))
+        self.set_default(self._accept_button if text.strip() else self._cancel_button)
+
+    def _accept(self, reason: str, *, and_after: bool = False) -> None:
+        if reason:
+            self.close_dialog()
+            self.reason_chosen.emit(self._number, reason, and_after)

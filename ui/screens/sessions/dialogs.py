@@ -1,0 +1,91 @@
+"""What is asked before a session is set aside, moved, renamed or deleted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.field import Combo
+from carpus.ui.kit.layouts import STRETCH, row_layout
+from carpus.ui.kit.theme import Theme
+
+
+class ExcludeDialog(Dialog):
+    """Emits ``reason_given`` with the reason."""
+
+    reason_given = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 600)
+        words = self.tr("It stays in the list and can be opened, but counts nowhere. It can be taken back.")
+        self.add_heading(self.tr("Set this session aside?"), words)
+        quick = QHBoxLayout()
+        self.buttons: list[Button] = []
+        for reason in (self.tr("wrong exercise"), self.tr("trial"), self.tr("discs lost"), self.tr("pain")):
+            button = Button(theme, reason, "plain", height_px=40)
+            button.clicked.connect(lambda _=False, reason=reason: self._accept(reason))
+            quick.addWidget(button)
+            self.buttons.append(button)
+        quick.addStretch(1)
+        self.card.body.addLayout(quick)
+        self.reason_field = QLineEdit(placeholderText=self.tr("Another reason"))
+        self.reason_field.setAccessibleName(self.tr("Another reason"))
+        self.accept_button = Button(theme, self.tr("Set it aside"), "plain")
+        self.accept_button.clicked.connect(lambda: self._accept(self.reason_field.text().strip()))
+        self.reason_field.textChanged.connect(self._on_reason_edited)
+        self.card.body.addWidget(self.reason_field)
+        self.close_button = Button(theme, self.tr("Let it count"), "plain")
+        self.close_button.clicked.connect(self.close_dialog)
+        self.card.body.addLayout(row_layout(STRETCH, self.accept_button, self.close_button))
+
+    def request_reason(self) -> None:
+        self.reason_field.clear()
+        self._on_reason_edited("")
+        self.open()
+
+    def _on_reason_edited(self, text: str) -> None:
+        """Who writes a reason means it; without one nothing is set aside by Enter."""
+        self.accept_button.setEnabled(bool(text.strip()))
+        self.set_default(self.accept_button if text.strip() else self.close_button)
+
+    def _accept(self, reason: str) -> None:
+        if reason:
+            self.close_dialog()
+            self.reason_given.emit(reason)
+
+
+class ChoiceDialog(Dialog):
+    """A list to choose one from; emits ``chosen`` with its key. Used for the right patient and the exercise."""
+
+    chosen = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 600)
+        self.add_heading()
+        self.choice_field = Combo()
+        self.choice_field.setAccessibleName(self.tr("Choice"))
+        self.card.body.addWidget(self.choice_field)
+        self.accept_button = Button(theme, "", "primary", height_px=44)
+        self.accept_button.clicked.connect(self._accept)
+        close = Button(theme, self.tr("Leave it as it is"), "plain", height_px=44)
+        close.clicked.connect(self.close_dialog)
+        self.set_default(close)
+        self.card.body.addLayout(row_layout(STRETCH, self.accept_button, close))
+
+    def request_choice(self, title: str, words: str, accept_text: str, choices: Sequence[tuple[str, str]]) -> None:
+        """Ask for one of the (key, text); ``take`` is what the button says."""
+        self.title.setText(title)
+        self.words.setText(words)
+        self.accept_button.set_label(accept_text)
+        self.choice_field.set_choices(choices)
+        self.accept_button.setEnabled(bool(choices))
+        self.open(self.choice_field if self.accept_button.isEnabled() else None)
+
+    def _accept(self) -> None:
+        key = self.choice_field.currentData()
+        self.close_dialog()
+        self.chosen.emit(str(key))

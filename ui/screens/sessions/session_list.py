@@ -1,0 +1,250 @@
+"""The rows of the list of sessions: date, exercise and hand, main figure, how much counted, remark."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QBrush, QFontMetricsF, QMouseEvent, QPainter, QPen, QPolygonF
+from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
+
+from carpus.core.records.values import SessionEntry
+from carpus.ui.kit import numbers
+from carpus.ui.kit.fonts import MEDIUM, font
+from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
+from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.words import terms
+
+ROW_PX = 58
+TICK_PX, TICK_LEFT_PX = 20, 18
+MAX_TICKED = 2
+COLUMNS = (0.062, 0.242, 0.490, 0.680, 0.760, 0.985)
+"""Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
+TWO_LINE_MAX_WIDTH_PX, TWO_LINE_EDGES = 720, (0.42, 0.84, 1.0)
+"""In a narrower list, text at 100 %, date, figure and what counted stand over exercise and remark: right edges as
+shares of what is right of the tick."""
+
+
+@dataclass(frozen=True, slots=True)
+class SessionLine:
+    """One row of the list of sessions. What must be read from the file is empty until it has been: ``figure`` the main
+    one in words, ``counted_repetitions`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
+
+    entry: SessionEntry
+    is_practice: bool = False
+    exclusion_reason: str = ""
+    """Why it does not count; empty when it does."""
+    is_damaged: bool = False
+    is_missing: bool = False
+    """Its file is not where it was."""
+    main_value: str = ""
+    counted_repetitions: str = ""
+    counted_words: str = ""
+    warning: str = ""
+    correction: str = ""
+    """That and since when markers were put right, in words; empty as measured."""
+
+
+def remark(line: SessionLine) -> str:
+    """What must be known of a session before its figures."""
+    if line.entry.simulated and not line.is_practice:
+        return tr("does not count: simulated")
+    if line.exclusion_reason:
+        return tr("set aside: {reason}").format(reason=line.exclusion_reason)
+    if line.is_damaged:
+        return tr("its file is not there") if line.is_missing else tr("cannot be read")
+    return ""
+
+
+def row_cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, str, str, str, str]:
+    """The texts of a row, which is told from the other ``lines``; what is not known yet is empty."""
+    entry, others = line.entry, (other.entry.recorded for other in lines)
+    day = f"{numbers.format_short_date(entry.recorded)} {numbers.format_distinct_time(entry.recorded, *others)}"
+    what = f"{terms.exercise_name(entry.exercise)}, {to_mid_sentence(terms.side_name(entry.hand))}"
+    return day, what, line.main_value, line.counted_repetitions, remark(line) or line.correction.rstrip(".")
+
+
+def elide_value(value: str, metrics: QFontMetricsF, width_px: float) -> str:
+    """``Supin… −50° ± 1°``: only the name is cut, for a number that lost its sign is another one."""
+    number = re.search(r"\N{MINUS SIGN}?\d.*", value)
+    if number is None or metrics.horizontalAdvance(value) <= width_px:
+        return metrics.elidedText(value, Qt.TextElideMode.ElideRight, width_px)
+    rest = width_px - metrics.horizontalAdvance(f" {number[0]}")
+    name = metrics.elidedText(value[: number.start()].rstrip(), Qt.TextElideMode.ElideRight, rest)
+    return f"{name} {number[0]}"
+
+
+class SessionListModel(QAbstractListModel):
+    """The sessions of one patient, newest first."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lines: tuple[SessionLine, ...] = ()
+        self.ticked: tuple[str, ...] = ()
+        """At most two, the one that was ticked first before the other."""
+
+    def show_lines(self, lines: Sequence[SessionLine]) -> None:
+        self.beginResetModel()
+        self.lines = tuple(lines)
+        there = [line.entry.session_id for line in lines]
+        self.ticked = tuple(one for one in self.ticked if one in there)
+        self.endResetModel()
+
+    def toggle(self, row: int) -> None:
+        """Tick a session, or take its tick away; with a third one the first gives way."""
+        session_id = self.lines[row].entry.session_id
+        before = self.ticked
+        rest = tuple(one for one in before if one != session_id)
+        self.ticked = rest if session_id in before else (*rest, session_id)[-MAX_TICKED:]
+        for number, line in enumerate(self.lines):
+            if (line.entry.session_id in before) != (line.entry.session_id in self.ticked):
+                self.dataChanged.emit(self.index(number), self.index(number))
+
+    def show_line(self, line: SessionLine) -> None:
+        for number, old in enumerate(self.lines):
+            if old.entry.session_id == line.entry.session_id:
+                self.lines = (*self.lines[:number], line, *self.lines[number + 1 :])
+                self.dataChanged.emit(self.index(number), self.index(number))
+
+    def find_row(self, session_id: str) -> int:
+        """Row of a session, -1 when not shown."""
+        return next((number for number, line in enumerate(self.lines) if line.entry.session_id == session_id), -1)
+
+    def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: B008
+        return 0 if parent.isValid() else len(self.lines)
+
+    def data(self, index: QModelIndex | QPersistentModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> object:
+        if not index.isValid():
+            return None
+        line = self.lines[index.row()]
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
+            ticked = self.tr("ticked") if line.entry.session_id in self.ticked else ""
+            return ", ".join(part for part in (*row_cells(line, self.lines), ticked) if part)
+        return line if role == Qt.ItemDataRole.UserRole else None
+
+
+class SessionRowPainter(QStyledItemDelegate):
+    """Paints one row from the tokens; a session that does not count is grey and hatched, and says why."""
+
+    def __init__(self, theme: Theme, model: SessionListModel) -> None:
+        super().__init__()
+        self._theme, self._model = theme, model
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
+        return QSize(200, self._theme.px(ROW_PX))
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        theme, line = self._theme, self._model.lines[index.row()]
+        box = QRectF(option.rect)
+        state = option.state
+        counts = not (line.exclusion_reason or line.is_damaged or (line.entry.simulated and not line.is_practice))
+        painter.save()
+        if state & QStyle.StateFlag.State_Selected:
+            painter.fillRect(box, theme.color("soft"))
+            painter.fillRect(QRectF(0, box.top() + 12, 4, box.height() - 24), theme.color("accent"))
+        elif state & QStyle.StateFlag.State_MouseOver:
+            painter.fillRect(box, theme.color("canvas"))
+        if not counts:
+            painter.fillRect(box, QBrush(theme.color("line"), Qt.BrushStyle.BDiagPattern))
+        painter.setPen(QPen(theme.color("line"), 1))
+        painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
+        self._paint_tick(painter, box, ticked=line.entry.session_id in self._model.ticked)
+        texts = row_cells(line, self._model.lines)
+        rooms = _cell_boxes(box, theme, has_remark=bool(texts[4]))
+        for number, text in enumerate(texts):
+            face = font((16 if number == 2 else 14) * theme.text_scale, MEDIUM)
+            painter.setFont(face)
+            painter.setPen(theme.color("text" if counts and number < 3 else "text2"))
+            room = rooms[number]
+            # Of exercise and hand the end matters as much as the beginning.
+            where = Qt.TextElideMode.ElideMiddle if number == 1 else Qt.TextElideMode.ElideRight
+            metrics = QFontMetricsF(face)
+            if number == 2:
+                shown = elide_value(text, metrics, room.width())
+            else:
+                shown = metrics.elidedText(text, where, room.width())
+            painter.drawText(room, int(Qt.AlignmentFlag.AlignVCenter), shown)
+        painter.restore()
+
+    def _paint_tick(self, painter: QPainter, box: QRectF, *, ticked: bool) -> None:
+        """A box that is filled and has a check where the session is ticked."""
+        theme, size = self._theme, self._theme.px(TICK_PX)
+        square = QRectF(box.left() + TICK_LEFT_PX, box.center().y() - size / 2, size, size)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(theme.color("accent" if ticked else "border"), 1.5))
+        painter.setBrush(theme.color("accent" if ticked else "surface"))
+        painter.drawRoundedRect(square, 4, 4)
+        if ticked:
+            painter.setPen(QPen(theme.color("on_accent"), 2.0))
+            places = ((0.24, 0.52), (0.43, 0.72), (0.78, 0.30))
+            painter.drawPolyline(QPolygonF([square.topLeft() + QPointF(x * size, y * size) for x, y in places]))
+
+
+def _cell_boxes(box: QRectF, theme: Theme, *, has_remark: bool) -> list[QRectF]:
+    """Where the texts of a row stand: beside each other, or on two lines."""
+    if box.width() >= TWO_LINE_MAX_WIDTH_PX * theme.text_scale:
+        edges = [box.left() + share * box.width() for share in COLUMNS]
+        return [QRectF(left, box.top(), right - left - 8, box.height()) for left, right in pairwise(edges)]
+    left = box.left() + TICK_LEFT_PX + theme.px(TICK_PX) + 12
+    whole = box.left() + COLUMNS[-1] * box.width() - left
+    upper, lower, high = box.top() + 0.08 * box.height(), box.top() + 0.5 * box.height(), 0.42 * box.height()
+    day, figure, counted = (
+        QRectF(left + begin * whole, upper, (end - begin) * whole - 8, high)
+        for begin, end in pairwise((0.0, *TWO_LINE_EDGES))
+    )
+    what = QRectF(left, lower, (0.66 if has_remark else 1.0) * whole - 8, high)
+    return [day, what, figure, counted, QRectF(what.right() + 8, lower, whole - what.width() - 16, high)]
+
+
+class SessionList(QListView):
+    """The rows on a rounded surface; ``ticks_changed`` when another session is ticked."""
+
+    ticks_changed = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self.session_model = SessionListModel()
+        self.setModel(self.session_model)
+        self._delegate = SessionRowPainter(theme, self.session_model)
+        self.setItemDelegate(self._delegate)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setMouseTracking(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setAccessibleName(self.tr("Sessions"))
+        self.setUniformItemSizes(True)
+        self._theme = theme
+        theme.changed.connect(self._apply_theme)
+        self._apply_theme()
+
+    def tick_current(self) -> None:
+        if self.currentIndex().isValid():
+            self.session_model.toggle(self.currentIndex().row())
+            self.ticks_changed.emit()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        super().mousePressEvent(event)
+        room = TICK_LEFT_PX + self._theme.px(TICK_PX) + 6
+        on_tick = event.button() == Qt.MouseButton.LeftButton and event.position().x() < room
+        if on_tick and self.indexAt(event.position().toPoint()).isValid():
+            self.tick_current()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Two quick clicks on a tick are two clicks, and open nothing."""
+        if event.position().x() < TICK_LEFT_PX + self._theme.px(TICK_PX) + 6:
+            self.mousePressEvent(event)
+        else:
+            super().mouseDoubleClickEvent(event)
+
+    def _apply_theme(self) -> None:
+        tokens = self._theme.tokens
+        self.setStyleSheet(
+            f"QListView {{ background: {tokens.surface}; border: 1px solid {tokens.line}; "
+            f"border-radius: {CARD_RADIUS_PX}px; }}"
+        )
+        self.scheduleDelayedItemsLayout()
+        self.viewport().update()

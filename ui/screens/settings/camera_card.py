@@ -1,0 +1,49 @@
+"""The camera as a card of the settings: when it was calibrated and checked, and the way to both."""
+
+from __future__ import annotations
+
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import Card
+from carpus.ui.kit.icons import State
+from carpus.ui.kit.layouts import STRETCH, fill, row_layout
+from carpus.ui.kit.text import REGULAR, SEMIBOLD, Icon, Text
+from carpus.ui.kit.theme import Theme
+
+
+class CameraCard(Card):
+    """What the last check said of the camera; its buttons lead to the check card and to the board."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 24)
+        self._theme = theme
+        self.body.addWidget(Text(theme, self.tr("Camera"), 20, SEMIBOLD))
+        words = self.tr(
+            "A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 "
+            "seconds whether it still measures right."
+        )
+        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self._row = row_layout(gap=10)
+        self._sign = Icon(theme, "none")
+        self._state = Text(theme, "", 14, SEMIBOLD, wrap=True)
+        fill(self._row, self._sign, (self._state, 1))
+        self.body.addLayout(self._row)
+        buttons = row_layout(gap=12)
+        self.check_button = Button(theme, self.tr("Chec&k card…"), height_px=40)
+        self.calibrate_button = Button(theme, self.tr("Cali&brate the camera…"), height_px=40)
+        fill(buttons, self.check_button, self.calibrate_button, STRETCH)
+        self.body.addLayout(buttons)
+
+    def show_status(self, state: State, words: str) -> None:
+        sign = Icon(self._theme, state)
+        self._row.replaceWidget(self._sign, sign)
+        self._sign.hide()
+        self._sign.deleteLater()
+        self._sign = sign
+        self._state.setText(words)
+
+    def show_demo(self) -> None:
+        """No camera is there to be calibrated or checked."""
+        for button in (self.check_button, self.calibrate_button):
+            button.hide()
+        self._sign.hide()  # an empty sign would set the words in
+        self._state.setText(self.tr("In the demo the camera is simulated: there is nothing to calibrate."))

@@ -1,0 +1,89 @@
+"""What test-retest sessions give as error limits: shown, and taken if the person wants them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from datetime import date
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QWidget
+
+from carpus.core.measures.change_limits import MIN_PEOPLE, RetestStudy
+from carpus.core.research.agreement.retest import RetestAnalysis
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.layouts import clear_layout, column_layout, require_parent, scroll_column
+from carpus.ui.kit.text import REGULAR, Text
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr
+from carpus.ui.screens.settings.limits_card import study_view
+from carpus.ui.words.verdicts import reason_words
+
+HEIGHT_PX = 400
+MARGINS_PX = 320
+"""Title, words and buttons, with the room around the sheet."""
+
+
+class RetestDialog(Dialog):
+    """Emits ``accepted`` with the studies that are to be the clinic's own error limits."""
+
+    accepted = Signal(object)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 760)
+        words = self.tr(
+            "From people who were measured more than once, all discs taken off and put on again in between: standard "
+            "error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals."
+        )
+        self.add_heading(self.tr("Limits from test-retest sessions"), words)
+        self._column = column_layout(gap=16)
+        self._area = scroll_column(self._column)
+        self.card.body.addWidget(self._area)
+        self.accept_button = Button(theme, self.tr("&Use these limits"), "primary", height_px=44)
+        self.close_button = self.add_buttons(self.accept_button, cancel_text=self.tr("Leave it as it is"))
+        self.set_default(self.close_button)
+        self.accept_button.clicked.connect(self._accept)
+        self._usable: list[RetestStudy] = []
+
+    def show_studies(self, found: Sequence[RetestAnalysis], unreadable: int, today: date) -> None:
+        """Show the study of each exercise, and how many sessions could not be read."""
+        clear_layout(self._column)
+        self._usable = [one.to_study(today.isoformat()) for one in found if one.is_usable]
+        for one in found:
+            self._column.addWidget(study_view(self._theme, one.to_study(today.isoformat()), study_summary(one)))
+        if unreadable:
+            words = self.tr("Sessions that cannot be read: {count}").format(count=unreadable)
+            self._column.addWidget(Text(self._theme, words, 14, REGULAR, "warn", wrap=True))
+        self._column.addStretch(1)
+        self.accept_button.setEnabled(bool(self._usable))
+        self.open()
+
+    def _fit_card(self) -> None:
+        super()._fit_card()
+        if hasattr(self, "_area"):  # not while the sheet is being made
+            room = require_parent(self).height() - self._theme.px(MARGINS_PX)
+            self._area.setFixedHeight(max(min(self._theme.px(HEIGHT_PX), room), self._theme.px(80)))
+
+    def _accept(self) -> None:
+        self.close_dialog()
+        self.accepted.emit(self._usable)
+
+
+def study_summary(found: RetestAnalysis) -> str:
+    """Who was measured, whether it may be used, and what was left out."""
+    said = [tr("People: {people}, sessions: {sessions}.").format(people=found.people, sessions=found.sessions)]
+    if found.simulated:
+        said.append(tr("Limits of a simulated hand are never used."))
+    elif not found.is_usable:
+        said.append(tr("Not usable yet: {count} people are the least, 20 are better.").format(count=MIN_PEOPLE))
+    reasons = Counter(_exclusion_words(left.reason) for left in found.excluded)
+    if reasons:
+        words = ", ".join(f"{count} ({reason})" for reason, count in reasons.items())
+        said.append(tr("Left out: {sessions}.").format(sessions=words))
+    return " ".join(said)
+
+
+def _exclusion_words(reason: str) -> str:
+    words = {"once": tr("measured once"), "too_late": tr("more than 14 days later")}
+    return words.get(reason) or reason_words([reason])

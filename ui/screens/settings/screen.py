@@ -1,0 +1,296 @@
+"""The settings: an index and one part at a time; every choice acts at once and is told to whoever stores it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Literal, get_args
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QApplication,
+    QButtonGroup,
+    QFileDialog,
+    QLineEdit,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.model.rounding import format_rounded
+from carpus.core.platform.about import is_newer
+from carpus.core.platform.version import __version__
+from carpus.ui.kit.button import Button, CheckButton
+from carpus.ui.kit.card import Card
+from carpus.ui.kit.field import ChoiceRow
+from carpus.ui.kit.forms import Field, Form
+from carpus.ui.kit.language import LANGUAGES
+from carpus.ui.kit.layouts import Part, ScrollArea, ScrolledColumn, column_layout, fill, row_layout
+from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
+from carpus.ui.screens.settings.limits_card import limits_card
+from carpus.ui.shell.view_models import Preferences
+from carpus.ui.words import terms
+
+SettingsPage = Literal["camera", "measuring", "report", "safety", "looks", "research", "about"]
+
+
+class SettingsScreen(QWidget):
+    """``changed`` carries the whole :class:`Preferences`."""
+
+    changed = Signal(Preferences)
+
+    def __init__(self, theme: Theme, preferences: Preferences, measured: ErrorLimits = DEFAULT_LIMITS) -> None:
+        super().__init__()
+        self._theme, self.preferences, self._clinic_limits = theme, preferences, measured
+        table = self._make_table(theme)
+        self.form = Form(theme, [field for *_, fields in table for field in fields])
+        self.form.fill(preferences)
+        self._shown_values = self.form.values()
+        self.form["therapist"].setMaximumWidth(theme.px(220))
+        self.language_note = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.language_note.hide()
+        self.folder_text = Text(theme, preferences.data_folder, 14)
+        self.folder_button = Button(theme, self.tr("Change…"), height_px=40)
+        self.retest_button = Button(theme, self.tr("Compute from test-retest sessions…"), height_px=40)
+        self.done_button = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"))
+        self._limits_host = Card(theme, 0)  # what is in it changes when new limits are put into force
+        self._limits_host.set_colors("canvas", "canvas")
+        self.show_limits(measured)
+        self._pages: dict[SettingsPage, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(SettingsPage)}
+        self._research_cards: list[Card] = []
+        self._build_layout(table)
+        self.form.changed.connect(self._apply_choices)
+        self.folder_button.clicked.connect(self.choose_folder)
+
+    def _make_table(self, theme: Theme) -> list[tuple[SettingsPage, str, str, list[Field]]]:
+        """The cards: part, title, what is said of it, and the preferences that are chosen on it."""
+        computer = ("system", self.tr("As the computer"))
+        looks = ChoiceRow(theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), computer])
+        sizes = ChoiceRow(theme, [(scale, f"{format_rounded(100 * scale)} %") for scale in TEXT_SCALES])
+        orders = [("zyx", self.tr("As in the papers: deviation first")), ("isb", self.tr("ISB: flexion first"))]
+        starts = [
+            ("key", self.tr("At the key")), ("countdown", self.tr("3 s after the key")),
+            ("still", self.tr("When the hand lies still")),
+        ]  # fmt: skip
+        sounds = [(False, self.tr("No sound")), (True, self.tr("One beep at the goal"))]
+        streams = [(False, self.tr("Off")), (True, self.tr("Stream live values"))]
+        return [
+            (
+                "measuring", self.tr("Start of a recording"),
+                self.tr(
+                    "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a "
+                    "slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by "
+                    "itself is counted down, and Space takes it back."
+                ),
+                [Field("start", "", ChoiceRow(theme, starts))],
+            ),
+            (
+                "measuring", self.tr("The patient’s view"),
+                self.tr(
+                    "A second screen, or a window of its own, that shows the patient what to do. It opens from the "
+                    "screen one measures on; whether it speaks to a child or an adult is chosen with the exercise."
+                ),
+                [Field("patient_sound", "", ChoiceRow(theme, sounds))],
+            ),
+            (
+                "report", self.tr("Initials on reports"), "",
+                [Field("therapist", "", QLineEdit(maxLength=12), change_signal="editingFinished")],
+            ),
+            (
+                "looks", self.tr("Looks"), "",
+                [
+                    Field("theme", self.tr("Colours"), looks),
+                    Field("text_scale", self.tr("Text size"), sizes),
+                    Field("language", self.tr("Language"), ChoiceRow(theme, [*LANGUAGES.items(), computer])),
+                ],
+            ),
+            (
+                "research", self.tr("Research"),
+                self.tr(
+                    "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, "
+                    "all formats of an export, the order of the angles, streaming. No value changes by it."
+                ),
+                [Field("research", "", CheckButton(theme, self.tr("For research")))],
+            ),
+            (
+                "research", self.tr("Order of the angles"),
+                self.tr(
+                    "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ "
+                    "order; sessions in different orders are never compared."
+                ),
+                [Field("angle_order", "", ChoiceRow(theme, orders))],
+            ),
+            (
+                "research", self.tr("Other programs"),
+                self.tr(
+                    "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any "
+                    "computer in the same network can read them; no name and no picture is in them. From the next "
+                    "set-up on."
+                ),
+                [Field("stream", "", ChoiceRow(theme, streams))],
+            ),
+        ]  # fmt: skip
+
+    def _build_layout(self, table: list[tuple[SettingsPage, str, str, list[Field]]]) -> None:
+        theme, narrow = self._theme, Qt.AlignmentFlag.AlignLeft
+        for part, title, words, fields in table:
+            card = self._make_card(title, words)
+            for field in fields:
+                one = self.form.labelled_widgets[field.name]
+                field.widget.setAccessibleName(field.widget.accessibleName() or title)
+                fill(
+                    card.body, 0 if field is fields[0] else 8, (one, 0, narrow) if isinstance(one, CheckButton) else one
+                )
+            self._pages[part].addWidget(card)
+            if part == "looks":
+                card.body.addWidget(self.language_note)
+            elif part == "research" and fields[0].name != "research":
+                self._research_cards.append(card)
+        self._pages["measuring"].addWidget(self._limits_host)
+        words = self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer.")
+        data = self._make_card(self.tr("Data"), words, row_layout((self.folder_text, 1), self.folder_button))
+        self._pages["safety"].addWidget(data)
+        self._pages["about"].addWidget(self._make_about_card())
+        self._build_index()
+        self._show_research_cards()
+        self.show_page("looks")
+        self.demo_notice = Text(theme, self.tr("A demo: what is chosen here holds until it is closed."), 14, wrap=True)
+        self.demo_notice.hide()
+        head = row_layout(
+            (heading(theme, self.tr("Settings")), 1),
+            (self.demo_notice, 1),
+            self.done_button,
+            gap=16,
+            margins=(0, 0, 8, 0),
+        )
+        beside = row_layout(self._index_column, (self._page_stack, 1), gap=GAP_PX)
+        column_layout(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), parent=self)
+
+    def _make_about_card(self) -> Card:
+        theme = self._theme
+        words = self.tr(
+            "Carpus asks nobody whether there is a newer version, and sends nothing. To look yourself, compare this "
+            "version with the newest one where you got Carpus from; its list of changes says what is new. Install it "
+            "over this one: patients, sessions and settings stay. Make a back-up before."
+        )
+        self.update_text = Text(theme, words, 14, REGULAR, "text2", wrap=True)
+        self.licences_button = Button(theme, self.tr("Parts and their licences"), height_px=40)
+        return self._make_card(
+            self.tr("About Carpus"),
+            "",
+            Text(theme, self.tr("Version {version}, MIT licence.").format(version=__version__), 14),
+            Text(theme, terms.legal_notice(), 14, SEMIBOLD, wrap=True),
+            self.update_text,
+            (self.licences_button, 0, Qt.AlignmentFlag.AlignLeft),
+        )
+
+    def _build_index(self) -> None:
+        titles: dict[SettingsPage, str] = {
+            "camera": self.tr("Camera"), "measuring": self.tr("Measuring"), "report": self.tr("Report and clinic"),
+            "safety": self.tr("Safety"), "looks": self.tr("Looks and language"),
+            "research": self.tr("Research"), "about": self.tr("About Carpus"),
+        }  # fmt: skip
+        self._page_stack = QStackedWidget()
+        self.page_buttons: dict[SettingsPage, Button] = {}
+        group = QButtonGroup(self)
+        index = column_layout(gap=4)
+        for number, (part, page) in enumerate(self._pages.items()):
+            page.setContentsMargins(0, 4, 12, 4)
+            page.setSpacing(GAP_PX)
+            page.addStretch(1)
+            host = ScrolledColumn()
+            host.setLayout(page)
+            self._page_stack.addWidget(ScrollArea(host))
+            button = self.page_buttons[part] = Button(self._theme, titles[part], "quiet", height_px=40)
+            button.setCheckable(True)
+            group.addButton(button, number)
+            index.addWidget(button)
+        index.addStretch(1)
+        group.idClicked.connect(lambda number: self.show_page(get_args(SettingsPage)[number]))
+        self._index_column = QWidget()
+        index.setContentsMargins(0, 4, 0, 4)
+        self._index_column.setLayout(index)
+
+    def show_limits(self, measured: ErrorLimits) -> None:
+        self._clinic_limits = measured
+        while (item := self._limits_host.body.takeAt(0)) is not None:
+            if (old := item.widget()) is not None:
+                self.retest_button.setParent(None)
+                old.hide()
+                old.deleteLater()
+        card = limits_card(self._theme, measured)
+        fill(card.body, 8, (self.retest_button, 0, Qt.AlignmentFlag.AlignLeft))
+        self._limits_host.body.addWidget(card)
+
+    def show_computing(self, *, on: bool) -> None:
+        """The sessions of a study are being read, which takes a second each."""
+        self.retest_button.setEnabled(not on)
+        words = self.tr("Reading the sessions…") if on else self.tr("Compute from test-retest sessions…")
+        self.retest_button.set_label(words)
+
+    def revert_language(self, code: str, reason: str) -> None:
+        """The language cannot be changed now: the old one stays chosen, and why is said."""
+        self.preferences = replace(self.preferences, language=code)
+        self.form["language"].choose(code)
+        self._shown_values = self.form.values()
+        self.language_note.show_text(reason)
+
+    def add_cards(self, part: SettingsPage, *cards: Card) -> None:
+        """Cards of others, before what else the part has."""
+        for number, card in enumerate(cards):
+            self._pages[part].insertWidget(number, card)
+        self._show_research_cards()
+
+    def show_page(self, part: SettingsPage) -> None:
+        self.page_buttons[part].setChecked(True)
+        self._page_stack.setCurrentIndex(get_args(SettingsPage).index(part))
+
+    def _show_research_cards(self) -> None:
+        """What only research needs is there for who switched it on; a part with nothing in it is not offered."""
+        for card in self._research_cards:
+            card.setVisible(self.preferences.research)
+        for part, page in self._pages.items():
+            self.page_buttons[part].setVisible(page.count() > 1)
+
+    def _make_card(self, title: str, words: str, *parts: Part) -> Card:
+        card = Card(self._theme, 24)
+        card.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
+        if words:
+            card.body.addWidget(Text(self._theme, words, 14, REGULAR, "text2", wrap=True))
+        fill(card.body, *parts)
+        return card
+
+    def show_available_version(self, folder: str, newest: str | None) -> None:
+        """What lies in the folder of packages that the clinic named: a version, empty for none, None where it cannot be
+        read."""
+        if newest is None:
+            words = self.tr("The folder of the clinic’s packages cannot be read: {folder}.")
+        elif is_newer(newest, __version__):
+            words = self.tr(
+                "Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions "
+                "and settings stay. Make a back-up before."
+            )
+        else:
+            words = self.tr("The clinic’s packages in {folder} are not newer than this version.")
+        self.update_text.setText(words.format(folder=folder, newest=newest))
+
+    def _apply_preferences(self, preferences: Preferences) -> None:
+        if preferences != self.preferences:
+            self.preferences = preferences
+            self.changed.emit(preferences)
+
+    def _apply_choices(self) -> None:
+        """Take what a person chose; the rest stays, also where the settings have what is not offered here."""
+        before, self._shown_values = self._shown_values, self.form.values()
+        self._apply_preferences(
+            replace(self.preferences, **{name: new for name, new in self._shown_values.items() if new != before[name]})
+        )
+        self._show_research_cards()
+
+    def choose_folder(self) -> None:
+        over = self if self.isVisible() else QApplication.activeWindow()  # the first start asks from another screen
+        path = QFileDialog.getExistingDirectory(over, self.tr("Data folder"), self.preferences.data_folder)
+        if path:
+            self.folder_text.setText(path)
+            self._apply_preferences(replace(self.preferences, data_folder=path))

@@ -1,0 +1,188 @@
+"""The flow before measuring: which exercise, and where the pictures come from."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+
+from carpus.core.model.errors import CarpusFault, ServerUnavailable
+from carpus.core.model.types import Side
+from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets
+from carpus.core.records.patients import read_goals
+from carpus.core.records.session_setup import (
+    DEFAULT_SETS,
+    PRACTICE_PATIENT,
+    ExerciseSet,
+    SessionSetup,
+    practice_setup,
+)
+from carpus.core.records.values import read_or_default
+from carpus.core.results.session_results import SessionResults
+from carpus.ui.screens.setup.camera import CameraScreen
+from carpus.ui.screens.setup.exercise import ExerciseScreen
+from carpus.ui.screens.setup.set_dialog import SetDialog
+from carpus.ui.shell.current_selection import SourceChoice
+from carpus.ui.shell.flow import Flow, ScreenContext
+from carpus.ui.shell.messages import Answer
+
+MIN_FREE_FOR_VIDEO_BYTES = 20e9
+"""Pictures are kept without being asked for where the disk has so much: three hours of them."""
+
+
+class ExerciseFlow(Flow):
+    """First step, with the clinic's sets of exercises."""
+
+    screen_name, guide_page = "exercise", "exercises"
+    screen: ExerciseScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        super().__init__(context, ExerciseScreen(context.theme))
+        self.set_dialog = SetDialog(context.window.screen_stack, context.theme)
+        self.sets: tuple[ExerciseSet, ...] = ()
+        self.set_dialog.sets_saved.connect(self._save_sets)
+        self.screen.sets_button.clicked.connect(self._open_sets)
+        self.screen.set_up_chosen.connect(self._on_set_up_chosen)
+        self.load_sets()
+
+    def open(self, patient_id: str) -> None:
+        """For a patient, as chosen last or as in the last session; what was measured before is read meanwhile."""
+        context, library = self.context, self.context.library
+        context.opener.close_source()
+        row = self.open_patient(patient_id)
+        last = context.current.set_up or read_or_default(lambda: read_last_setup(library.store, patient_id), None)
+        affected: Side | None = None if row.side == "both" else row.side
+        free = free_bytes(library.folder)
+        usual = context.keep_pictures and free >= MIN_FREE_FOR_VIDEO_BYTES
+        self.screen.show_patient(
+            row, last, last.side if last is not None else affected,
+            last.stores_frames if last is not None else usual,
+            context.mb_per_minute, free / (1e6 * context.mb_per_minute),
+            read_or_default(lambda: read_goals(library.store, patient_id), {}),
+        )  # fmt: skip
+
+        def show(history: Sequence[SessionResults]) -> None:
+            self.screen.show_history(patient_id, history)
+
+        # What cannot be read proposes nothing; opening it tells why.
+        self.run(lambda: library.history(patient_id), show, lambda _: None)
+        context.navigator.switch_screen("exercise")
+
+    def on_server_reconnected(self) -> None:
+        self.load_sets()
+
+    def _on_set_up_chosen(self, set_up: SessionSetup) -> None:
+        self.context.current.set_up = set_up
+        self.context.navigator.open_screen("camera")
+
+    # --- sets of exercises --------------------------------------------------------------------------------
+    def load_sets(self) -> None:
+        """Read them; where that cannot be done the usual ones are offered."""
+        try:
+            self.sets = read_sets(self.context.library.store)
+        except ServerUnavailable:  # every screen says so
+            self.sets = DEFAULT_SETS
+        except CarpusFault as fault:
+            self.sets = DEFAULT_SETS
+            self.context.messages.show_fault(fault)
+        self.screen.show_sets(self.sets)
+
+    def _open_sets(self) -> None:
+        chosen = str(self.screen.exercises.value())
+        self.set_dialog.open_sets(self.sets, str(self.screen.protocol.value()), chosen.removeprefix("set:"))
+
+    def _save_sets(self, sets: tuple[ExerciseSet, ...], chosen_id: str) -> None:
+        try:
+            save_sets(self.context.library.store, sets, self.sets)
+        except CarpusFault as fault:
+            self.context.messages.show_fault(fault)
+            self.load_sets()
+            return
+        self.sets = sets
+        self.screen.show_sets(sets, chosen_id)
+
+
+class CameraFlow(Flow):
+    """Second step: opens the source."""
+
+    screen_name, guide_page = "camera", "camera"
+    screen: CameraScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        super().__init__(context, CameraScreen(context.theme, is_demo=context.is_demo))
+        opener, camera, screen = context.opener, context.camera, self.screen
+        camera.notify_availability(lambda: screen.set_camera_ready(camera.is_connected, camera.name))
+        screen.source_chosen.connect(opener.open)
+        screen.path_chosen.connect(
+            lambda path: context.recent_locations.save_folder("recordings", str(Path(path).parent))
+        )
+        opener.opening.connect(self._on_opening)
+        opener.opened.connect(self._on_opened)
+        opener.failed.connect(self._on_failed)
+        opener.progress_changed.connect(screen.show_progress)
+
+    def open(self, patient_id: str = "") -> None:
+        """For the set-up that was chosen. For a patient with the same set-up as last time, opened at once if that can
+        be; where nothing is known it is asked for."""
+        now, way = self.context.current, self.context.navigator
+        if not patient_id:
+            self._show_screen()
+            return
+        row = self.open_patient(patient_id)
+        last = read_or_default(lambda: read_last_setup(self.context.library.store, patient_id), None)
+        practises = patient_id == PRACTICE_PATIENT
+        if practises:
+            now.source_choice = SourceChoice("practice")
+        elif last is None:
+            way.open_screen("exercise", patient_id)
+            return
+        now.set_up = last or practice_setup(row.pseudonym)
+        self._show_screen()
+        if practises or (now.source_kind != "file" and self.context.camera.is_connected):
+            self.context.opener.open(now.source_choice)
+
+    def _show_screen(self) -> None:
+        now = self.context.current
+        if now.set_up is None:
+            return
+        self.context.opener.close_source()
+        self.screen.start_folder = self.context.recent_locations.folder("recordings")
+        practises = now.set_up.patient_id == PRACTICE_PATIENT
+        if not practises and now.source_kind == "practice" and not self.context.is_demo:
+            now.source_choice = SourceChoice(
+                "camera"
+            )  # nobody else is measured on the practice patient's without being asked
+        self.screen.show_set_up(now.set_up, "practice" if practises else now.source_kind)
+        self.context.navigator.switch_screen("camera")
+
+    def navigate_back(self) -> None:
+        """Back to the exercise; what is being opened is not wanted any more."""
+        if self.context.current.patient is not None:
+            self.context.navigator.open_screen("exercise", self.context.current.patient.patient_id)
+
+    def _on_opening(self, choice: SourceChoice) -> None:
+        words = {
+            "camera": self.tr("The camera is being opened."),
+            "file": self.tr("The recording is being opened."),
+            "practice": self.tr("The simulated patient is being drawn."),
+        }[choice.kind]
+        self.screen.show_opening(True, words)
+
+    def _on_opened(self) -> None:
+        self.screen.show_opening(False)
+        self.context.navigator.open_screen("markers")
+
+    def _on_failed(self, fault: Exception) -> None:
+        self.screen.show_opening(False)
+        self.screen.initial_focus().setFocus(Qt.FocusReason.OtherFocusReason)
+        self.context.messages.show_fault(fault, (Answer(self.tr("Choose the source again"), lambda: None),))
+
+
+def free_bytes(folder: Path) -> float:
+    """Room on the disk of a folder; none where nobody can say."""
+    try:
+        return float(shutil.disk_usage(folder).free)
+    except OSError:
+        return 0.0

@@ -1,0 +1,1 @@
+"""The window around the screens: top bar, navigation, messages, what is open."""

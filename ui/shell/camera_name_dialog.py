@@ -1,0 +1,71 @@
+"""What a camera is called that does not tell its number: asked before it is calibrated or checked."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QLineEdit, QWidget
+
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.theme import Theme
+
+MAX_NAME_LENGTH = 40
+
+
+class CameraNameDialog(Dialog):
+    """``name_entered`` carries the name, ``cancelled`` that none was given."""
+
+    name_entered = Signal(str)
+    cancelled = Signal()
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 600)
+        self._is_dismissed = False
+        self.add_heading()
+        self.name_field = QLineEdit(maxLength=MAX_NAME_LENGTH, placeholderText=self.tr("Name of the camera"))
+        self.name_field.setAccessibleName(self.tr("Name of the camera"))
+        self.name_field.setMinimumHeight(theme.px(44))
+        self.accept_button = Button(theme, self.tr("Go on"), "primary", height_px=44)
+        self.card.body.addWidget(self.name_field)
+        self.cancel_button = self.add_buttons(self.accept_button, cancel_text=self.tr("Stop"), gap=None)
+        self.name_field.textChanged.connect(lambda text: self.accept_button.setEnabled(bool(text.strip())))
+        self.accept_button.clicked.connect(self._accept)
+        self.closed.connect(self._on_closed)
+
+    def request_name(self, previous_name: str) -> None:
+        """Ask; ``previous_name`` is how such a camera was called last time, empty where it never was."""
+        self.title.setText(
+            self.tr("Is this still the camera called “{name}”?").format(name=previous_name)
+            if previous_name
+            else self.tr("What is this camera called?")
+        )
+        words = self.tr(
+            "It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under "
+            "the name, and from now on every camera of this kind without a number is taken for this one."
+        )
+        if previous_name:
+            words = self.tr(
+                "It does not tell its number. If it is another one, type that one’s name: calibrations and checks are "
+                "kept under the name."
+            )
+        self.words.setText(words)
+        self.name_field.setText(previous_name)
+        self.name_field.selectAll()
+        self.accept_button.setEnabled(bool(previous_name))
+        self.open(self.name_field)
+
+    def dismiss(self) -> None:
+        """Close without an answer: what it was asked for is over."""
+        self._is_dismissed = True
+        self.close_dialog()
+        self._is_dismissed = False
+
+    def _accept(self) -> None:
+        name = " ".join(self.name_field.text().split())
+        if name:
+            self.dismiss()
+            self.name_entered.emit(name)
+
+    def _on_closed(self) -> None:
+        if not self._is_dismissed:
+            self.cancelled.emit()

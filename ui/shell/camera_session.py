@@ -1,0 +1,227 @@
+"""A camera open for calibrating or checking: its pictures, who looks at them beside the window's thread, and which
+camera it is."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QWidget
+
+from carpus.core.model.errors import CameraLost, CarpusFault
+from carpus.core.model.types import Frame
+from carpus.core.pipeline.live import LiveSession
+from carpus.core.platform.durable import replace_file
+from carpus.ui.kit.background import Background
+from carpus.ui.shell.camera_name_dialog import CameraNameDialog
+from carpus.ui.shell.flow import Flow, ScreenContext
+from carpus.ui.words.fault_words import fault_words
+
+log = logging.getLogger(__name__)
+
+POLL_INTERVAL_MS = 66
+_IDLE_S = 0.02
+FrameProcessor = Callable[[Frame], None]
+
+
+class CameraSession(QObject):
+    """Opens a source, looks at its pictures in a thread of its own, and lets it go; one at a time.
+
+    ``on_opened`` carries the :class:`LiveSession`, ``on_failed`` a fault after which the camera is let go,
+    ``frame_ready`` the
+    newest frame for the screen, ``camera_lost`` what is said while the camera is away.
+    """
+
+    opened = Signal(object)
+    failed = Signal(object)
+    frame_ready = Signal(object)
+    camera_lost = Signal(str)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._background = Background()
+        self._session: LiveSession | None = None
+        self._starting_sessions: list[LiveSession] = []
+        self._thread: threading.Thread | None = None
+        self._stop_event = threading.Event()
+        self._fault: Exception | None = None
+        self._request_number, self._shown_index = 0, -1
+        self._timer = QTimer(self, interval=POLL_INTERVAL_MS)
+        self._timer.timeout.connect(self._poll)
+
+    @property
+    def is_open(self) -> bool:
+        return self._session is not None or self._request_number > 0
+
+    def open(
+        self, open_session: Callable[[], LiveSession], make_processor: Callable[[LiveSession], FrameProcessor]
+    ) -> None:
+        """Open what ``open_session`` gives, and have every newest picture looked at by what ``make_processor``
+        gives."""
+        self.close()
+        self._request_number = abs(self._request_number) + 1
+        number = self._request_number
+
+        def start_session() -> None:
+            session = open_session()
+            self._starting_sessions.append(session)
+            session.start()
+
+        def on_opened(_: object) -> None:
+            session = self._starting_sessions.pop(0)
+            if number != self._request_number:
+                self._background.run(session.stop, lambda _: None, lambda _: None)
+                return
+            self._session, self._fault, self._shown_index = session, None, -1
+            self._stop_event = threading.Event()
+            self._thread = threading.Thread(
+                target=self._process_frames,
+                args=(session, make_processor(session), self._stop_event),
+                name="looking at the camera",
+            )
+            self._thread.start()
+            self._timer.start()
+            self.opened.emit(session)
+
+        def on_failed(fault: Exception) -> None:
+            if number == self._request_number:
+                self._request_number = -number
+                self.failed.emit(fault)
+
+        self._background.run(start_session, on_opened, on_failed)
+
+    def close(self) -> None:
+        """Let the camera go, or do not wait for it any more; may be called at any time."""
+        self._request_number = -abs(self._request_number)
+        session, thread = self._session, self._thread
+        self._session = self._thread = None
+        self._timer.stop()
+        self._stop_event.set()
+        if session is not None:
+            self._background.run(lambda: _end_session(session, thread), lambda _: None, lambda _: None)
+
+    def shut_down(self) -> None:
+        """The window closes: wait until it is let go. What was still being opened is closed as well."""
+        self.close()
+        self._background.join()
+        while self._starting_sessions:
+            self._starting_sessions.pop().stop()
+
+    def _process_frames(self, session: LiveSession, process: FrameProcessor, stop_event: threading.Event) -> None:
+        newest = -1
+        try:
+            while not stop_event.is_set():
+                frame = session.current_frame()
+                if frame is None or frame.index == newest:
+                    stop_event.wait(_IDLE_S)
+                    continue
+                newest = frame.index
+                process(frame)
+        except Exception as fault:  # the one catch at the top of this thread
+            log.exception("looking at the camera")
+            if not stop_event.is_set():
+                self._fault = fault
+
+    def _poll(self) -> None:
+        """What happened since the last time, in the window's thread."""
+        session = self._session
+        if session is None:
+            return
+        fault = self._fault
+        for event in session.drain_events():
+            if event.kind == "camera_lost":
+                words = fault_words(event.cause if isinstance(event.cause, CarpusFault) else CameraLost())
+                self.camera_lost.emit(f"{words.summary} {words.remedy}")
+            elif event.kind in ("source_failed", "source_ended"):
+                fault = event.cause or CameraLost()
+        if fault is not None:
+            self.close()
+            self.failed.emit(fault)
+            return
+        frame = session.current_frame()
+        if frame is not None and frame.index != self._shown_index:
+            self._shown_index = frame.index
+            self.frame_ready.emit(frame)
+
+
+class CameraFlowBase(Flow):
+    """A screen that opens a camera for itself. Where that does not tell its number it is asked over the screen which
+    one it is, and nobody looks at its pictures before ``_identified`` is set."""
+
+    guide_page, runs_behind_overlay = "cameracheck", True
+
+    def __init__(self, context: ScreenContext, screen: QWidget, name_dialog: CameraNameDialog) -> None:
+        super().__init__(context, screen)
+        self._name_dialog = name_dialog
+        self._camera_model, self._serial, self._entered_name = "", "", ""
+        self._identified = threading.Event()
+        self.camera_session = CameraSession(self)
+        self.camera_session.failed.connect(self._on_failed)
+        name_dialog.name_entered.connect(self._on_name_entered)
+        name_dialog.cancelled.connect(self.return_to_start)
+
+    @property
+    def is_busy(self) -> bool:
+        return self.camera_session.is_open
+
+    def start(self) -> None:
+        raise NotImplementedError
+
+    def return_to_start(self) -> None:
+        raise NotImplementedError
+
+    def return_to_settings(self) -> None:
+        """Back to the camera's card, from which one came; behind it are the patients."""
+        self.return_to_patients()
+        self.context.navigator.open_screen("settings", "camera")
+
+    def on_leave(self) -> None:
+        """Let the camera go; what was taken and not kept is forgotten."""
+        self._name_dialog.dismiss()
+        self._identified = threading.Event()  # a name that is still being kept opens it no more
+        self.camera_session.close()
+
+    def close(self) -> None:
+        self.camera_session.shut_down()
+
+    def _on_failed(self, fault: Exception) -> None:
+        self.return_to_start()
+        self.context.messages.show_fault(fault)
+
+    def _identify_camera(self, session: LiveSession) -> None:
+        info = session.info
+        self._camera_model, self._serial = info.name, info.serial
+        if not info.is_nameless or (self._serial and self._serial == self._entered_name):
+            self._entered_name = ""
+            self._identified.set()
+        else:
+            self._name_dialog.request_name(self._serial)
+
+    def _on_name_entered(self, name: str) -> None:
+        kind, known, cameras = self._camera_model, self._identified, self.context.cameras
+        if name == self._serial:
+            known.set()
+            return
+
+        def on_saved(saved_name: str) -> None:
+            if known is self._identified:  # nobody has left meanwhile
+                self._entered_name = (
+                    saved_name if saved_name == name else ""
+                )  # another than was typed is shown before it is used
+                self.start()
+
+        self.run(lambda: cameras.save_name(kind, name), on_saved, self._on_failed)
+
+    def save_printout(self, name: str, title: str, write: Callable[[Path], Path]) -> None:
+        path = self.choose_save_path("reports", name, title, "PDF (*.pdf)")
+        if path is not None:
+            self.run(lambda: replace_file(path, write))
+
+
+def _end_session(session: LiveSession, thread: threading.Thread | None) -> None:
+    if thread is not None:
+        thread.join()
+    session.stop()

@@ -1,0 +1,158 @@
+"""The joint angles of the whole hand as the clinic speaks of them: by finger, with a name, a range and a colour.
+
+Five fingers (thumb to little) by four rows: knuckle, middle joint, end joint, spread. The thumb has no middle joint;
+its row shows the lift away from the palm. Spreading is counted away from the middle finger, the thumb's away from the
+palm's edge, and that of the middle finger towards the thumb. TAM is the sum of a finger's bending.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.rounding import format_rounded
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.words.marker_words import finger_name, long_finger_name
+
+AngleKind = Literal["knuckle", "middle", "end", "spread", "tam"]
+ANGLE_KINDS: tuple[AngleKind, ...] = ("knuckle", "middle", "end", "spread")
+FINGERS = (1, 2, 3, 4, 5)
+KIND_TOKENS: dict[AngleKind, str] = {
+    "knuckle": "curve_a", "middle": "curve_b", "end": "curve_c", "spread": "curve_a", "tam": "accent",
+}  # fmt: skip
+_JOINTS: dict[AngleKind, str] = {"knuckle": "MCP{}_flexion", "middle": "PIP{}_flexion", "end": "DIP{}_flexion"}
+_THUMB_JOINTS: dict[AngleKind, str] = {
+    "knuckle": "MCP1_flexion", "middle": "CMC1_abduction", "end": "IP1_flexion", "spread": "CMC1_extension",
+}  # fmt: skip
+
+
+_KIND_NAMES: Mapping[str, Phrase] = {
+    "lift": phrase("Lift"), "knuckle": phrase("Knuckle"), "middle": phrase("Middle joint"), "end": phrase("End joint"),
+    "spread": phrase("Spread"), "tam": phrase("TAM"),
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class FingerAngle:
+    """One angle of one finger. ``joint`` is its name in every file, ``TAM3`` for the sum of a finger's bending."""
+
+    finger: int
+    kind: AngleKind
+
+    @property
+    def joint(self) -> str:
+        if self.kind == "tam":
+            return f"TAM{self.finger}"
+        if self.finger == 1:
+            return _THUMB_JOINTS[self.kind]
+        return f"MCP{self.finger}_abduction" if self.kind == "spread" else _JOINTS[self.kind].format(self.finger)
+
+    @property
+    def is_palmar_abduction(self) -> bool:
+        """Whether it is the thumb's lift away from the palm, which stands in the row of the middle joints."""
+        return self.finger == 1 and self.kind == "middle"
+
+    @property
+    def token(self) -> str:
+        return KIND_TOKENS[self.kind]
+
+    @property
+    def sign(self) -> float:
+        """From the angle in every file to the one that is spoken of: spreading is away from the middle finger."""
+        return -1.0 if self.kind == "spread" and self.finger in (4, 5) else 1.0
+
+    @property
+    def range_deg(self) -> tuple[float, float]:
+        if self.kind == "spread":
+            return -30.0, 30.0
+        if self.is_palmar_abduction:
+            return 0.0, 60.0
+        return 0.0, {"tam": 140.0 if self.finger == 1 else 270.0}.get(self.kind, 120.0)
+
+    @property
+    def kind_name(self) -> str:
+        """``Knuckle``; the thumb's second row is its lift."""
+        return kind_name("lift" if self.is_palmar_abduction else self.kind)
+
+    @property
+    def long_name(self) -> str:
+        """``RingBuffer finger, middle joint``."""
+        return _long_name(self)
+
+    @property
+    def short_name(self) -> str:
+        """``RingBuffer``, where the row is said elsewhere."""
+        return finger_name(str(self.finger))
+
+    @property
+    def range_end_names(self) -> tuple[str, str]:
+        return _end_names(self)
+
+
+FINGER_ANGLES: tuple[FingerAngle, ...] = tuple(
+    FingerAngle(finger, row) for finger in FINGERS for row in (*ANGLE_KINDS, "tam")
+)
+"""All that can be the large number, finger by finger."""
+
+
+def kind_name(kind: AngleKind | Literal["lift"]) -> str:
+    """``Middle joint``."""
+    return translate_phrase(_KIND_NAMES[kind])
+
+
+def _long_name(angle: FingerAngle) -> str:
+    name = angle.kind_name
+    return tr("{finger}, {joint}").format(
+        finger=long_finger_name(str(angle.finger)),
+        joint=name if angle.kind == "tam" else to_mid_sentence(name),
+    )
+
+
+def _end_names(angle: FingerAngle) -> tuple[str, str]:
+    low, high = (f"{format_rounded(abs(value))}°" for value in angle.range_deg)
+    if angle.is_palmar_abduction:
+        return tr("In the palm’s plane"), tr("Lifted {angle}").format(angle=high)
+    if angle.kind != "spread":
+        return tr("Straight"), tr("Bent {angle}").format(angle=high)
+    if angle.finger == 3:
+        return tr("Ulnar {angle}").format(angle=low), tr("Radial {angle}").format(angle=high)
+    return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
+
+
+def spread_side(value_deg: float, finger: int = 0) -> str:
+    """``in`` or ``out`` beside an angle of spreading, of the middle finger ``radial`` or ``ulnar``; empty about the
+    middle and where there is no value."""
+    if not abs(value_deg) >= 0.5:
+        return ""
+    if finger == 3:
+        return tr("ulnar") if value_deg < 0 else tr("radial")
+    return tr("in") if value_deg < 0 else tr("out")
+
+
+def format_spread(value_deg: float, finger: int = 0) -> str:
+    """``12° out``: an angle of spreading with its side."""
+    return f"{numbers.format_degrees(value_deg)} {spread_side(value_deg, finger)}".strip()
+
+
+def spread_labels(tick_deg: float, finger: int = 0) -> tuple[tuple[float, str], ...]:
+    """``Out 20°``, ``0°``, ``In 20°``: ticks of an axis of spreading; of the middle finger ``Radial``, ``Ulnar``."""
+    angle = numbers.format_degrees(tick_deg)
+    out, inward = tr("Out {angle}"), tr("In {angle}")
+    if finger == 3:
+        out, inward = tr("Radial {angle}"), tr("Ulnar {angle}")
+    out, inward = out.format(angle=angle), inward.format(angle=angle)
+    return (tick_deg, out), (0.0, "0°"), (-tick_deg, inward)
+
+
+def progress_measure_name(joint: str) -> str:
+    """What is followed of every finger: ``Total active motion (TAM)``, ``Middle joint, range_table``."""
+    figure = find_finger_angle(joint)
+    return tr("Total active motion (TAM)") if figure.kind == "tam" else tr("{row}, range").format(row=figure.kind_name)
+
+
+def find_finger_angle(joint: str) -> FingerAngle:
+    """The figure of a joint angle's name, the middle finger's middle joint for one that is not shown."""
+    return next((figure for figure in FINGER_ANGLES if figure.joint == joint), FingerAngle(3, "middle"))

@@ -1,0 +1,131 @@
+"""Words for what is measured by hand, its units and ways, and whether it changed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from carpus.core.measures.manual_measurements import (
+    MEASURES,
+    ManualChange,
+    ManualMeasure,
+    ManualValue,
+    MeasureKey,
+    compute_change,
+    find_manual_measure,
+    value_history,
+)
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.words import terms
+from carpus.ui.words.marker_words import long_finger_name
+from carpus.ui.words.verdicts import no_change_words
+
+
+def measure_name(measure: ManualMeasure) -> str:
+    """``Wrist, flexion``, ``Grip``, ``RingBuffer finger, PIP flexion``."""
+    if measure.name:
+        return translate_phrase(measure.name)
+    joint, _, movement = measure.id.rpartition("_")
+    if not joint:
+        name = terms.movement_long_name(movement.lower())
+        return (
+            name
+            if movement in ("PRONATION", "SUPINATION")
+            else tr("Wrist, {movement}").format(movement=to_mid_sentence(name))
+        )
+    finger = int(joint[-1])
+    row = {"MCP": tr("knuckle"), "PIP": tr("middle joint"), "DIP": tr("end joint"), "IP": tr("end joint")}[joint[:-1]]
+    name = long_finger_name(str(finger))
+    return tr("{finger}, {joint}, {movement}").format(
+        finger=name, joint=row, movement=tr("straight") if movement == "EXTENSION" else tr("bent")
+    )
+
+
+def mode_name(way: str) -> str:
+    """How it was moved; empty where there is one way only."""
+    return {"active": tr("active"), "passive": tr("passive")}.get(way, "")
+
+
+def unit_name(measure: ManualMeasure) -> str:
+    """The unit behind a number."""
+    if measure.unit == "points":
+        return tr("of {most}").format(most=numbers.format_significant(measure.max_value, 6))
+    return {"deg": "°", "kg": "kg", "cm": "cm", "ml": "ml"}[measure.unit]
+
+
+def value_words(measure: ManualMeasure, value: float) -> str:
+    """``45°``, ``5.3 kg``; nothing measured is a dash."""
+    if not math.isfinite(value):
+        return "–"
+    decimals = 0 if measure.unit == "points" and value == int(value) else measure.decimals
+    text = numbers.format_fixed(value, decimals)
+    if measure.unit == "deg":
+        return f"{text}°".replace("-", "−")
+    return text if measure.unit == "points" else f"{text} {unit_name(measure)}"
+
+
+def group_names() -> dict[str, str]:
+    """Headings of the form, by kind, in its order."""
+    return {
+        "angle": tr("Goniometer"), "force": tr("Force"), "size": tr("Size"), "score": tr("Scores"),
+    }  # fmt: skip
+
+
+def direction_words(measure: ManualMeasure) -> str:
+    """Which way is better, of a score."""
+    return {"less": tr("less is better"), "more": tr("more is better"), "": ""}[measure.better_direction]
+
+
+def full_name(key: MeasureKey) -> str:
+    """``Wrist, flexion, active``."""
+    return ", ".join(filter(None, (measure_name(find_manual_measure(key[0])), mode_name(key[1]))))
+
+
+def verdict_words(change: ManualChange) -> tuple[str, str]:
+    """State of a sign and its word, of a change by one way of measuring."""
+    if change.verdict == "not_judged":
+        return "none", tr("not judged")
+    if change.verdict == "within_error":
+        return "none", no_change_words()
+    return ("good", tr("improved")) if change.verdict == "improved" else ("bad", tr("worse"))
+
+
+def change_words(change: ManualChange) -> str:
+    """``45° → 58° since 2 Oct (error 10°)``."""
+    of = find_manual_measure(change.first.measure)
+    words = tr("{before} → {after} since {day}").format(
+        before=value_words(of, change.first.value), after=value_words(of, change.last.value),
+        day=numbers.format_day_month(change.first.day),
+    )  # fmt: skip
+    if math.isfinite(change.min_real_change):
+        words += " " + tr("(error {size})").format(size=value_words(of, change.min_real_change))
+    return words
+
+
+def sort_keys(values: Iterable[ManualValue]) -> list[MeasureKey]:
+    """What was measured, in the order of the form."""
+    order = {measure.id: number for number, measure in enumerate(MEASURES)}
+    return sorted({value.key for value in values}, key=lambda key: (order[key[0]], key[1], key[2]))
+
+
+def day_words(values: Sequence[ManualValue]) -> str:
+    """What counts, newest of each, in one line: ``Wrist, flexion 45° active, 58° passive; Grip 18 kg``."""
+    by_measure: dict[str, list[ManualValue]] = {}
+    for key in sort_keys(values):
+        by_measure.setdefault(key[0], []).append(value_history(values, key)[-1])
+    words = []
+    for name, found in by_measure.items():
+        of = find_manual_measure(name)
+        said = ", ".join(
+            " ".join(filter(None, (value_words(of, v.value), mode_name(v.mode), v.location))) for v in found
+        )
+        unit = f" {unit_name(of)}" if of.unit == "points" else ""
+        words.append(f"{measure_name(of)} {said}{unit}")
+    return "; ".join(words)
+
+
+def find_changes(values: Sequence[ManualValue]) -> list[tuple[MeasureKey, ManualChange]]:
+    """First and last of all that was measured on two days or more; ``values`` are those that count, of one hand."""
+    found = [(key, compute_change(value_history(values, key))) for key in sort_keys(values)]
+    return [(key, change) for key, change in found if change is not None]

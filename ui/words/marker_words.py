@@ -1,0 +1,67 @@
+"""Words for the markers: clinical name, where exactly it sits, what to do when it is hidden."""
+
+from __future__ import annotations
+
+from carpus.core.model import fault_text
+from carpus.core.model.phrase import phrase
+from carpus.ui.kit.translate import tr, translate_phrase
+
+
+def marker_title(marker: str) -> str:
+    """``Thumb base`` for CMC1."""
+    name = fault_text.marker_name(marker, translate_phrase)
+    return name[:1].upper() + name[1:]
+
+
+_FINGERS = {
+    "1": (phrase("Thumb"), phrase("Thumb")), "2": (phrase("Index"), phrase("Index finger")),
+    "3": (phrase("Middle"), phrase("Middle finger")), "4": (phrase("Ring"), phrase("Ring finger")),
+    "5": (phrase("Little"), phrase("Little finger")),
+}  # fmt: skip
+
+
+def finger_name(finger: str) -> str:
+    """``RingBuffer`` for 4."""
+    return translate_phrase(_FINGERS[finger][0])
+
+
+def long_finger_name(finger: str) -> str:
+    """``RingBuffer finger`` for 4, ``Thumb`` for 1."""
+    return translate_phrase(_FINGERS[finger][1])
+
+
+def finger_number(marker: str) -> int:
+    """The finger that a disc lies on, 1 to 5; 0 for the wrist."""
+    return int(marker[-1]) if marker[-1:].isdigit() else 0
+
+
+def click_instruction(marker: str) -> str:
+    """``Click the ring knuckle``."""
+    return tr("Click the {marker}").format(marker=fault_text.marker_name(marker, translate_phrase))
+
+
+def marker_placement(marker: str) -> str:
+    """Where exactly on the hand."""
+    joint = marker.rstrip("12345")
+    if marker == "WRIST":
+        return tr("In the middle of the back of the wrist, in the small dimple.")
+    if marker == "CMC1":
+        return tr("At the root of the thumb, just past the hollow beside the wrist.")
+    return {
+        "MCP": tr("On the back of the hand, 3–5 mm behind the knuckle, towards the wrist."),
+        "PIP": tr("In the middle of the creases over the middle joint."),
+        "DIP": tr("In the middle of the creases over the end joint."),
+        "IP": tr("In the middle of the creases over the end joint."),
+        "TIP": tr("On the nail, in its middle."),
+    }.get(joint, "")
+
+
+def occlusion_remedy(marker: str) -> str:
+    """How to bring one hidden marker back into view."""
+    if marker == "WRIST":
+        return tr("Clear the view of the wrist")
+    if marker == "CMC1":
+        return tr("Turn the thumb side up")
+    if marker == "MCP5":
+        return tr("Turn the little-finger side up")
+    return tr("Turn the back of the hand to the camera")

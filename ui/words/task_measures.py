@@ -1,0 +1,162 @@
+"""What an exercise has beside its ranges, in words: reaches, finger tips, moving together, tremor."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from carpus.core.measures.coordination import MIN_TREMOR_FPS
+from carpus.core.model.phrase import phrase
+from carpus.core.model.rounding import format_rounded
+from carpus.core.results.measure import Measure
+from carpus.core.results.session_results import SessionResults
+from carpus.core.results.task_measures import QUANTITIES
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import TableColumn, TableContent, TableRow
+from carpus.ui.kit.fonts import SEMIBOLD
+from carpus.ui.kit.translate import tr, translate_phrase
+
+_RETURN_STROKES = {"reach": "return", "thumb across": "thumb back"}
+"""Of each way out the way back, which stands beside it."""
+_STROKE_NAMES = {
+    "reach": phrase("{name}, out"), "return": phrase("{name}, back"),
+    "thumb across": phrase("{name}, across"), "thumb back": phrase("{name}, back"),
+}  # fmt: skip
+_DIGITS = {
+    "1": phrase("thumb"), "2": phrase("index"), "3": phrase("middle"), "4": phrase("ring"), "5": phrase("little"),
+}  # fmt: skip
+_UNKNOWN = {
+    "too_slow": phrase("too slow to judge"),
+    "hidden": phrase("hidden from the camera"),
+    "few_frames": phrase("not available: fewer than {count} frames a second", count=round(MIN_TREMOR_FPS)),
+    "failed": phrase("not available: it could not be computed"),
+}
+
+
+TASK_COLUMNS = (TableColumn(token="text2"), TableColumn(SEMIBOLD), TableColumn(is_right_aligned=True, is_wrapped=False))
+"""Name, today's value and last time's, twice."""
+
+
+def task_table(results: SessionResults, previous: SessionResults | None = None) -> TableContent:
+    """All of them in the order in which they are read, two to a line: the way out beside the way back."""
+    cells: list[TableRow] = [
+        (measure_name(item), value_words(item), _last_value(item, previous))
+        for item in _pair_strokes(results.measures_in_group("task"))
+        if math.isfinite(item.mean) or _is_listed(item)
+    ]
+    cells += [("", "", "")] * (len(cells) % 2)
+    day = numbers.format_distinct_day(previous.when, results.when) if previous is not None else ""
+    rows = tuple((*one, *other) for one, other in zip(cells[::2], cells[1::2], strict=True))
+    return TableContent(TASK_COLUMNS * 2, ("", "", day) * 2, rows)
+
+
+def _is_listed(item: Measure) -> bool:
+    """Whether a measure that is not known has a line: of ways that were hidden the first one says it for all."""
+    hidden_way = item.unknown_reason == "hidden" and item.subject in _STROKE_NAMES
+    return bool(item.unknown_reason) and (not hidden_way or item.quantity == "movement time")
+
+
+def _pair_strokes(measures: Sequence[Measure]) -> list[Measure]:
+    """Ways out and back in turns; the rest as it comes."""
+    back = {item.key: item for item in measures if item.subject in _RETURN_STROKES.values()}
+    out = []
+    for item in measures:
+        if item.subject in _RETURN_STROKES:
+            beside = back.pop((_RETURN_STROKES[item.subject], item.quantity), None)
+            out += [item] if beside is None else [item, beside]
+        elif item.subject not in _RETURN_STROKES.values() or item.key in back:
+            out.append(item)
+    return out
+
+
+def _last_value(item: Measure, previous: SessionResults | None) -> str:
+    before = None if previous is None else previous.find(*item.key)
+    if before is None or not math.isfinite(before.mean):
+        return ""
+    return _value(before).replace(tr("extension"), tr("ext.")).replace(tr("flexion"), tr("flex."))
+
+
+def measure_name(item: Measure) -> str:
+    """``Path length, out``; ``Thumb to ring finger, nearest``."""
+    name = translate_phrase(QUANTITIES[item.quantity].name)
+    if item.subject in _STROKE_NAMES:
+        return translate_phrase(_STROKE_NAMES[item.subject]).format(name=name)
+    if "{one}" in name:
+        one, other = (translate_phrase(_DIGITS[part[3:4]]) for part in item.subject.replace(", ", "-").split("-"))
+        return name.format(one=one, other=other)
+    return name
+
+
+def value_words(item: Measure) -> str:
+    """``0.87 ± 0.05 s``: the mean, and the spread of three or more; single values have none."""
+    if item.unknown_reason:
+        return translate_phrase(_UNKNOWN[item.unknown_reason])
+    shown = _value(item)
+    if not math.isfinite(item.sd) or item.unit in ("share", "deg"):
+        return shown
+    number, gap, unit = shown.partition(numbers.NARROW_GAP)
+    spread = numbers.format_fixed(item.sd, QUANTITIES[item.quantity].decimals)
+    return f"{number}{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{spread}{gap}{unit}"
+
+
+def _value(item: Measure) -> str:
+    value, gap = item.mean, numbers.NARROW_GAP
+    if item.quantity == "wrist extension at grasp":
+        return f"{numbers.format_degrees(value)} {tr('extension') if value >= 0 else tr('flexion')}"
+    if item.unit == "share":
+        return f"{format_rounded(100.0 * value)}{gap}%"
+    number = numbers.format_fixed(value, QUANTITIES[item.quantity].decimals).replace("-", "\N{MINUS SIGN}")
+    unit = {"deg": "°", "s": f"{gap}s", "mm": f"{gap}mm", "mm/s": f"{gap}mm/s"}.get(item.unit, "")
+    return f"{number}{unit}"
+
+
+def task_summary(results: SessionResults) -> str:
+    """What is said of a reach or of opposition in a line: ``out in 1.19 s at 548 mm/s``; empty for other exercises."""
+
+    def describe(of: str, what: str) -> str:
+        item = _find_value(results, of, what)
+        return numbers.UNKNOWN if item is None else _value(item)
+
+    if results.exercise.is_task and _find_value(results, "reach", "movement time") is not None:
+        words = tr("Out in {time}, fastest {speed}, way {straight} of straight, opened {opening}, wrist {wrist}")
+        return words.format(
+            time=describe("reach", "movement time"), speed=describe("reach", "peak speed"),
+            straight=describe("reach", "straightness"), opening=describe("TIP1-TIP2", "largest aperture"),
+            wrist=describe("wrist", "wrist extension at grasp"),
+        )  # fmt: skip
+    touches = _touches(results)
+    hidden = sum(bool(item.unknown_reason) for item in touches)
+    if not touches:
+        return ""
+    if hidden == len(touches):
+        return tr("Whether the thumb touched the finger tips was hidden from the camera")
+    words = tr("The thumb touched {met} of {all} finger tips").format(met=_count_touches(touches), all=len(touches))
+    return tr("{words}; of {hidden} the camera did not see it").format(words=words, hidden=hidden) if hidden else words
+
+
+def short_task_summary(results: SessionResults) -> str:
+    """The same for a narrow column: ``Out in 1.19 s``, ``Touched 3 of 4``; empty for other exercises."""
+    reach, touches = _find_value(results, "reach", "movement time"), _touches(results)
+    if results.exercise.is_task and reach is not None:
+        return tr("Out in {time}").format(time=_value(reach))
+    if any(item.unknown_reason for item in touches):
+        return tr("Touches hidden")
+    return tr("Touched {met} of {all}").format(met=_count_touches(touches), all=len(touches)) if touches else ""
+
+
+def _find_value(results: SessionResults, of: str, what: str) -> Measure | None:
+    item = results.find(of, what)
+    return item if item is not None and math.isfinite(item.mean) else None
+
+
+def _touches(results: SessionResults) -> list[Measure]:
+    return [item for item in results.measures_in_group("task") if item.quantity == "touches"]
+
+
+def _count_touches(touches: Sequence[Measure]) -> int:
+    return sum(item.mean > 0.0 for item in touches)
+
+
+def task_title(results: SessionResults) -> str:
+    """What the measures are about."""
+    return translate_phrase(results.exercise.task_title)

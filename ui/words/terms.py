@@ -1,0 +1,172 @@
+"""Words of the clinic for exercises, movements, hands and marker places."""
+
+from __future__ import annotations
+
+import math
+from datetime import date
+
+import numpy as np
+
+from carpus.core.model.hand.exercises import (
+    ARC_NAMES,
+    DIRECTIONS,
+    MOVEMENTS,
+    PRONOSUPINATION,
+    Exercise,
+    find_exercise,
+    get_exercise,
+)
+from carpus.core.model.hand.forearm_rotation import is_counted_from_thumb_up, to_clinical_wrist_angles
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import FloatArray
+from carpus.ui.kit import language, numbers
+from carpus.ui.kit.translate import tr, translate_phrase
+
+LEGAL_SENTENCE = (
+    "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
+    "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
+)
+"""Verbatim on the first screen and every report; never translated by meaning, only by an approved text."""
+
+
+def legal_notice() -> str:
+    """The sentence as a window has it, which says in its own language why this one is English."""
+    before = "" if language.current_language() == "en" else tr("Legal notice, in its English wording:")
+    return f"{before} {LEGAL_SENTENCE}".lstrip()
+
+
+FOREARM = ("supination", "pronation")
+
+
+def exercise_name(exercise_id: str) -> str:
+    """``Wrist flexion–extension``."""
+    known = find_exercise(exercise_id)
+    return exercise_id if known is None else translate_phrase(known.name)
+
+
+def protocol_name(protocol: MarkerProtocol) -> str:
+    """What a marker protocol covers and with how many markers."""
+    count = len(protocol.markers)
+    if protocol.is_whole_hand:
+        return tr("Whole hand · {count} markers").format(count=count)
+    if protocol.has_fingers:
+        return tr("Some fingers · {count} markers").format(count=count)
+    return tr("Wrist · {count} markers").format(count=count)
+
+
+def onset_words(onset: str, day: date | None) -> str:
+    """``operated on 21 Aug 2026``; empty without a day."""
+    if day is None:
+        return ""
+    pattern = tr("operated on {day}") if onset == "operation" else tr("injured on {day}")
+    return pattern.format(day=numbers.format_date(day))
+
+
+def movement_name(movement: str) -> str:
+    """``Flexion``, ``Radial``, ``Whole arc``."""
+    return translate_phrase(MOVEMENTS[movement].name)
+
+
+def deficit_name(movement: str) -> str:
+    """``Extension deficit``: what is missing to neutral."""
+    return translate_phrase(MOVEMENTS[movement].deficit)
+
+
+def deficit_words(size: str) -> str:
+    """``lacks 20°``: so much is missing to the neutral pose on a side that was never reached."""
+    return tr("lacks {angle}").format(angle=size)
+
+
+def end_words(mean_deg: float, movement: str = "", sd_deg: float = math.nan) -> str:
+    """``42°``; ``lacks 20°`` of an end that was never reached, whatever stands beside it.
+
+    Of the forearm, whose palm looks down at 90° of pronation, it is nothing unusual: ``−20°``.
+    """
+    shown = numbers.format_with_sd(mean_deg, sd_deg)
+    if mean_deg >= 0.0 or numbers.format_degrees(mean_deg) == numbers.format_degrees(0.0):
+        return shown
+    return f"\N{MINUS SIGN}{shown}" if movement in FOREARM else deficit_words(shown)
+
+
+def movement_long_name(movement: str) -> str:
+    """As :func:`movement_name`, with the noun where the short word alone is not one."""
+    return translate_phrase(MOVEMENTS[movement].noun)
+
+
+def direction_names(angle: int, exercise: Exercise) -> tuple[str, str]:
+    """Both directions of a wrist angle; a rotation that accompanies another movement is no supination."""
+    if angle == PRONOSUPINATION and not is_counted_from_thumb_up(exercise):
+        return tr("Rotation +"), tr("Rotation −")  # thumb side up, thumb side down
+    upper, lower = DIRECTIONS[angle]
+    return movement_name(upper), movement_name(lower)
+
+
+def direction_long_name(angle: int, value_deg: float, exercise: Exercise) -> str:
+    """As :func:`direction_name`, with the noun where the short word alone is not one."""
+    if angle == PRONOSUPINATION and not is_counted_from_thumb_up(exercise):
+        return direction_name(angle, value_deg, exercise)
+    return movement_long_name(DIRECTIONS[angle][0 if value_deg >= 0.0 else 1])
+
+
+def direction_name(angle: int, value_deg: float, exercise: Exercise) -> str:
+    """The direction that a value lies in."""
+    return direction_names(angle, exercise)[0 if value_deg >= 0.0 else 1]
+
+
+def thumb_up_words() -> str:
+    """Where pronation and supination are counted from, said once on every page that has them."""
+    return tr(
+        "Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation."
+    )
+
+
+def neutral_name(angle: int, exercise: Exercise) -> str:
+    """What a wrist is in that shows no movement to either side; ``angle`` is the column."""
+    if angle != PRONOSUPINATION:
+        return tr("Straight")
+    return tr("Thumb up") if is_counted_from_thumb_up(exercise) else tr("As at the start")
+
+
+def arc_name(angle: int) -> str:
+    """The whole arc of one angle, where more than one is shown."""
+    return translate_phrase(ARC_NAMES[angle])
+
+
+_HANDS = {"right": phrase("Right hand"), "left": phrase("Left hand"), "both": phrase("Both hands")}
+_SIDES = {"right": phrase("Right"), "left": phrase("Left"), "both": phrase("Both")}
+_AFFECTED = {
+    "right": phrase("Right hand affected"), "left": phrase("Left hand affected"), "both": phrase("Both hands affected"),
+}  # fmt: skip
+_HANDED = {"right": phrase("right-handed"), "left": phrase("left-handed"), "both": phrase("both-handed")}
+
+
+def hand_name(side: str) -> str:
+    """``Right hand``."""
+    return translate_phrase(_HANDS.get(side, side))
+
+
+def side_name(side: str) -> str:
+    """``Right``."""
+    return translate_phrase(_SIDES.get(side, side))
+
+
+def hand_dominance(dominance: str) -> str:
+    """``right-handed``; empty where nobody knows."""
+    return translate_phrase(_HANDED.get(dominance, ""))
+
+
+def hand_status_words(side: str, dominance: str) -> str:
+    """``Right hand affected · right-handed``."""
+    return " · ".join(filter(None, (translate_phrase(_AFFECTED.get(side, "")), hand_dominance(dominance))))
+
+
+def start_angle_words(angles_rad: FloatArray) -> str:
+    """``Flexion 10°, Pronation 60°`` of the angles (3,) of a file; empty for a straight hand with the palm down."""
+    read = to_clinical_wrist_angles(angles_rad, get_exercise("FOREARM_PS"), np.zeros(3))
+    parts = [
+        f"{movement_name(DIRECTIONS[column][0 if read[column] > 0 else 1])} {numbers.format_degrees(math.degrees(read[column]))}"  # noqa: E501
+        for column in (1, 0, 2)
+        if abs(angles_rad[column]) > 1e-6
+    ]
+    return ", ".join(parts)

@@ -1,0 +1,119 @@
+"""Sentences about change. A change is named as one only beyond the measurement error."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+
+from carpus.core.measures.change_limits import RetestStudy
+from carpus.core.model.phrase import Phrase, phrase
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import tr, translate_phrase
+
+
+def verdict_token(verdict: str) -> str:
+    """Colour of a verdict: green and red only for what is beyond error."""
+    return {"improved": "good", "worse": "bad"}.get(verdict, "text2")
+
+
+def no_change_words() -> str:
+    """What is said everywhere where no change is beyond the error: never that there was none."""
+    return tr("no change proven")
+
+
+_VERDICTS: Mapping[str, Phrase] = {
+    "improved": phrase("improved"), "worse": phrase("worse"), "no_change": phrase("no change proven"),
+    "not_judged": phrase("not judged"),
+}  # fmt: skip
+_REASONS: Mapping[str, Phrase] = {
+    "side": phrase("the other hand"),
+    "protocol": phrase("other markers"),
+    "exercise": phrase("another exercise"),
+    "few_repetitions_before": phrase("fewer than 3 repetitions"),
+    "few_repetitions_after": phrase("fewer than 3 repetitions"),
+    "unknown": phrase("not measured"),
+    "simulated": phrase("a simulated hand"),
+    "not_counted": phrase("marked as not counting"),
+    "doubtful": phrase("measured although the markers were doubtful"),
+    "distance": phrase("the camera was at another distance"),
+    "start_angle": phrase("another start angle was given"),
+    "forearm_moved": phrase("the forearm moved"),
+    "hidden": phrase("hidden in part"),
+    "angle_order": phrase("angles in another order"),
+    "only_passive": phrase("no active repetition"),
+}
+
+
+def verdict_word(verdict: str) -> str:
+    """The verdict as the table says it."""
+    return translate_phrase(_VERDICTS.get(verdict, ""))
+
+
+def reason_words(reasons: Sequence[str]) -> str:
+    """Why two sessions are not judged, or one is left out, in a few words; empty for no reason."""
+    return ", ".join(dict.fromkeys(translate_phrase(_REASONS[reason]) for reason in reasons))
+
+
+def duplicate_result_words(earlier_results: int) -> str:
+    """That a recording counts once, where one was tracked again; else empty."""
+    if not earlier_results:
+        return ""
+    words = tr("A recording counts once, by its newest result: 1 earlier result is left out.")
+    if earlier_results > 1:
+        words = tr("A recording counts once, by its newest result: {count} earlier results are left out.")
+    return words.format(count=earlier_results)
+
+
+def error_limit_words(study: RetestStudy | None = None) -> str:
+    """Whose the error limits are, beside every judgement; ``study`` the clinic's own."""
+    if study is not None:
+        return tr(
+            "“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where "
+            "it has none of its own, experts’ choice for Carpus. For the same protocol, side and set-up."
+        ).format(date=numbers.format_date(datetime.fromisoformat(study.made)), count=study.people)
+    return tr(
+        "“Error” is the smallest difference called a change: experts’ choice for Carpus, not published figures; of an "
+        "arc, which has two ends, √2 as much. For the same protocol, side and set-up, until the clinic has measured "
+        "its own."
+    )
+
+
+def difference_words(change_deg: float) -> str:
+    """``23° more`` or ``3° less``; ``0°`` when it rounds to nothing."""
+    size = numbers.format_degrees(change_deg)
+    if size == "0°":
+        return size
+    return (tr("{size} more") if change_deg > 0 else tr("{size} less")).format(size=size)
+
+
+def change_since_first(verdict: str, change_deg: float) -> str:
+    """The short form on the patient's card."""
+    if verdict in ("improved", "worse"):
+        return tr("{difference} since the first").format(difference=difference_words(change_deg))
+    if verdict == "no_change":
+        return no_change_words()
+    return ""
+
+
+def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
+    """``2° more, within error (10°)``, for paper."""
+    if verdict == "not_judged" or change_deg != change_deg:
+        return tr("not judged") if verdict == "not_judged" else ""
+    pattern = (
+        tr("{difference}, within error ({limit})")
+        if verdict == "no_change"
+        else tr("{difference}, beyond error ({limit})")
+    )
+    return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))
+
+
+def long_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
+    """``2° more: within measurement error (10°)``, the long form of tables."""
+    if verdict == "not_judged" or change_deg != change_deg:
+        return ""
+    pattern = (
+        tr("{difference}: within measurement error ({limit})")
+        if verdict == "no_change"
+        else tr("{difference}: beyond measurement error ({limit})")
+    )
+    return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))
