@@ -85,8 +85,7 @@ def transitioned(
     """The mixture after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
     what of that a mode does not keep is an error of the mode. Its modes are :func:`mixed` before where there is a
     ``switch``."""
-    mixture = mixture if switch is None else mixed(mixture, switch)
-    return ModeMixture(*compiled.transitioned(mixture, step, nominal), mixture.probability)
+    return ModeMixture(*compiled.transitioned(mixture, step, nominal, switch))
 
 
 @dataclass(frozen=True, slots=True)
