@@ -11,7 +11,7 @@ from typing import Any
 
 import cython
 import numpy as np
-from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
+from cython.cimports.carpus.core.compiled.small_matrices import add_sparse_product, inverse_root
 from cython.cimports.libc.math import cos, exp, expm1, sin, sqrt
 from numpy.typing import NDArray
 
@@ -362,7 +362,7 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
     expected, own = np.empty((DISCS, 3)), np.empty((DISCS, 3, 3))
     out_mean: cython.double[:, ::1] = expected
     out_covariance: cython.double[:, :, ::1] = own
-    add_product(h, spread, cross)
+    add_sparse_product(h, spread, cross)
     # Zeros, or NaN where any number is: the product passes over what h does not ask for.
     for i in range(SIZE):
         for j in range(SIZE):

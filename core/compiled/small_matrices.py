@@ -13,44 +13,61 @@ from cython.cimports.libc.math import sqrt
 def add_product(
     a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
 ) -> cython.void:
-    """``out`` += A B. Four rows of B at a time, so that a row of ``out`` is fetched a quarter as often; those that only
-    zeros of A meet are left out, also where they are not finite (:func:`zero_times`)."""
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    k: cython.Py_ssize_t
+    """
+    Add A B to ``out``.
+
+    Two rows of A meet four of B at a time, so that each number is fetched less often; where all eight numbers of A are
+    zero they are left out, also where those of B are not finite (:func:`zero_times`).
+    """
+    rows: cython.Py_ssize_t = a.shape[0]
     columns: cython.Py_ssize_t = b.shape[1]
     last: cython.Py_ssize_t = a.shape[1] - a.shape[1] % 4
-    for i in range(a.shape[0]):
+    for i in range(0, rows - 1, 2):
         for k in range(0, last, 4):
             w, x, y, z = a[i, k], a[i, k + 1], a[i, k + 2], a[i, k + 3]
-            if w != 0.0 or x != 0.0 or y != 0.0 or z != 0.0:
+            w2, x2, y2, z2 = a[i + 1, k], a[i + 1, k + 1], a[i + 1, k + 2], a[i + 1, k + 3]
+            if w != 0.0 or x != 0.0 or y != 0.0 or z != 0.0 or w2 != 0.0 or x2 != 0.0 or y2 != 0.0 or z2 != 0.0:
                 for j in range(columns):
-                    out[i, j] += w * b[k, j] + x * b[k + 1, j] + y * b[k + 2, j] + z * b[k + 3, j]
+                    p, q, r, s = b[k, j], b[k + 1, j], b[k + 2, j], b[k + 3, j]
+                    out[i, j] += w * p + x * q + y * r + z * s
+                    out[i + 1, j] += w2 * p + x2 * q + y2 * r + z2 * s
         for k in range(last, a.shape[1]):
-            x = a[i, k]
-            if x != 0.0:
+            w, x = a[i, k], a[i + 1, k]
+            if w != 0.0 or x != 0.0:
                 for j in range(columns):
-                    out[i, j] += x * b[k, j]
+                    out[i, j] += w * b[k, j]
+                    out[i + 1, j] += x * b[k, j]
+    for i in range(rows - rows % 2, rows):
+        for k in range(a.shape[1]):
+            w = a[i, k]
+            if w != 0.0:
+                for j in range(columns):
+                    out[i, j] += w * b[k, j]
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def add_square(a: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]) -> cython.void:
-    """``out`` += A' A, the lower half; four rows of A at a time: a row of ``out`` is fetched a quarter as often."""
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    k: cython.Py_ssize_t
-    last: cython.Py_ssize_t = a.shape[0] - a.shape[0] % 4
-    for i in range(a.shape[1]):
-        for k in range(0, last, 4):
-            w, x, y, z = a[k, i], a[k + 1, i], a[k + 2, i], a[k + 3, i]
-            for j in range(i + 1):
-                out[i, j] += w * a[k, j] + x * a[k + 1, j] + y * a[k + 2, j] + z * a[k + 3, j]
-        for k in range(last, a.shape[0]):
-            x = a[k, i]
-            for j in range(i + 1):
-                out[i, j] += x * a[k, j]
+def add_sparse_product(
+    a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
+) -> cython.void:
+    """Add A B to ``out``, of an A that is mostly zeros: the rows of B that the others meet, two at a time."""
+    last: cython.Py_ssize_t = a.shape[1] - 1
+    for i in range(a.shape[0]):
+        k: cython.Py_ssize_t = 0
+        while k <= last:
+            while k <= last and a[i, k] == 0.0:
+                k += 1
+            first = k
+            k += 1
+            while k <= last and a[i, k] == 0.0:
+                k += 1
+            if first <= last:
+                second = min(k, last)
+                w, x = a[i, first], a[i, k] if k <= last else 0.0
+                for j in range(b.shape[1]):
+                    out[i, j] += w * b[first, j] + x * b[second, j]
+            k += 1
 
 
 @cython.cfunc

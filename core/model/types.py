@@ -195,7 +195,7 @@ class TrackedFrame:
         if not len(self.doubted):
             object.__setattr__(self, "doubted", np.zeros(len(self.marker_measured_px), dtype=np.bool_))
         if len(self.is_rejected) != len(self.detections):
-            object.__setattr__(self, "no_disc", np.zeros(len(self.detections), dtype=np.bool_))
+            object.__setattr__(self, "is_rejected", np.zeros(len(self.detections), dtype=np.bool_))
 
 
 OPERATOR_LABEL = "spot_said"

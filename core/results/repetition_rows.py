@@ -78,7 +78,7 @@ class TrainedAngle:
     """What is tracked, as smooth as repetitions are counted in."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "smooth", low_pass(self.tracked, COUNTING_CUTOFF_HZ))
+        object.__setattr__(self, "counting_signal", low_pass(self.tracked, COUNTING_CUTOFF_HZ))
 
 
 @dataclass(frozen=True, slots=True)

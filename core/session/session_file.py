@@ -1,4 +1,4 @@
-"""Reads session files by the schema; in the reading process (:mod:`core.read_session.reader`)."""
+"""Reads session files by the schema; in the reading process (:mod:`core.session.reader`)."""
 
 from __future__ import annotations
 

@@ -73,8 +73,8 @@ class AngleBlock:
 class History:
     """Frames in, arrays of the last ten seconds out: degrees, millimetres, seconds of the recording.
 
-    Figures of the fingers are numbered as in :data:`ui.words.finger_angles.FIGURES`; without discs on them all are
-    unknown.
+    Figures of the fingers are numbered as in :data:`ui.words.finger_angles.FINGER_ANGLES`; without discs on
+    them all are unknown.
     """
 
     def __init__(self, protocol: MarkerProtocol) -> None:

@@ -1,7 +1,7 @@
 """The OpenNI2 C library: types, calls, statuses, nothing else.
 
 One thread makes all calls. The library can take its process down (a close in the wrong order, a bad file), so it
-is used in a process of its own: see :mod:`core.capture.list_devices.openni2_camera`. Seeking is left out on purpose:
+is used in a process of its own: see :mod:`core.capture.devices.openni2_camera`. Seeking is left out on purpose:
 in the
 builds that systems ship, the call never returns.
 """

@@ -85,8 +85,7 @@ def propagate_mixture(
     """The mixture after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
     what of that a mode does not keep is an error of the mode. Its modes are :func:`mix_modes` before where there is a
     ``switch``."""
-    mixture = mixture if switch is None else mix_modes(mixture, switch)
-    return ModeMixture(*compiled.predict_palm_modes(mixture, step, nominal), mixture.probability)
+    return ModeMixture(*compiled.predict_palm_modes(mixture, step, nominal, switch))
 
 
 @dataclass(frozen=True, slots=True)

@@ -123,7 +123,7 @@ class PalmTrajectory:
             joint = now.probability[:, None] * switch
             joint *= later / np.maximum(joint.sum(axis=0), 1e-300)
             out[frame], later = joint, joint.sum(axis=1)
-        object.__setattr__(self, "went_over", out)
+        object.__setattr__(self, "mode_transitions", out)
 
     def __len__(self) -> int:
         return len(self.steps)
